@@ -256,7 +256,7 @@ int main(int argc, char** argv) {
   using namespace pitwall;
   const auto parsed = settings::parse_arguments(argc, argv);
   if (const auto* const leave = std::get_if<settings::Leave>(&parsed)) {
-    return leave->stated.empty() ? leave->code : complain(leave->code, leave->stated);
+    return leave->message.empty() ? leave->code : complain(leave->code, leave->message);
   }
   const auto& arguments = std::get<settings::Arguments>(parsed);
   if (!arguments.keygen_folder.empty()) {

@@ -95,20 +95,19 @@ Result<AlarmIndex, Problem> Engine::find(AlarmId id) const {
 }
 
 template <class Act>
-Result<bool, Problem> Engine::act(AlarmId id, const Statement& stated, Instant now,
-                                  const Act& act) {
+Result<bool, Problem> Engine::act(AlarmId id, const Origin& origin, Instant now, const Act& act) {
   const auto index = find(id);
   if (!index) return Unexpected{index.error()};
-  if (stated.by.empty()) return Unexpected{no(id, "who acts has a name")};
+  if (origin.by.empty()) return Unexpected{no(id, "who acts has a name")};
   Entry& entry = entries_[*index];
   const State before = entry.alarm.state();
   if (!act(entry.alarm)) {
     return Unexpected{Problem{"alarm " + std::to_string(id),
                               "is " + std::string{text_of(before)} + ", which does not allow it"}};
   }
-  entry.by = stated.by;
-  entry.reason = stated.reason;
-  note(*index, before, now, stated.by, stated.reason);
+  entry.by = origin.by;
+  entry.reason = origin.reason;
+  note(*index, before, now, origin.by, origin.reason);
   if (entry.alarm.state() == State::kNormal) entry.first_up = false;
   return true;
 }

@@ -1,16 +1,19 @@
 // Alarm list: state of every alarm of the table, updated together.
-//   in     readings of the fields, the situation of the car, operators' acts, time; the caller
-//          steps it at whole multiples of the grid (watch.hpp), so that nobody's polling shows
-//   out    the list, its history, how it stands against what people can bear
+//   in     readings of the fields, the situation of the car, acts of operators, time; the caller
+//          steps it at whole multiples of the grid (evaluator.hpp), so that the rate of polling has
+//          no effect
+//   out    the list, its history, and its alarm rate against the rate that operators can handle
 //   invariants
 //          the same inputs in the same order give the same list and history
-//          no act and no order of events loses an alarm that nobody has seen: it is in the list,
-//          shelved or suppressed until somebody has acknowledged this very occurrence
-//          link lost suppresses every alarm on the car's values but those of a stop, and raises
-//          exactly one; a stop is never shelved
-//          flood: more than 10 comings in 10 min, until 5 or fewer; the list then shows the first
-//          of each episode and the high ones. An episode lasts while any alarm is in the list
-//   ids    an occurrence's; an act that names an old one is refused: it was not what is there now
+//          no act and no order of events loses an alarm that nobody has seen: it stays in the list,
+//          shelved or suppressed, until somebody acknowledges this very occurrence
+//          a lost link raises exactly one alarm, and suppresses every alarm on values of the car
+//          except those of a stop; a stop is never shelved
+//          flood: from more than 10 new alarms in 10 min until 5 or fewer. During a flood the list
+//          shows the first alarm of each episode and the high ones. An episode lasts while any
+//          alarm is in the list
+//   ids    one per occurrence. An act with the id of an earlier occurrence is refused, because the
+//          operator meant that one
 //   errors acts: Problem with the id as place
 //   cost   no allocation in step() while nothing changes
 // SPDX-License-Identifier: Apache-2.0
@@ -104,7 +107,7 @@ class Engine {
   bool overruled(AlarmIndex index) const;
   std::vector<ListedAlarm> list(Part part) const;
   ListedAlarm line(AlarmIndex index) const;
-  struct Statement {
+  struct Origin {
     std::string_view by, reason;
   };
   Result<AlarmIndex, Problem> find(AlarmId id) const;
@@ -112,7 +115,7 @@ class Engine {
             std::string_view reason);
   void mark_first();
   template <class Act>
-  Result<bool, Problem> act(AlarmId id, const Statement& stated, Instant now, const Act& act);
+  Result<bool, Problem> act(AlarmId id, const Origin& origin, Instant now, const Act& act);
 
   AlarmSettings settings_;
   std::vector<Entry> entries_;

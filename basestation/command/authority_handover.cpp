@@ -31,7 +31,8 @@ Result<bool, Problem> AuthorityHandover::take(const Person& who, Instant now) {
 Result<bool, Problem> AuthorityHandover::renew(const Person& who, Instant now) {
   advance(now);
   if (authority_->renew(who.console, now)) return true;
-  return Unexpected{Problem{"console " + std::to_string(who.console), "does not hold it"}};
+  return Unexpected{
+      Problem{"console " + std::to_string(who.console), "does not hold the authority"}};
 }
 
 Result<bool, Problem> AuthorityHandover::drop(const Person& who, Instant now) {
@@ -41,9 +42,9 @@ Result<bool, Problem> AuthorityHandover::drop(const Person& who, Instant now) {
   }
   authority_->drop(who.console, now);
   hold({});
-  const auto stated = say(who, "drops the authority", nullptr, now);
+  const auto noted = say(who, "drops the authority", nullptr, now);
   if (waiting_) give(now);
-  return stated;
+  return noted;
 }
 
 Result<bool, Problem> AuthorityHandover::request(const Person& who, Instant now) {
@@ -65,9 +66,9 @@ Result<bool, Problem> AuthorityHandover::request(const Person& who, Instant now)
 
 Result<bool, Problem> AuthorityHandover::grant(const Person& who, Instant now) {
   if (const char* why = why_not_answer(who, now)) return say(who, "grants the authority", why, now);
-  const auto stated = say(who, "grants the authority", nullptr, now);
+  const auto noted = say(who, "grants the authority", nullptr, now);
   give(now);
-  return stated;
+  return noted;
 }
 
 Result<bool, Problem> AuthorityHandover::refuse(const Person& who, Instant now) {

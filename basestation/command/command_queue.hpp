@@ -8,10 +8,10 @@
 //   out    tickets with every step and its time; commands given to the radio's transmitter; audit
 //          lines
 //   invariants
-//          gates are judged when a command is staged and again when it is sent: what has passed a
-//          minute ago has not passed now. One that did not pass goes only with a reason and by a
-//          second person, and never past a gate that cannot be overridden
-//          a stop needs no ticket, no gate, no authority, and is said at once, again and again
+//          gates are judged when a command is staged and again when it is sent, because a gate may
+//          refuse by then. A command that a gate refuses is sent only with a reason and by a second
+//          person, and never past a gate that cannot be overridden
+//          a stop needs no ticket, no gate and no authority; it is sent at once, and repeated
 //          a ticket is sent once; nothing waits for the link to come back
 //   errors Problem with the ticket or the command as place; the audit log has the refusal too
 //   bound  kKept tickets; staged ones expire after kStagedFor

@@ -205,7 +205,7 @@ class Judge {
 
   void source() {
     const FieldView acted_on = see(field("flags.track_acted_on"));
-    const FieldView stated = see(field("flags.track"));
+    const FieldView reported = see(field("flags.track"));
     const double wanted = command_.argument;
     if (state::restriction_of_track_flag(wanted) >=
             state::restriction_of_track_flag(acted_on.value) &&
@@ -214,8 +214,8 @@ class Judge {
           {.word = label(telemetry::kTrackFlags, acted_on.value)}, "not less restrictive than now");
       return;
     }
-    const std::string word = label(telemetry::kTrackFlags, stated.value);
-    add(GateKind::kSource, stated, stated.value == wanted, {.word = word},
+    const std::string word = label(telemetry::kTrackFlags, reported.value);
+    add(GateKind::kSource, reported, reported.value == wanted, {.word = word},
         "race control shows " + word);
   }
 

@@ -76,7 +76,7 @@ struct RequestExecutor::Execution {
     catch_up();
     executor.evaluator_.expect(executor.entries_.expected);
   }
-  SettingsEditor::Statement because(const std::string& reason) const {
+  SettingsEditor::Origin origin(const std::string& reason) const {
     catch_up();
     return {.by = by, .holds_authority = holds(), .reason = reason, .at = now};
   }
@@ -208,17 +208,17 @@ struct RequestExecutor::Execution {
     return entered;
   }
   Done operator()(const EditAlarm& ask) const {
-    return executor.settings_.change(because(ask.reason), ask.edit);
+    return executor.settings_.change(origin(ask.reason), ask.edit);
   }
   Done operator()(const EditLimit& ask) const {
     alarms::LimitEdit edit = ask.edit;
     const alarms::Limit& present = executor.evaluator_.limits().of(edit.field);
     edit.limit.warning_values = ask.warning_values.value_or(present.warning_values);
     edit.limit.bad_values = ask.bad_values.value_or(present.bad_values);
-    return executor.settings_.change(because(ask.reason), std::move(edit));
+    return executor.settings_.change(origin(ask.reason), std::move(edit));
   }
   Done operator()(const EditBudget& ask) const {
-    return executor.settings_.change_budget(because(ask.reason), ask.up_kbit_s);
+    return executor.settings_.change_budget(origin(ask.reason), ask.up_kbit_s);
   }
 
  private:

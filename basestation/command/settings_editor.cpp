@@ -59,11 +59,11 @@ std::string difference(const alarms::Limit& from, const alarms::Limit& to) {
 
 }  // namespace
 
-Done SettingsEditor::change(const Statement& stated, alarms::AlarmEdit edit) {
-  edit.author = stated.by.name;
-  edit.reason = stated.reason;
+Done SettingsEditor::change(const Origin& origin, alarms::AlarmEdit edit) {
+  edit.author = origin.by.name;
+  edit.reason = origin.reason;
   std::string what = "alarm " + edit.key;
-  if (const auto may = allowed(stated, edit.key); !may) return note(stated, what, may);
+  if (const auto may = allowed(origin, edit.key); !may) return note(origin, what, may);
   if (const auto index = alarms::find_alarm(edit.key)) {
     what += difference(evaluator_->alarms().settings().of(*index), edit.setting);
   }
@@ -71,15 +71,15 @@ Done SettingsEditor::change(const Statement& stated, alarms::AlarmEdit edit) {
   auto done = wanted.edit(edit);
   if (done) done = save(evaluator_->limits(), wanted, budget_.now);
   if (done) done = evaluator_->edit(edit);
-  return note(stated, what, std::move(done));
+  return note(origin, what, std::move(done));
 }
 
-Done SettingsEditor::change(const Statement& stated, alarms::LimitEdit edit) {
-  edit.author = stated.by.name;
-  edit.reason = stated.reason;
+Done SettingsEditor::change(const Origin& origin, alarms::LimitEdit edit) {
+  edit.author = origin.by.name;
+  edit.reason = origin.reason;
   std::string what = "limits of " + state::path_of(edit.field);
-  if (const auto may = allowed(stated, state::path_of(edit.field)); !may) {
-    return note(stated, what, may);
+  if (const auto may = allowed(origin, state::path_of(edit.field)); !may) {
+    return note(origin, what, may);
   }
   if (state::is_field(edit.field)) {
     what += difference(evaluator_->limits().of(edit.field), edit.limit);
@@ -88,27 +88,27 @@ Done SettingsEditor::change(const Statement& stated, alarms::LimitEdit edit) {
   auto done = wanted.edit(edit);
   if (done) done = save(wanted, evaluator_->alarms().settings(), budget_.now);
   if (done) done = evaluator_->edit(edit);
-  return note(stated, what, std::move(done));
+  return note(origin, what, std::move(done));
 }
 
-Done SettingsEditor::change_budget(const Statement& stated, double up_kbit_s) {
+Done SettingsEditor::change_budget(const Origin& origin, double up_kbit_s) {
   const std::string what = "radio budget up" + moved("kbit/s", budget_.now, up_kbit_s);
-  if (const auto may = allowed(stated, "budget"); !may) return note(stated, what, may);
+  if (const auto may = allowed(origin, "budget"); !may) return note(origin, what, may);
   if (!(up_kbit_s >= budget_.least && up_kbit_s <= budget_.most)) {
-    return note(stated, what,
+    return note(origin, what,
                 Unexpected{Problem{"budget", "expected " + in_figures(budget_.least) + " to " +
                                                  in_figures(budget_.most) + " kbit/s"}});
   }
   auto done = save(evaluator_->limits(), evaluator_->alarms().settings(), up_kbit_s);
   if (done) budget_.now = up_kbit_s;
-  return note(stated, what, std::move(done));
+  return note(origin, what, std::move(done));
 }
 
-Done SettingsEditor::allowed(const Statement& stated, const std::string& place) const {
-  if (!stated.holds_authority) {
+Done SettingsEditor::allowed(const Origin& origin, const std::string& place) const {
+  if (!origin.holds_authority) {
     return Unexpected{Problem{place, "you do not hold the authority"}};
   }
-  if (stated.reason.empty()) return Unexpected{Problem{place, "expected a reason for the change"}};
+  if (origin.reason.empty()) return Unexpected{Problem{place, "expected a reason for the change"}};
   return true;
 }
 
@@ -126,9 +126,9 @@ Done SettingsEditor::save(const alarms::Limits& limits, const alarms::AlarmSetti
   return true;
 }
 
-Done SettingsEditor::note(const Statement& stated, const std::string& what, Done result) {
-  audit_->add(stated.at, stated.by.name,
-              what + (stated.reason.empty() ? "" : " (" + stated.reason + ")"),
+Done SettingsEditor::note(const Origin& origin, const std::string& what, Done result) {
+  audit_->add(origin.at, origin.by.name,
+              what + (origin.reason.empty() ? "" : " (" + origin.reason + ")"),
               result ? "revision " + std::to_string(revision_) : "refused: " + result.error().what);
   return result;
 }

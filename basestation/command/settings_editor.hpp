@@ -38,7 +38,7 @@ class SettingsEditor {
   };
   // Keeps it for the next start. Empty: nothing is kept, and consoles are told so.
   using Save = std::function<Result<bool, Problem>(const Wanted&)>;
-  struct Statement {
+  struct Origin {
     Person by;
     bool holds_authority = false;
     std::string reason;
@@ -54,18 +54,18 @@ class SettingsEditor {
         save_(std::move(save)) {}
 
   // The watch is at the time of the change: see Evaluator::advance().
-  Result<bool, Problem> change(const Statement& stated, alarms::AlarmEdit edit);
-  Result<bool, Problem> change(const Statement& stated, alarms::LimitEdit edit);
-  Result<bool, Problem> change_budget(const Statement& stated, double up_kbit_s);
+  Result<bool, Problem> change(const Origin& origin, alarms::AlarmEdit edit);
+  Result<bool, Problem> change(const Origin& origin, alarms::LimitEdit edit);
+  Result<bool, Problem> change_budget(const Origin& origin, double up_kbit_s);
 
   std::uint64_t revision() const { return revision_; }
   const UpBudget& budget() const { return budget_; }
   bool kept() const { return save_ != nullptr; }
 
  private:
-  Result<bool, Problem> note(const Statement& stated, const std::string& what,
+  Result<bool, Problem> note(const Origin& origin, const std::string& what,
                              Result<bool, Problem> result);
-  Result<bool, Problem> allowed(const Statement& stated, const std::string& place) const;
+  Result<bool, Problem> allowed(const Origin& origin, const std::string& place) const;
   Result<bool, Problem> save(const alarms::Limits& limits, const alarms::AlarmSettings& alarms,
                              double up_kbit_s);
 

@@ -43,13 +43,13 @@ Result<CommandScript, Problem> CommandScript::parse(std::string_view text,
 }
 
 std::optional<std::string_view> CommandScript::next(Duration since_start) {
-  if (stated_ == lines_.size() || since_start < lines_[stated_].at) return std::nullopt;
-  return lines_[stated_++].words;
+  if (next_line_ == lines_.size() || since_start < lines_[next_line_].at) return std::nullopt;
+  return lines_[next_line_++].words;
 }
 
 std::optional<Duration> CommandScript::due() const {
-  if (stated_ == lines_.size()) return std::nullopt;
-  return lines_[stated_].at;
+  if (next_line_ == lines_.size()) return std::nullopt;
+  return lines_[next_line_].at;
 }
 
 }  // namespace pitwall::inputs

@@ -33,7 +33,7 @@ class CommandScript {
   };
 
   std::vector<Line> lines_;
-  std::size_t stated_ = 0;
+  std::size_t next_line_ = 0;
 };
 
 }  // namespace pitwall::inputs

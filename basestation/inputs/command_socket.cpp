@@ -28,7 +28,8 @@ Result<CommandSocket, Problem> CommandSocket::open(const std::string& path) {
   const auto ready = posix_call([] { return ::epoll_create1(EPOLL_CLOEXEC); });
   if (!ready) return Unexpected{Problem{path, ready.reason()}};
   CommandSocket socket{*std::move(listener), transport::FileDescriptor{ready}};
-  if (!socket.watch(socket.listener_.fd())) return Unexpected{Problem{path, "cannot be watched"}};
+  if (!socket.watch(socket.listener_.fd()))
+    return Unexpected{Problem{path, "cannot be added to epoll"}};
   return socket;
 }
 

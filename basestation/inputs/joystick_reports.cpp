@@ -17,7 +17,7 @@ namespace {
 constexpr double kOvertravel = 0.1;
 constexpr int kHighestCode = KEY_MAX;
 
-Unexpected<Problem> refuse(std::string_view entry, const char* what) {
+Unexpected<Problem> refuse(std::string_view entry, const std::string& what) {
   return Unexpected{Problem{"joystick: " + std::string{entry}, what}};
 }
 
@@ -37,7 +37,8 @@ std::vector<std::int32_t> numbers_of(std::string_view text) {
 
 Result<JoystickAxis, Problem> axis_of(std::string_view entry, std::span<const std::int32_t> from) {
   if (from.size() != 3) return refuse(entry, "expected CODE:RELEASED:PRESSED");
-  if (from[0] < 0 || from[0] > ABS_MAX) return refuse(entry, "no such axis");
+  if (from[0] < 0 || from[0] > ABS_MAX)
+    return refuse(entry, "expected an axis code of 0 to " + std::to_string(ABS_MAX));
   if (from[1] == from[2]) return refuse(entry, "released and pressed are the same value");
   return JoystickAxis{static_cast<std::uint16_t>(from[0]), from[1], from[2]};
 }
@@ -68,7 +69,7 @@ Result<JoystickMapping, Problem> JoystickMapping::parse(std::string_view text) {
     }
   }
   if (mapping.lift.code == mapping.brake.code) {
-    return refuse("lift, brake", "both are the same axis");
+    return refuse("lift, brake", "expected two different axes");
   }
   return mapping;
 }

@@ -13,7 +13,7 @@ Result<telemetry::KeyLog, Problem> key_log_to(const std::string& path,
                                               const telemetry::KeyFile& keys) {
   if (!keys.bench) {
     return Unexpected{Problem{"--key-log",
-                              "these keys are no pair for the bench, expected one of "
+                              "expected keys of the bench; make them with "
                               "`pitwall-base keygen --bench --out FOLDER`"}};
   }
   if (!std::filesystem::exists(path)) {

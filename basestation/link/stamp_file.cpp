@@ -34,7 +34,7 @@ std::string stamp_text(telemetry::Stamp stamp) {
 }
 
 Result<telemetry::Stamp, Problem> parse_stamp(std::string_view text, const std::string& path) {
-  if (!text.starts_with(kName)) return refuse(path, "is no stamp");
+  if (!text.starts_with(kName)) return refuse(path, "is not a stamp file");
   if (!text.ends_with('\n')) return refuse(path, "is cut short");
   const std::string_view digits = text.substr(kName.size(), text.size() - kName.size() - 1);
   // Signed: beyond the greatest stamp there is none that a car could use.

@@ -13,7 +13,7 @@ namespace pitwall::service {
 LimitsStore::LimitsStore(std::string path) : path_(std::move(path)) {
   std::error_code unknown;  // whether it is there: then reading it tells why not
   if (!std::filesystem::exists(path_, unknown) && !unknown) {
-    stated_ = path_ + ": not there; limits and alarms as they came, changes go into it";
+    remark_ = path_ + ": not there; limits and alarms as they came, changes go into it";
     return;
   }
   auto read = settings::read_judgement_file(path_);
@@ -22,7 +22,7 @@ LimitsStore::LimitsStore(std::string path) : path_(std::move(path)) {
     return;
   }
   unreadable_ = read.error();
-  stated_ = unreadable_text(*unreadable_);
+  remark_ = unreadable_text(*unreadable_);
 }
 
 Result<bool, Problem> LimitsStore::save(const command::SettingsEditor::Wanted& wanted) {

@@ -24,7 +24,7 @@ class LimitsStore {
   explicit LimitsStore(std::string path);
 
   const settings::Judgement& judgement() const { return judgement_; }
-  const std::string& stated() const { return stated_; }  // empty: the settings are the file's
+  const std::string& remark() const { return remark_; }  // empty: the settings are the file's
   // The file is there and is none; until it was replaced.
   const std::optional<Problem>& unreadable() const { return unreadable_; }
   Result<bool, Problem> save(const command::SettingsEditor::Wanted& wanted);
@@ -34,7 +34,7 @@ class LimitsStore {
 
   std::string path_;
   settings::Judgement judgement_;
-  std::string stated_;
+  std::string remark_;
   std::optional<Problem> unreadable_;
   bool kept_ = false;  // the broken one
 };

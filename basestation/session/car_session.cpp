@@ -114,11 +114,11 @@ std::string CarSession::title() const {
 }
 
 std::string CarSession::listening() const {
-  std::string stated = "listening at ";
+  std::string line = "listening at ";
   for (const transport::UdpSocket& socket : radio_) {
-    stated += (&socket == &radio_.front() ? "" : " and ") + to_string(socket.local());
+    line += (&socket == &radio_.front() ? "" : " and ") + to_string(socket.local());
   }
-  return stated;
+  return line;
 }
 
 Result<bool, Problem> CarSession::begin(publishers::web::WebServer* server, const Say& say) {

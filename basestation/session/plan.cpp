@@ -39,9 +39,8 @@ Result<std::vector<transport::UdpAddress>, Problem> addresses_of(const Arguments
     const auto address = transport::parse_udp_address(text);
     if (!address) return Unexpected{Problem{"--listen", to_string(address.error())}};
     if ((address->ip & kNetMask) != kLoopbackNet && !arguments.network) {
-      return Unexpected{Problem{"--listen " + text,
-                                "open to other machines; add --network if "
-                                "that is meant"}};
+      return Unexpected{
+          Problem{"--listen " + text, "reaches other machines; add --network if that is meant"}};
     }
     addresses.push_back(*address);
   }
@@ -73,7 +72,7 @@ Result<bool, Problem> plan_access(const Arguments& a, web::AccessRules& access) 
 Result<bool, Problem> plan_service(const Arguments& a, Plan& plan, const Say& say) {
   if (!a.judgement_file.empty()) {
     auto store = std::make_shared<service::LimitsStore>(a.judgement_file);
-    if (!store->stated().empty()) say(store->stated());
+    if (!store->remark().empty()) say(store->remark());
     service::use_limits(plan.service, std::move(store), a.budget_kbit);
   }
   plan.http.documents["/api/track"] = {};
@@ -128,7 +127,8 @@ Result<bool, Problem> plan_radio(const Arguments& arguments, Plan& plan, const S
   if (!listen) return Unexpected{listen.error()};
   plan.listen = *std::move(listen);
   if (arguments.keys.empty()) {
-    return Unexpected{Problem{"--keys", "needed; pitwall-base keygen --out FOLDER makes them"}};
+    return Unexpected{
+        Problem{"--keys", "expected a file of keys; pitwall-base keygen --out FOLDER makes them"}};
   }
   const auto keys = link::read_keys(arguments.keys, telemetry::Role::kBase);
   if (!keys) return Unexpected{keys.error()};
@@ -211,13 +211,14 @@ Result<std::vector<Plan>, Problem> plans_of(std::span<const Arguments> cars, con
       const telemetry::KeyFile &one = other.config.association.keys,
                                &two = plan->config.association.keys;
       if (one.own.public_key == two.own.public_key || one.peer == two.peer) {
-        return Unexpected{Problem{reported(car) + ": " + car.keys,
-                                  "these are keys of " + reported(other.arguments) + ", too"}};
+        return Unexpected{
+            Problem{reported(car) + ": " + car.keys,
+                    reported(other.arguments) + " has the same keys; each car needs its own"}};
       }
       if (!plan->stamp_file.empty() && plan->stamp_file == other.stamp_file) {
-        return Unexpected{
-            Problem{reported(car) + ": " + plan->stamp_file,
-                    "this is the stamp file of " + reported(other.arguments) + ", too"}};
+        return Unexpected{Problem{
+            reported(car) + ": " + plan->stamp_file,
+            reported(other.arguments) + " has the same stamp file; each car needs its own"}};
       }
     }
     plan->console.place = plans.size();

@@ -180,12 +180,12 @@ std::variant<Arguments, Leave> parse_arguments(int argc, const char* const* argv
   try {
     app.parse(argc, argv);
   } catch (const CLI::CallForHelp& help) {
-    return Leave{.code = app.exit(help), .stated = {}};
+    return Leave{.code = app.exit(help), .message = {}};
   } catch (const CLI::ParseError& mistake) {
-    return Leave{.code = kMistake, .stated = mistake.what()};
+    return Leave{.code = kMistake, .message = mistake.what()};
   }
   if (!std::isfinite(arguments.duration_s) || !std::isfinite(arguments.refresh_hz)) {
-    return Leave{.code = kMistake, .stated = "--duration and --refresh are numbers"};
+    return Leave{.code = kMistake, .message = "--duration and --refresh are numbers"};
   }
   return arguments;
 }

@@ -53,7 +53,7 @@ std::string export_kinds();
 // To end with this exit code; what is to be said, if anything.
 struct Leave {
   int code = 0;
-  std::string stated;
+  std::string message;
 };
 std::variant<Arguments, Leave> parse_arguments(int argc, const char* const* argv);
 

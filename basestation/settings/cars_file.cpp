@@ -27,7 +27,7 @@ class CarReader {
     claim("number", std::to_string(car.car));
     car.car_name = map_.text_or("name", "");
     car.keys = own_file("keys");
-    if (car.keys.empty()) map_.fail("keys", "each car has its own");
+    if (car.keys.empty()) map_.fail("keys", "expected a file of keys: each car needs its own");
     car.stamp_file = stamp_file();
     if (map_.has("listen")) car.listen = map_.texts("listen", 1, 2);
     if (car.listen.empty()) claim("listen", "the usual address");

@@ -1,6 +1,7 @@
 // The cars that one base serves: one, as the command line describes it, or those of a file.
 //   in     YAML, a mapping for each car
-//   out    the command line of each car: that of the whole base with the car's own words in it
+//   out    the command line of each car: that of the whole base with the options of
+//          this car added
 //   invariants
 //          cars have nothing in common: number, keys, radio, recording and every other file or
 //          device is of one car only

@@ -24,7 +24,8 @@ std::uint64_t value_set(yaml::StrictMap& map, const char* key) {
   std::uint64_t set = 0;
   if (!map.has(key)) return set;
   for (const double value : map.numbers(key, 0, 64, 0.0, kBits)) {
-    if (value != std::floor(value)) map.fail(key, "a value of an enumeration is a whole number");
+    if (value != std::floor(value))
+      map.fail(key, "expected whole numbers: values of an enumeration");
     set |= std::uint64_t{1} << static_cast<unsigned>(value);
   }
   return set;

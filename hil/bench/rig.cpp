@@ -37,7 +37,8 @@ bool is_actuator(std::uint32_t id) {
 
 Result<Rig, Problem> Rig::build(const scenario::Scenario& scenario, const world::TrackMap& track) {
   if (scenario.start.speed_mps != 0.0)
-    return Unexpected{Problem{scenario.name, "start.speed_mps: this bench starts at standstill"}};
+    return Unexpected{Problem{
+        scenario.name, "start.speed_mps: expected 0, because the bench starts at standstill"}};
   if (scenario.start.s_m >= track.length_m())
     return Unexpected{Problem{scenario.name, "start.s_m lies beyond the end of the track"}};
   auto plan = plan_faults(scenario.faults, scenario.seed);
@@ -145,7 +146,7 @@ std::span<const can::ReceivedFrame> Rig::understood(std::span<const can::Receive
 }
 
 void Rig::encode_frames(Node from, const can::Frame& frame, Instant now) {
-  for (const can::Frame& stated : variant_.spoken(frame)) send(from, stated, now);
+  for (const can::Frame& sent : variant_.spoken(frame)) send(from, sent, now);
 }
 
 void Rig::send(Node from, const can::Frame& frame, Instant now) {

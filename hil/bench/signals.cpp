@@ -20,19 +20,19 @@ constexpr double kNoLimit_mps = 1'000.0;
 double or_zero(double value) { return std::isnan(value) ? 0.0 : value; }
 
 void add_car_report(SignalValues& v, const CarReport& car, const plant::Truth& truth) {
-  const auto stated = [&](Signal signal, double value) {
+  const auto put_value = [&](Signal signal, double value) {
     set(v, signal, car.silent ? kUnset : or_zero(value));
   };
-  stated(Signal::kMode, car.mode);
-  stated(Signal::kGateRefusals, car.gate_refusals);
-  stated(Signal::kBusRefusals, car.bus_refusals);
-  stated(Signal::kPositionError, std::hypot(car.x_m - truth.x_m, car.y_m - truth.y_m));
-  stated(Signal::kYawError, std::abs(wrap_pi(car.yaw_rad - truth.yaw_rad)));
-  stated(Signal::kIdentity, car.identity);
-  stated(Signal::kDifferingId, car.differing_id);
-  stated(Signal::kStopCause, car.cause);
-  stated(Signal::kOperatorLimit,
-         std::isnan(car.operator_limit_mps) ? kNoLimit_mps : car.operator_limit_mps);
+  put_value(Signal::kMode, car.mode);
+  put_value(Signal::kGateRefusals, car.gate_refusals);
+  put_value(Signal::kBusRefusals, car.bus_refusals);
+  put_value(Signal::kPositionError, std::hypot(car.x_m - truth.x_m, car.y_m - truth.y_m));
+  put_value(Signal::kYawError, std::abs(wrap_pi(car.yaw_rad - truth.yaw_rad)));
+  put_value(Signal::kIdentity, car.identity);
+  put_value(Signal::kDifferingId, car.differing_id);
+  put_value(Signal::kStopCause, car.cause);
+  put_value(Signal::kOperatorLimit,
+            std::isnan(car.operator_limit_mps) ? kNoLimit_mps : car.operator_limit_mps);
 }
 
 // The car counts from when it is sure that the base lived, so its gap is longer by what it does not
@@ -146,8 +146,7 @@ std::optional<Problem> unjudged_by(BenchMode mode, const scenario::Scenario& sce
   if (mode == BenchMode::kLockstep) return std::nullopt;
   for (const scenario::Expectation& row : scenario.expect)
     if (row.signal.starts_with(kSeen))
-      return Problem{row.place,
-                     "what the car's monitors see is known in lockstep only: without --live"};
+      return Problem{row.place, "signals seen.* exist in lockstep only: run without --live"};
   return std::nullopt;
 }
 

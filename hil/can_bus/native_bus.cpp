@@ -52,7 +52,7 @@ std::optional<Problem> bring_up(std::span<const std::string> interfaces) {
     return Problem{"kernel", "has no CAN (protocol family PF_CAN is not supported)"};
   for (const std::string& name : interfaces) {
     if (!interface_exists(name) && !run_ip({"link", "add", "dev", name, "type", "vcan"}))
-      return Problem{name, "cannot be made: kernel module vcan is missing, or root is needed"};
+      return Problem{name, "cannot be created: kernel module vcan is missing, or root is needed"};
     // Already up is the usual case for an unprivileged user of a machine that root has prepared.
     if (!run_ip({"link", "set", name, "up"}) && !transport::CanSocket::open(name))
       return Problem{name, "cannot be set up"};

@@ -30,7 +30,7 @@ Result<std::optional<OwnHub>, Problem> OwnHub::start(const std::string& program,
     if (transport::hub_serves(*address)) return std::optional(OwnHub{*std::move(process)});
     transport::sleep_until(transport::monotonic_now() + kLook);
   }
-  return Unexpected{Problem{bus, "its hub did not start"}};
+  return Unexpected{Problem{bus, "the hub of this bus did not start"}};
 }
 
 OwnHub::~OwnHub() {

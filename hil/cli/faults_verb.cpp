@@ -55,7 +55,7 @@ Result<std::vector<bench::Loaded>, Problem> load_all(const std::string& folder,
     }
     all.push_back(*std::move(loaded));
   }
-  if (all.empty()) return Unexpected{Problem{"--speed", "the fault does not exist at this speed"}};
+  if (all.empty()) return Unexpected{Problem{"--speed", "the fault is not possible at this speed"}};
   return all;
 }
 
@@ -106,7 +106,7 @@ Result<world::MonitorSet, Problem> monitors_named(const std::vector<std::string>
   for (const std::string& name : names) {
     const auto found = std::ranges::find(world::kMonitorNames, name);
     if (found == world::kMonitorNames.end())
-      return Unexpected{Problem{"--without", "there is no monitor \"" + name + "\""}};
+      return Unexpected{Problem{"--without", "unknown monitor \"" + name + "\""}};
     off.add(static_cast<Monitor>(found - world::kMonitorNames.begin()));
   }
   return off;

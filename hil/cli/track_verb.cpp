@@ -101,7 +101,8 @@ int check(const TrackOptions& options) {
 int import_to(const TrackOptions& options) {
   const auto track = load(options);
   if (!track) return refuse(track.error());
-  if (!track->fit) return refuse({options.file, "this is a track file already"});
+  if (!track->fit)
+    return refuse({options.file, "is a track file already; expected a CSV file to import"});
   std::vector<std::string> remarks{"Imported from " + options.file + ".",
                                    formatted("Line smoothed below %.0f m, knots every %.1f m.",
                                              options.fit.smoothing_m, options.fit.knot_spacing_m)};

@@ -1,11 +1,11 @@
-// Damage to the bytes of a receiver on their way to the car, message by message: bits that flip,
-// messages that are cut short or lose their beginning, garbage inside or before one, and pieces of
-// an older one between.
-//   in     faults of kind gnss_bytes_damaged: unit, time, share of the messages that are damaged;
-//          whole messages, now
-//   out    what arrives in place of the message
+// Damage to the byte stream of a receiver, message by message: flipped bits, messages that are cut
+// short or lack their beginning, garbage inside or before a message, pieces of an older message in
+// between.
+//   in     faults of kind gnss_bytes_damaged (unit, time, share of the messages to damage); whole
+//          messages and the time
+//   out    the bytes that arrive in place of the message
 //   invariants
-//          one seed, one sequence of outcomes; a fault outside its time changes nothing
+//          one seed gives one sequence of damage; a fault outside its time changes nothing
 //   cost   no allocation after the construction
 // SPDX-License-Identifier: Apache-2.0
 #pragma once

@@ -212,7 +212,7 @@ Frames CanVariant::spoken(const can::Frame& frame) {
   }
   for (const Translation& t : dictionary_->spoken) {
     if (!can::is_frame_of(*t.from, frame)) continue;
-    if (const auto stated = translate(t, frame, unsent_)) CHECK(out.push(*stated));
+    if (const auto translated = translate(t, frame, unsent_)) CHECK(out.push(*translated));
   }
   return out;
 }

@@ -1,12 +1,12 @@
-// Race control as a node on the CAN bus: plays a script of flags, or what a judge calls.
-//   in     Script (sorted by time), State, what timing knows of the car and its rival, now
-//   out    frames that are due: 1200 (500 ms and at once on a change; its heartbeat moves with
-//          every frame), 1208 and 1209 (100 ms), 1250 and 1251 (500 ms, 1250 also on a change),
-//          226 and 228 (200 ms)
-//   rate   call every 1 to 5 ms; due times stay on their grid whatever the calls
+// Race control as a node on the CAN bus: plays the flags of a script, or what a judge calls.
+//   in     Script (sorted by time), State, what timing knows of the car and its rival, the time
+//   out    frames that are due: 1200 (every 500 ms and at once on a change; its heartbeat moves
+//          with every frame), 1208 and 1209 (100 ms), 1250 and 1251 (500 ms, 1250 also on a
+//          change), 226 and 228 (200 ms)
+//   rate   call every 1 to 5 ms; late calls do not shift the due times
 //   invariants
-//          no two consecutive 1200 frames carry the same heartbeat, unless the fault says so
-//   units  mph as race control speaks; seconds and metres otherwise
+//          no two consecutive 1200 frames carry the same heartbeat, unless a fault demands it
+//   units  mph in what race control sends; seconds and metres otherwise
 //   errors an unsendable frame (NaN) is left out and counted
 //   source DBC of the AV-21; cycle times of the public AV-24 bridge; sync check: falls when
 //          the base has been lost for more than 10 s

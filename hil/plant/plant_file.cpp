@@ -52,7 +52,7 @@ void read_spread(yaml::StrictMap& map, const Entry& entry, PlantFile& file) {
   for (std::size_t i = 0; i < entry.count; ++i) {
     const double value = value_of(file.params, entry, i);
     if (value - spread[i] < entry.min || value + spread[i] > entry.max)
-      map.fail("spread", "takes the value out of its range");
+      map.fail("spread", "value plus or minus spread leaves the allowed range");
     entry.at(file.spread, i) = spread[i];
   }
 }
@@ -65,8 +65,9 @@ void read_entry(yaml::StrictMap map, const Entry& entry, Reading& reading) {
   if (map.has("spread")) read_spread(map, entry, file);
   for (const double way : {0.0, -1.0, 1.0})
     if (!in_order(file.params, file.spread, entry, way))
-      map.fail(way == 0.0 ? "value" : "spread",
-               entry.order == Order::kRising ? "must rise" : "must fall from entry to entry");
+      map.fail(way == 0.0 ? "value" : "spread", entry.order == Order::kRising
+                                                    ? "must rise from entry to entry"
+                                                    : "must fall from entry to entry");
   reading.places[&entry] = map.place("value");
   map.finish();
 }
@@ -78,7 +79,7 @@ Structure read_structure(yaml::StrictMap& root) {
     if (one.name == name) return one.structure;
     known += (known.empty() ? "" : ", ") + std::string(one.name);
   }
-  root.fail("structure", "\"" + name + "\" is none; there are: " + known);
+  root.fail("structure", "\"" + name + "\" is not one of: " + known);
 }
 
 void refuse_section_of_another(yaml::StrictMap& root, const Entry& entry) {

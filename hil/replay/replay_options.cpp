@@ -194,11 +194,13 @@ Result<ReplayOptions, Problem> parse_replay_options(std::span<const std::string>
   if (out.file.empty())
     return Unexpected{Problem{"replay", "expected FILE: a CAN log or a recording"}};
   if (out.lead && out.clock != transport::kWallClock)
-    return Unexpected{Problem{"--spin", "goes with the wall clock alone: bench time may stand"}};
+    return Unexpected{
+        Problem{"--spin", "allowed with --clock wall only, because bench time can pause"}};
   if (!out.overlaid.empty() && out.dbc_file.empty() && out.manifest_file.empty())
-    return Unexpected{Problem{"--overlay", "expected --dbc FILE too: whose messages are a node's"}};
+    return Unexpected{
+        Problem{"--overlay", "needs --dbc FILE too, which names the sender of each message"}};
   if (out.overlaid.empty() && out.manifest_file.empty() && !out.dbc_file.empty())
-    return Unexpected{Problem{"--dbc", "expected --overlay or --restamp too, which need it"}};
+    return Unexpected{Problem{"--dbc", "has no use without --overlay or --restamp"}};
   return out;
 }
 

@@ -50,7 +50,7 @@ Result<SocketRim, Problem> SocketRim::open(const Timeline& timeline) {
   }
   const auto is_stream = [](const Sender& one) { return std::holds_alternative<Stream>(one); };
   if (std::ranges::count_if(senders, is_stream) > std::ptrdiff_t{kMaxStreams})
-    return Unexpected{Problem{"--receiver", "allowed are 16 TCP ports and serial devices at most"}};
+    return Unexpected{Problem{"--receiver", "expected at most 16 TCP ports and serial devices"}};
   return SocketRim{std::move(domain), std::move(senders), *std::move(stop)};
 }
 

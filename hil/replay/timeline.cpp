@@ -35,7 +35,7 @@ std::optional<Problem> topic_problem(const std::vector<std::string>& known,
   for (const std::string& name : known) list += (list.empty() ? "" : ", ") + name;
   for (const std::string& topic : options.topics)
     if (std::ranges::find(known, topic) == known.end())
-      return Problem{topic, "is no source with records; expected one of: " + list};
+      return Problem{topic, "is not a source with records; expected one of: " + list};
   return std::nullopt;
 }
 
@@ -54,7 +54,7 @@ std::optional<Problem> problem_of(const CanLog& log, const TimelineOptions& opti
     if (std::ranges::find(log.channels, recorded) == log.channels.end())
       return Problem{recorded, "is mapped, but does not occur in the log"};
   if (!options.receivers.empty())
-    return Problem{options.receivers.front().first, "is no receiver: a CAN log holds none"};
+    return Problem{options.receivers.front().first, "is not a receiver: a CAN log holds none"};
   if (options.dds) return Problem{"--dds", "a CAN log holds no ROS 2 topics"};
   return std::nullopt;
 }
@@ -76,7 +76,7 @@ std::optional<Problem> problem_of(const Recording& recording, const std::string&
     return Problem{name, "is mapped, but does not occur in the recording; " + known};
   if (source->kind != (can ? SourceKind::kCan : SourceKind::kReceiver))
     return Problem{name,
-                   std::string(can ? "holds no CAN frames" : "is no receiver") + "; " + known};
+                   std::string(can ? "holds no CAN frames" : "is not a receiver") + "; " + known};
   return std::nullopt;
 }
 

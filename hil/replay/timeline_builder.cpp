@@ -143,7 +143,7 @@ Result<Timeline, Problem> TimelineBuilder::finish() && {
   if (options_.restamp) restamp();
   if (options_.restamp && out_.restamped == 0)
     return Unexpected{
-        Problem{options_.restamp->name, "none of the frames has a counter or a checksum by it"}};
+        Problem{options_.restamp->name, "gives none of the frames a counter or a checksum"}};
   std::erase_if(out_.tracks, [](const Track& track) { return track.due.empty(); });
   const auto gaps = static_cast<std::int64_t>(std::max<std::uint64_t>(out_.size() - 1, 1));
   const Duration span = scaled(elapsed_ - first_, options_.speed);

@@ -201,8 +201,11 @@ std::string error_charts(const RunData& run) {
 }
 
 std::string bus_chart(const RunData& run) {
+  constexpr double kLoadWindow_s = 0.25;
   std::vector<Curve> load;
-  Line line = bus_load(run.can, run.end_s(), 0.25);
+  // The truth ends where the run was cut off; what follows is not an empty bus.
+  const double end_s = run.truth.empty() ? run.end_s() : run.truth.back().t_s;
+  Line line = bus_load(run.can, end_s, kLoadWindow_s);
   for (Point& point : line) point.y *= 100.0;
   load.push_back({std::move(line), {.colour = kBlue, .name = "load", .unit = "%"}});
   return chart(run,

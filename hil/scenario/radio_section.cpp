@@ -22,12 +22,12 @@ std::vector<link::Blackout> read_blackouts(yaml::StrictMap& map) {
   std::vector<link::Blackout> blackouts;
   if (!map.has("blackouts")) return blackouts;
   std::vector<yaml::StrictMap> rows = map.maps("blackouts");
-  if (rows.size() > kMaxBlackouts) map.fail("blackouts", "more than 64");
+  if (rows.size() > kMaxBlackouts) map.fail("blackouts", "expected at most 64");
   for (yaml::StrictMap& row : rows) {
     const double for_s = row.number("for_s", 0.001, kLongest_s);
     const double every_s = row.number_or("every_s", 0.0, 0.0, kLongest_s);
     if (every_s > 0.0 && every_s <= for_s)
-      row.fail("every_s", "the next one would begin before this one ends");
+      row.fail("every_s", "must be longer than for_s: the blackouts would overlap");
     blackouts.push_back({.from = Instant{} + from_seconds(row.number("at_s", 0.0, kLongest_s)),
                          .length = from_seconds(for_s),
                          .every = from_seconds(every_s)});
@@ -38,8 +38,8 @@ std::vector<link::Blackout> read_blackouts(yaml::StrictMap& map) {
 
 RadioPath read_path(yaml::StrictMap& map) {
   const double fade_loss = map.number_or("fade_loss", 0.0, 0.0, kMaxFadeLoss);
-  if (fade_loss > 0.0 && !map.has("fade_ms")) map.fail("fade_loss", "without fade_ms");
-  if (map.has("fade_ms") && fade_loss <= 0.0) map.fail("fade_ms", "without fade_loss");
+  if (fade_loss > 0.0 && !map.has("fade_ms")) map.fail("fade_loss", "needs fade_ms too");
+  if (map.has("fade_ms") && fade_loss <= 0.0) map.fail("fade_ms", "needs fade_loss too");
   RadioPath path;
   path.link =
       link::bursty(fade_loss, time_of(map, "fade_ms", 0.0),
@@ -62,7 +62,8 @@ void read_word(yaml::StrictMap& row, std::vector<OperatorText>& words) {
   const std::string text = row.text("say");
   if (text.empty()) row.fail("say", "is empty");
   const bool repeats = row.has("every_s");
-  if (repeats != row.has("until_s")) row.fail("say", "every_s and until_s belong together");
+  if (repeats != row.has("until_s"))
+    row.fail("say", "expected both every_s and until_s, or neither");
   const double every_s = repeats ? row.number("every_s", 0.01, kLongest_s) : kLongest_s;
   const double until_s = repeats ? row.number("until_s", at_s, kLongest_s) : at_s;
   row.finish();
@@ -79,10 +80,10 @@ std::vector<RadioPath> read_radio(yaml::StrictMap& map) {
   std::vector<RadioPath> paths;
   if (!map.has("radio")) return paths;
   for (yaml::StrictMap& row : map.maps("radio")) {
-    if (paths.size() == kMaxPaths) map.fail("radio", "more than two paths");
+    if (paths.size() == kMaxPaths) map.fail("radio", "expected one or two paths");
     paths.push_back(read_path(row));
   }
-  if (paths.empty()) map.fail("radio", "no path");
+  if (paths.empty()) map.fail("radio", "expected one or two paths");
   return paths;
 }
 

@@ -132,8 +132,7 @@ Perturbations read_perturbations(yaml::StrictMap map) {
   p.bank_error_rad = from_deg(map.number_or("bank_error_deg", 0.0, -5.0, 5.0));
   p.wind_mps = map.number_or("wind_mps", 0.0, 0.0, 40.0);
   p.wind_to_rad = from_deg(map.number_or("wind_to_deg", 0.0, -360.0, 360.0));
-  if (map.has("wind_to_deg") && !map.has("wind_mps"))
-    map.fail("wind_to_deg", "a direction without wind_mps");
+  if (map.has("wind_to_deg") && !map.has("wind_mps")) map.fail("wind_to_deg", "needs wind_mps too");
   p.steering_delay_s = delay_s("steering_delay_s");
   p.throttle_delay_s = delay_s("throttle_delay_s");
   p.brake_delay_s = delay_s("brake_delay_s");
@@ -183,7 +182,8 @@ void read_detection(yaml::StrictMap& map, Expectation& expectation,
                     const std::vector<Fault>& faults) {
   const auto number = map.integer_or("fault", 1, 1, static_cast<std::int64_t>(kMaxListed));
   expectation.fault = static_cast<std::size_t>(number - 1);
-  if (expectation.fault >= faults.size()) map.fail("kind", "there is no such fault to detect");
+  if (expectation.fault >= faults.size())
+    map.fail("fault", "expected the number of an entry of faults, counted from 1");
   expectation.from = faults[expectation.fault].at;
   const Duration within = from_seconds(map.number("within_s", 0.001, kLongest_s));
   expectation.until = expectation.from + within;
@@ -221,13 +221,14 @@ void check_order(yaml::StrictMap& map, const Scenario& scenario) {
       map.fail("race_control",
                "entry " + std::to_string(i + 1) + " is not later than the one before");
   if (scenario.race_control.empty())
-    map.fail("race_control", "no entry: race control would be silent");
+    map.fail("race_control", "expected at least one entry: race control would be silent");
 }
 
 NamedContact read_contact(yaml::StrictMap& map) {
   NamedContact contact{.at_most_mps = map.number("at_most_mps", 0.1, kFastestImpact_mps),
                        .reason = map.text("reason")};
-  if (contact.reason.empty()) map.fail("reason", "does not say why the contact cannot be avoided");
+  if (contact.reason.empty())
+    map.fail("reason", "expected the reason why the contact cannot be avoided");
   map.finish();
   return contact;
 }

@@ -84,7 +84,7 @@ class Reader {
   explicit Reader(const std::string& name) { csv_.name = name; }
 
   Result<TrackCsv, Problem> read(std::string_view text) {
-    if (text.size() > kMaxCsvBytes) return refuse(1, "larger than 8 MB: no track");
+    if (text.size() > kMaxCsvBytes) return refuse(1, "expected at most 8 MB");
     for (std::size_t line = 1; !text.empty(); ++line) {
       const std::size_t end = text.find('\n');
       if (auto problem = take(trimmed(text.substr(0, end)), line)) return Unexpected{*problem};
@@ -134,7 +134,7 @@ class Reader {
       }
       for (const Column* other : header_)
         if (other == column || (column->into != nullptr && other->into == column->into))
-          return problem(number, "column \"" + std::string(name) + "\" says the same as \"" +
+          return problem(number, "column \"" + std::string(name) + "\" has the same meaning as \"" +
                                      std::string(other->name) + "\"");
       header_.push_back(column);
     }
@@ -168,7 +168,8 @@ class Reader {
       const auto value = number_of(fields[i]);
       if (!value)
         return problem(number, std::string(header_[i]->name) + ": \"" +
-                                   std::string(fields[i].substr(0, 40)) + "\" is no finite number");
+                                   std::string(fields[i].substr(0, 40)) +
+                                   "\" is not a finite number");
       if (header_[i]->into != nullptr) row.*header_[i]->into = *value * header_[i]->factor;
     }
     if (auto fault = fault_of(row)) return problem(number, *fault);

@@ -41,7 +41,7 @@ auto choice(yaml::StrictMap& map, const std::string& key, const Choices& choices
     if (text == name) return value;
     known += std::string(known.empty() ? "" : ", ") + name;
   }
-  map.fail(key, "\"" + text + "\" is none of " + known);
+  map.fail(key, "\"" + text + "\" is not one of: " + known);
 }
 
 std::uint16_t largest_data_id(const ManifestChecksum& checksum) {
@@ -63,7 +63,7 @@ std::array<std::uint8_t, 16> data_ids(yaml::StrictMap& map) {
   const auto numbers = map.numbers("data_ids", ids.size(), ids.size(), 0, 255);
   for (std::size_t i = 0; i < ids.size(); ++i) {
     ids[i] = static_cast<std::uint8_t>(numbers[i]);
-    if (ids[i] != numbers[i]) map.fail("data_ids", "a data id is a whole number");
+    if (ids[i] != numbers[i]) map.fail("data_ids", "expected whole numbers");
   }
   return ids;
 }
@@ -103,7 +103,7 @@ ManifestMessage message(const std::string& name, yaml::StrictMap map) {
   if (auto slews = map.optional_map("slew_per_s")) {
     for (const std::string& signal : slews->keys()) {
       const double limit = slews->number(signal, 0.0, kMaxSlew_per_s);
-      if (!(limit > 0.0)) slews->fail(signal, "a rate of change must be more than 0");
+      if (!(limit > 0.0)) slews->fail(signal, "must be more than 0");
       m.slews.push_back({signal, limit, slews->place(signal)});
     }
   }
@@ -230,7 +230,8 @@ std::optional<Problem> checksum_problem(const ManifestMessage& entry, const Mess
   }
   const bool is_counter = c.signal == entry.counter || c.nibble == entry.counter;
   if (is_counter && !entry.counter.empty()) {
-    return Problem{c.place, "the counter " + entry.counter + " cannot be something else as well"};
+    return Problem{c.place,
+                   "the counter " + entry.counter + " must not be a signal of the checksum too"};
   }
   if (c.profile == Protection::kP01 && m.length > kMaxBytes) {
     return Problem{c.place, "profile 1 protects at most 30 bytes"};
@@ -277,7 +278,8 @@ std::optional<Problem> contradiction(const Manifest& manifest, const Database& d
     }
     for (const IdRange& range : manifest.ignored) {
       if (m.id < range.first || m.id > range.last) continue;
-      return Problem{manifest.ignored_place, "message " + m.name + " would be ignored"};
+      return Problem{manifest.ignored_place,
+                     "message " + m.name + " lies in a range of ids to ignore"};
     }
   }
   return std::nullopt;

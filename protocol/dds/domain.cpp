@@ -198,7 +198,7 @@ class DomainOfFast : public Domain, private fast::DomainParticipantListener {
     qos.publish_mode().kind = fast::ASYNCHRONOUS_PUBLISH_MODE;
     auto writer = std::make_unique<WriterOfFast>(counters_);
     if (made == nullptr || !writer->open(*publisher_, *made, qos))
-      return Unexpected{Problem{topic.topic, "Fast DDS makes no writer of " + topic.type}};
+      return Unexpected{Problem{topic.topic, "Fast DDS refuses a writer of " + topic.type}};
     return writers_.emplace_back(std::move(writer)).get();
   }
 
@@ -209,7 +209,7 @@ class DomainOfFast : public Domain, private fast::DomainParticipantListener {
     set_quality(qos, quality, topic.hash);
     auto reader = std::make_unique<ReaderOfFast>(counters_, std::move(take));
     if (made == nullptr || !reader->open(*subscriber_, *made, qos))
-      return Unexpected{Problem{topic.topic, "Fast DDS makes no reader of " + topic.type}};
+      return Unexpected{Problem{topic.topic, "Fast DDS refuses a reader of " + topic.type}};
     readers_.push_back(std::move(reader));
     return true;
   }
@@ -299,7 +299,8 @@ Result<std::unique_ptr<Domain>, Problem> Domain::join(const DomainConfig& config
   std::vector<std::string> addresses = config.peers;
   addresses.push_back(config.interface);
   for (const std::string& address : addresses)
-    if (!is_address(address)) return Unexpected{Problem{place, address + " is no IPv4 address"}};
+    if (!is_address(address))
+      return Unexpected{Problem{place, address + " is not an IPv4 address"}};
   count_instead_of_printing();
   auto domain = std::make_unique<DomainOfFast>();
   if (!domain->open(config))

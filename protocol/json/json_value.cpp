@@ -157,7 +157,7 @@ Result<JsonValue, Problem> JsonValue::parse(std::string_view text, const std::st
   JsonValue value;
   JsonParser parser{text};
   if (parser.read_document(value)) return value;
-  return Unexpected{Problem{name + ":byte " + std::to_string(parser.at()), "is no JSON"}};
+  return Unexpected{Problem{name + ":byte " + std::to_string(parser.at()), "is not JSON"}};
 }
 
 const JsonValue* JsonValue::find(std::string_view key) const {

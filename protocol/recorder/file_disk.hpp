@@ -1,10 +1,11 @@
-// Segments as files of a folder: what is written is on the disk within a second.
-//   in     a folder, which is made; names and bytes
-//   out    files; a lock on each that is open, so that nobody takes it for an old one
+// Recording segments as files of one folder, on the disk within a second of being written.
+//   in     the folder, which is created; names and bytes
+//   out    files; each open one is locked, so that no other process takes it for an unfinished file
+//          of a killed recorder
 //   invariants
-//          appending does not wait for the disk to be written: a thread of its own does, once a
-//          second. How long that took is told
-//   errors Problem with the path; syncs that failed are counted
+//          appending does not wait for the disk: a thread of its own syncs once a second. The
+//          longest sync is reported
+//   errors Problem with the path; failed syncs are counted
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

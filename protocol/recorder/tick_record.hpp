@@ -2,7 +2,7 @@
 // with it a run can be driven again. The message /car/tick of the black box, after all that the
 // tick heard and said.
 //
-//   file  ... bytes of receivers, datagrams, frames heard, frames said, TICK, states ...
+//   file  ... bytes of receivers, datagrams, received frames, sent frames, TICK, states ...
 //
 //   units  seconds, m/s, fractions as their names say; instants: nanoseconds on the car's clock,
 //          kNever where there is none; log time: the tick's own

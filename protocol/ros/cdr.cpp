@@ -48,9 +48,9 @@ void CdrWriter::put_numbers(const void* numbers, std::size_t count, std::size_t 
 // The options behind the representation may count the padding at the end: RTPS 10.2.
 CdrReader::CdrReader(std::span<const std::uint8_t> bytes) {
   if (bytes.size() < kCdrHeader) {
-    refuse("shorter than the header of CDR");
+    refuse("shorter than a CDR header");
   } else if (bytes[0] != 0 || bytes[1] > 1) {
-    refuse("another representation than plain CDR: " + std::to_string(bytes[0]) + ", " +
+    refuse("expected plain CDR, found representation " + std::to_string(bytes[0]) + ", " +
            std::to_string(bytes[1]));
   } else {
     swapped_ = bytes[1] == 0;
@@ -67,7 +67,7 @@ void CdrReader::refuse(std::string why) {
 void CdrReader::finish() {
   field_ = {};
   if (ok() && bytes_.size() - at_ > kPaddingMost)
-    refuse(std::to_string(bytes_.size() - at_) + " bytes behind the end");
+    refuse(std::to_string(bytes_.size() - at_) + " bytes after the end of the message");
 }
 
 bool CdrReader::has(std::size_t bytes) {
@@ -89,7 +89,8 @@ std::size_t CdrReader::take_count(std::size_t least_each) {
   take(count);
   if (!ok()) return 0;
   if (count <= (bytes_.size() - at_) / least_each) return count;
-  refuse(std::to_string(count) + " elements in " + std::to_string(bytes_.size() - at_) + " bytes");
+  refuse(std::to_string(count) + " elements do not fit into " +
+         std::to_string(bytes_.size() - at_) + " bytes");
   return 0;
 }
 
@@ -99,7 +100,8 @@ std::string CdrReader::take_text() {
   // Some writers leave the NUL of an empty string out.
   if (length == 0) return {};
   const auto* text = reinterpret_cast<const char*>(bytes_.data() + at_);
-  if (text[length - 1] != '\0') return refuse("a string without NUL at its end"), std::string{};
+  if (text[length - 1] != '\0')
+    return refuse("expected NUL at the end of the string"), std::string{};
   at_ += length;
   return {text, length - 1};
 }
@@ -107,7 +109,7 @@ std::string CdrReader::take_text() {
 bool CdrReader::take_flag() {
   if (!has(1)) return false;
   const std::uint8_t value = bytes_[at_++];
-  if (value > 1) refuse("a bool of " + std::to_string(value));
+  if (value > 1) refuse("expected a bool of 0 or 1, found " + std::to_string(value));
   return value == 1;
 }
 

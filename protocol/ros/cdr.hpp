@@ -88,7 +88,9 @@ class CdrReader {
     } else if constexpr (Text<T>) {
       value = take_text();
       if constexpr (BoundedText<T>) {
-        if (value.size() > T::kBound) refuse("a string of " + std::to_string(value.size()));
+        if (value.size() > T::kBound)
+          refuse("expected at most " + std::to_string(T::kBound) + " bytes, found " +
+                 std::to_string(value.size()));
       }
     } else if constexpr (std::is_same_v<T, bool>) {
       value = take_flag();

@@ -42,7 +42,7 @@ bool has_bench_time() { return BenchClock::used() != nullptr; }
 Result<bool, Problem> take_turns() {
   BenchClock* const bench = BenchClock::used();
   if (bench == nullptr || bench->take_turns()) return true;
-  return Unexpected{Problem{"bench time", "no room: too many threads take turns already"}};
+  return Unexpected{Problem{"bench time", "too many threads use it already"}};
 }
 
 Instant monotonic_now() {

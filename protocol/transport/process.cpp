@@ -120,7 +120,7 @@ Result<Process, Problem> Process::spawn(const ProcessPlan& plan) {
     return fcntl(report[1], F_DUPFD_CLOEXEC, 512);
   }));
   ::close(report[1]);
-  if (!write_end.valid()) return Unexpected{Problem{program, "no descriptor left"}};
+  if (!write_end.valid()) return Unexpected{Problem{program, "no file descriptor is left"}};
 
   std::vector<std::string> argv = plan.argv;
   Launch launch{

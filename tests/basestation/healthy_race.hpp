@@ -73,7 +73,7 @@ struct HealthyRace {
   // From the next packet on.
   void set(telemetry::FieldIndex index, double value) {
     reported.snapshot.values[index] = value;
-    stated_.add(telemetry::kFields[index].group);
+    known_.add(telemetry::kFields[index].group);
   }
   void tyres(double celsius) {
     using telemetry::field;
@@ -108,7 +108,7 @@ struct HealthyRace {
   void packet() {
     telemetry::GroupSet groups;
     for (const telemetry::GroupRow& row : telemetry::kGroupTable) {
-      if (!stated_.has(row.group) || !comes(row.group)) continue;
+      if (!known_.has(row.group) || !comes(row.group)) continue;
       reported.snapshot.at(row.group) = now - milliseconds(10);
       groups.add(row.group);
     }
@@ -117,7 +117,7 @@ struct HealthyRace {
     evaluator.link(link);
   }
 
-  telemetry::GroupSet stated_;
+  telemetry::GroupSet known_;
 };
 
 }  // namespace pitwall

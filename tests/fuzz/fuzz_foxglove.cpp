@@ -30,8 +30,8 @@ Room room_of_two() {
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   static const Room kFresh = room_of_two();
   Room room = kFresh;
-  CHECK(!room.stated(kClient, {reinterpret_cast<const char*>(data), size}));
-  CHECK(!room.stated_bytes(kClient, {data, size}));
+  CHECK(!room.receive_text(kClient, {reinterpret_cast<const char*>(data), size}));
+  CHECK(!room.receive_bytes(kClient, {data, size}));
   std::size_t answers = 0;
   for (const Sending& sending : room.take()) {
     CHECK(!sending.to.test(kOther));

@@ -310,14 +310,14 @@ void drive(const Tick& t, Output& out) {
   if (t.in.now < s.next_speech) return;
   s.next_speech = t.in.now + kSpeakEvery;
   s.status.command = next_command(t);
-  const CommandFrames stated = encode_frames(s.received, s.status.counters,
-                                             {.command = s.status.command,
-                                              .steering_ratio = t.params.reckoning.steering_ratio,
-                                              .ax_mps2 = s.ax_mps2,
-                                              .ay_mps2 = s.ay_mps2});
+  const CommandFrames encoded = encode_frames(s.received, s.status.counters,
+                                              {.command = s.status.command,
+                                               .steering_ratio = t.params.reckoning.steering_ratio,
+                                               .ax_mps2 = s.ax_mps2,
+                                               .ay_mps2 = s.ay_mps2});
   const auto passed = safety::gate(
       t.params.gate, s.gate,
-      gate_context(t, world::Mode::kControlledStop, s.status.command.at, t.in.now), stated.span());
+      gate_context(t, world::Mode::kControlledStop, s.status.command.at, t.in.now), encoded.span());
   out.frames = passed.frames;
   out.gate_refusals = passed.refused_total;
 }

@@ -1,6 +1,7 @@
-// WGS 84 to the tangent plane of the track, in closed form: the guardian shall not need the
-// geodesy library of localization for one subtraction.
-//   in     the datum (latitude, longitude in degrees, height above the ellipsoid in m), a position
+// Conversion from WGS 84 to the tangent plane of the track, in closed form. The guardian has its
+// own so that it does not depend on the geodesy library of localization.
+//   in     the datum and a position: latitude and longitude in degrees, height above the ellipsoid
+//          in m
 //   out    metres east and north of the datum
 //   invariants
 //          from the ECEF coordinates of both points, turned by longitude and latitude of the datum:

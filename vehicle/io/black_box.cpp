@@ -25,11 +25,11 @@ Result<BlackBox, Problem> BlackBox::open(const std::string& folder, const std::s
   return box;
 }
 
-void BlackBox::tick(const pipeline::Inputs& in, std::span<const can::Frame> stated) {
+void BlackBox::tick(const pipeline::Inputs& in, std::span<const can::Frame> sent) {
   if (!on()) return;
-  counts_.frames_sent = stated.size();
+  counts_.frames_sent = sent.size();
   for (const can::ReceivedFrame& frame : in.can) recorder_->can(false, frame.at, frame.frame);
-  for (const can::Frame& frame : stated) recorder_->can(true, in.now, frame);
+  for (const can::Frame& frame : sent) recorder_->can(true, in.now, frame);
   recorder_->tick(in.now, record_of(in, counts_));
   counts_ = {.number = counts_.number + 1};
 }

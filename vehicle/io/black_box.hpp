@@ -41,7 +41,7 @@ class BlackBox {
   bool on() const { return recorder_ != nullptr; }
   bool state_due(std::uint64_t tick) const { return on() && tick % kStateEvery == 0; }
   // What the tick was given and what it said; after the receivers' bytes of the same tick.
-  void tick(const pipeline::Inputs& in, std::span<const can::Frame> stated);
+  void tick(const pipeline::Inputs& in, std::span<const can::Frame> sent);
   void state(const telemetry::Snapshot& state, Instant now);
   // `down`: from the car to its base.
   void radio(bool down, Instant at, const recorder::RadioDatagram& datagram);

@@ -21,7 +21,7 @@ Result<std::unique_ptr<BusWatch>, Problem> BusWatch::start(std::string_view inte
   if (!opened) return Unexpected{opened.error()};
   transport::FileDescriptor bell(
       transport::posix_call([] { return eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK); }));
-  if (!bell.valid()) return Unexpected{Problem{std::string(interface), "cannot be watched"}};
+  if (!bell.valid()) return Unexpected{Problem{std::string(interface), "cannot be added to epoll"}};
   return std::unique_ptr<BusWatch>(new BusWatch(*std::move(opened), std::move(bell)));
 }
 

@@ -1,11 +1,11 @@
-// The shared memory between the car process and its guardian: one file that both map. Each side
-// writes its own value and reads the other's; nobody ever waits.
+// Shared memory between the car process and its guardian: one file that both map. Each side writes
+// its own value and reads the other's; neither waits for the other.
 //   in     a name: a file in /dev/shm; a path if it contains a slash
 //   out    the newest value that is whole, or nothing
 //   invariants
-//          two copies per value, written in turn, each with a sequence and a CRC-32 over both: a
-//          writer that is killed in the middle of a copy leaves the other one as it was. The newest
-//          whole copy counts. The values stay when their writers end, until they are written anew
+//          two copies per value, written in turn, each with a sequence number and a CRC-32: a
+//          writer that is killed in the middle of one copy leaves the other one intact. The newest
+//          whole copy counts. Values outlive their writers until they are written again
 //   errors open(): Problem with the path: no permission, or a file of another layout; afterwards
 //          none. A copy that is not whole is not read
 //   cost   no allocation, no system call after open(); a CarRecord below 15 us, a Status below 1 us

@@ -90,7 +90,7 @@ std::optional<Problem> out_of_range(const TickRecord& record) {
   if ((record.guardian & ~unsigned{kAllGuardianBits}) != 0)
     return Problem{"guardian", "unknown bit"};
   if (record.stop > static_cast<std::uint8_t>(world::StopRequest::kEmergency))
-    return Problem{"stop", "unknown"};
+    return Problem{"stop", "unknown request"};
   if (record.controller > static_cast<std::uint8_t>(ControllerState::kDown))
     return Problem{"controller", "unknown state"};
   return std::nullopt;
@@ -98,7 +98,7 @@ std::optional<Problem> out_of_range(const TickRecord& record) {
 
 Result<bool, Problem> restore_commands(const TickRecord& record, TickCommands& to) {
   const auto kept = recorder::commands_of(record);
-  if (!kept) return Unexpected{Problem{"commands", "cut, or too many"}};
+  if (!kept) return Unexpected{Problem{"commands", "the list is cut short or too long"}};
   for (const recorder::TickCommand& command : *kept) {
     if (command.kind > static_cast<std::uint8_t>(world::OperatorCommandKind::kSendParameters))
       return Unexpected{Problem{"commands", "unknown kind"}};

@@ -25,7 +25,7 @@ world::ReceiverParams read_receiver(yaml::StrictMap map) {
   const std::string name = map.text_or("receiver", std::string(world::name_of(receiver.kind)));
   const auto* kind = std::ranges::find(world::kReceiverKindNames, name);
   if (kind == world::kReceiverKindNames.end())
-    map.fail("receiver", "\"" + name + "\" is no kind of receiver; novatel_oem7 or vectornav");
+    map.fail("receiver", "\"" + name + "\" is not one of: novatel_oem7, vectornav");
   receiver.kind = static_cast<world::ReceiverKind>(kind - world::kReceiverKindNames.begin());
   receiver.least_delay =
       from_seconds(map.number_or("receiver_delay_s", receiver.least_delay.seconds(), 0.0, 0.05));
@@ -50,11 +50,11 @@ control::LateralParams read_lateral(yaml::StrictMap map) {
   std::vector<yaml::StrictMap> brackets = map.maps("brackets");
   if (brackets.size() != control::kSpeedBrackets)
     map.fail("brackets",
-             "one entry per speed bracket is needed: " + std::to_string(control::kSpeedBrackets));
+             "expected one entry per speed bracket: " + std::to_string(control::kSpeedBrackets));
   for (std::size_t i = 0; i < brackets.size(); ++i) {
     const double from_mps = brackets[i].number("from_mps", 0.0, 110.0);
     if (from_mps != control::kBracketFrom_mps[i])
-      brackets[i].fail("from_mps", "this bracket begins at " +
+      brackets[i].fail("from_mps", "expected the begin of this bracket: " +
                                        std::to_string(control::kBracketFrom_mps[i]) + " m/s");
     const auto q = brackets[i].numbers("q", 4, 4, 0.0, 1e6);
     std::copy(q.begin(), q.end(), lateral.weights[i].state.begin());
@@ -86,7 +86,7 @@ control::GearParams read_gear(yaml::StrictMap map) {
 localization::Params read_localization(yaml::StrictMap map, world::Receivers& receivers) {
   localization::Params p;
   std::vector<yaml::StrictMap> units = map.maps("units");
-  if (units.size() != world::kGnssUnits) map.fail("units", "one entry per GNSS unit is needed: 2");
+  if (units.size() != world::kGnssUnits) map.fail("units", "expected one entry per GNSS unit: 2");
   for (std::size_t i = 0; i < units.size(); ++i) {
     p.units[i] = read_unit(units[i]);
     receivers[i] = read_receiver(units[i]);

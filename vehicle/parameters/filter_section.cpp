@@ -21,7 +21,7 @@ localization::FilterKind read_kind(yaml::StrictMap& map) {
   const std::string name = map.text("kind");
   const auto& names = localization::kFilterKindNames;
   const auto* found = std::find(names.begin(), names.end(), name);
-  if (found == names.end()) map.fail("kind", "\"" + name + "\" is no filter; planar or spatial");
+  if (found == names.end()) map.fail("kind", "\"" + name + "\" is not one of: planar, spatial");
   return static_cast<localization::FilterKind>(found - names.begin());
 }
 
@@ -29,7 +29,7 @@ void read_preference(yaml::StrictMap& map, const char* key, localization::Prefer
   constexpr std::array<const char*, 3> kNames{"both", "unit_0", "unit_1"};
   const std::string name = map.text_or(key, kNames[static_cast<std::size_t>(preference)]);
   const auto* found = std::find(kNames.begin(), kNames.end(), name);
-  if (found == kNames.end()) map.fail(key, "\"" + name + "\" is not both, unit_0 or unit_1");
+  if (found == kNames.end()) map.fail(key, "\"" + name + "\" is not one of: both, unit_0, unit_1");
   preference = static_cast<localization::Preference>(found - kNames.begin());
 }
 
@@ -66,7 +66,7 @@ localization::Priorities read_priorities(yaml::StrictMap& section) {
   read_preference(*map, "heading", priorities.heading);
   read_preference(*map, "imu", priorities.imu);
   if (priorities.imu == localization::Preference::kBoth)
-    map->fail("imu", "one unit is used, the other stands by: unit_0 or unit_1");
+    map->fail("imu", "expected unit_0 or unit_1: the IMUs are not combined");
   return priorities;
 }
 

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <string>
 
+#include "protocol/vocabulary/text.hpp"
 #include "vehicle/parameters/car_file.hpp"
 #include "vehicle/parameters/range_reader.hpp"
 
@@ -197,22 +198,26 @@ void check_slews(const yaml::StrictMap& map, const CarParams& params) {
   const safety::SupervisorParams& s = params.supervisor;
   const safety::GateParams& g = params.gate;
   if (to_deg(s.steer_slew_rad_per_s) * s.steering_ratio >= g.steer_slew_deg_per_s)
-    map.fail("steer_slew_rad_per_s", "at the motor this is not below gate.steer_slew_deg_per_s");
+    map.fail("steer_slew_rad_per_s",
+             "times steering_ratio must be below gate.steer_slew_deg_per_s");
   if (100.0 * s.throttle_rise_per_s >= g.throttle_rise_percent_per_s)
-    map.fail("throttle_rise_per_s", "not below gate.throttle_rise_percent_per_s");
+    map.fail("throttle_rise_per_s", "must be below gate.throttle_rise_percent_per_s");
   if (s.brake_rise_kpa_per_s >= g.brake_rise_kpa_per_s)
-    map.fail("brake_rise_kpa_per_s", "not below gate.brake_rise_kpa_per_s");
+    map.fail("brake_rise_kpa_per_s", "must be below gate.brake_rise_kpa_per_s");
   if (s.brake_fall_kpa_per_s >= g.brake_fall_kpa_per_s)
-    map.fail("brake_fall_kpa_per_s", "not below gate.brake_fall_kpa_per_s");
-  if (s.shift_least <= g.shift_least) map.fail("shift_least_s", "not above gate.shift_least_s");
+    map.fail("brake_fall_kpa_per_s", "must be below gate.brake_fall_kpa_per_s");
+  if (s.shift_least <= g.shift_least) map.fail("shift_least_s", "must be above gate.shift_least_s");
   if (s.safe_stop.hold_kpa <= g.hold_least_kpa)
-    map.fail("safe_stop", "hold_kpa: not above gate.hold_least_kpa");
+    map.fail("safe_stop", "hold_kpa must be above gate.hold_least_kpa");
   for (const safety::StopBrakeRow& row : g.stop_brake) {
     const safety::Grip grip = safety::grip_at(s.safe_stop, row.speed_mps, 0.0, 0.0, kWarm_c);
     const double grip_kpa =
         grip.total_mps2 * s.safe_stop.brake_share * s.safe_stop.brake_kpa_per_mps2;
     if (row.kpa < std::min(grip_kpa, s.safe_stop.brake_max_kpa))
-      map.fail("safe_stop", "friction: more than gate.stop_brake_kpa at some speed");
+      map.fail(
+          "safe_stop",
+          formatted("brake pressure of friction: %.0f kPa at %.1f m/s, above gate.stop_brake_kpa",
+                    std::min(grip_kpa, s.safe_stop.brake_max_kpa), row.speed_mps));
   }
 }
 

@@ -1,8 +1,8 @@
-// One receiver of the car, of whatever kind: bytes in, samples out. The same in the car, in its
-// guardian and in the benches.
-//   in     bytes with the time they arrived, cut anyhow
-//   out    appended to world::SensorInput
-//   errors counters; nothing that bytes can say stops it
+// Decoder of one satellite receiver, NovAtel OEM7 or VectorNav: bytes in, samples out. Car,
+// guardian and benches use the same one.
+//   in     bytes with the time of their arrival, in pieces of any size
+//   out    GNSS and IMU samples, appended to world::SensorInput
+//   errors counters; no input stops it
 //   cost   no allocation
 // SPDX-License-Identifier: Apache-2.0
 #pragma once

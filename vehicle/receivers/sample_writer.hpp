@@ -35,9 +35,9 @@ class SampleWriter {
     append(health, out.receivers, out);
   }
 
-  void write(gnss::GpsTime stated, double utc_offset_s, Instant arrival, world::SensorInput& out) {
+  void write(gnss::GpsTime gps, double utc_offset_s, Instant arrival, world::SensorInput& out) {
     static_cast<void>(out.times.push(
-        {.unit = unit_, .received = arrival, .gps_ns = stated.ns, .utc_offset_s = utc_offset_s}));
+        {.unit = unit_, .received = arrival, .gps_ns = gps.ns, .utc_offset_s = utc_offset_s}));
   }
 
   Counters& counters() { return counters_; }

@@ -59,10 +59,9 @@ double compass(double angle_rad) {
 
 // Nothing until the sensor has heard the time: it counts from its own start before.
 std::optional<gnss::GpsTime> time_of(const gnss::VectorNavMessage& m) {
-  const gnss::GpsTime stated{static_cast<std::int64_t>(m.time_gps_ns)};
-  if (stated < gnss::gps_time(1, {}) || stated > gnss::gps_time(gnss::kMaxWeek, {}))
-    return std::nullopt;
-  return stated;
+  const gnss::GpsTime gps{static_cast<std::int64_t>(m.time_gps_ns)};
+  if (gps < gnss::gps_time(1, {}) || gps > gnss::gps_time(gnss::kMaxWeek, {})) return std::nullopt;
+  return gps;
 }
 
 std::optional<gnss::GpsTime> time_of(const gnss::VectorNavSolution& s) {

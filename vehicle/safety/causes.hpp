@@ -98,25 +98,25 @@ inline constexpr std::array<CauseRow, kCauses> kCauseTable = [] {
   constexpr auto ms = [](std::int64_t n) { return milliseconds(n); };
   // Of the drive-by-wire's own words: diagnostic_report comes every 100 ms, misc_report every
   // second.
-  constexpr Duration kStated = ms(120), kStatedSlowly = ms(1'020), kTick = ms(20);
+  constexpr Duration kReported = ms(120), kReportedSlowly = ms(1'020), kTick = ms(20);
   // clang-format off
   return std::array<CauseRow, kCauses>{{
     {Cause::kNone, "none", Reaction::kNone, {}},
     {kOperatorEmergency, "operator: emergency stop", kEmergencyStop, kTick, kBars},
     {kPurpleFlag, "purple flag", kEmergencyStop, kTick, kBars},
     {kBusDead, "CAN bus dead: the drive-by-wire is silent", kEmergencyStop, ms(100), kBars},
-    {kSystemFailure, "drive-by-wire: system failure", kEmergencyStop, kStated, kBars},
-    {kEmergencyBrake, "drive-by-wire: emergency brake", kEmergencyStop, kStated, kBars},
-    {kSteeringCommsLost, "drive-by-wire: steering lost", kEmergencyStop, kStated, kBars},
-    {kSysEmergencyShutdown, "drive-by-wire: emergency shutdown", kEmergencyStop, kStatedSlowly,
+    {kSystemFailure, "drive-by-wire: system failure", kEmergencyStop, kReported, kBars},
+    {kEmergencyBrake, "drive-by-wire: emergency brake", kEmergencyStop, kReported, kBars},
+    {kSteeringCommsLost, "drive-by-wire: steering lost", kEmergencyStop, kReported, kBars},
+    {kSysEmergencyShutdown, "drive-by-wire: emergency shutdown", kEmergencyStop, kReportedSlowly,
      kBars},
     {kOperatorStop, "operator: stop", kControlledStop, kTick, kBars},
     {kDisarmRequest, "operator: disarm", kControlledStop, kTick},
     {kEngineKillFlag, "engine-kill flag", kControlledStop, kTick, kBars},
-    {kMotecCommsLost, "drive-by-wire: engine lost", kControlledStop, kStated, kBars},
-    {kBrakeOutOfSpec, "drive-by-wire: brake out of spec", kControlledStop, kStated, kBars},
-    {kCriticalLimits, "drive-by-wire: critical limits", kControlledStop, kStatedSlowly, kBars},
-    {kComputerHeartbeatLost, "drive-by-wire: does not hear us", kControlledStop, kStated},
+    {kMotecCommsLost, "drive-by-wire: engine lost", kControlledStop, kReported, kBars},
+    {kBrakeOutOfSpec, "drive-by-wire: brake out of spec", kControlledStop, kReported, kBars},
+    {kCriticalLimits, "drive-by-wire: critical limits", kControlledStop, kReportedSlowly, kBars},
+    {kComputerHeartbeatLost, "drive-by-wire: does not hear us", kControlledStop, kReported},
     {kWrongBus, "CAN bus does not fit the database", kControlledStop, kTick, kBars},
     {kBusOff, "CAN bus off", kControlledStop, ms(500), kBars},
     {kOwnIdOnBus, "another node sends our CAN ids", kControlledStop, kTick, kBars},
@@ -134,7 +134,7 @@ inline constexpr std::array<CauseRow, kCauses> kCauseTable = [] {
     {kImuLost, "IMU: both units lost", kControlledStop, ms(270)},
     {kRaceControlLost, "race control lost", kControlledStop, ms(10'020)},
     {kRaceControlReportedLost, "race control lost, says the drive-by-wire", kControlledStop,
-     kStated},
+     kReported},
     {kRadioLost, "base station lost", kControlledStop, ms(3'020), kVoids},
     {kGnssRtkLost, "GNSS: both units lost RTK and their accuracy", kControlledStop, ms(220),
      kAnyway, true},

@@ -219,10 +219,10 @@ void flags(Finder& f) {
 // While the car rolls and nobody but us tells its actuators what to do.
 bool follows_commands(const Finder& f) {
   const auto& misc = f.in.signals.misc;
-  const auto& stated = f.in.signals.diagnostics;
+  const auto& diagnostics = f.in.signals.diagnostics;
   const bool drives = misc.received && misc.value.sys_state == SysState::kDriving;
-  const bool own_will =
-      stated.received && (stated.value.emergency_brake || stated.value.computer_heartbeat_lost);
+  const bool own_will = diagnostics.received && (diagnostics.value.emergency_brake ||
+                                                 diagnostics.value.computer_heartbeat_lost);
   return f.in.moves && drives && !own_will && f.in.speed_mps > f.params.following.moving_mps;
 }
 

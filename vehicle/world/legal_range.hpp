@@ -48,9 +48,9 @@ inline std::optional<Problem> first_illegal(std::span<const LegalRange> ranges,
                                             std::string_view place = {}) {
   for (const LegalRange& r : ranges) {
     if (r.value >= r.least && r.value <= r.most) continue;
-    return Problem{std::string{place} + r.name, "is " + std::to_string(r.value) +
-                                                    ", must be within " + std::to_string(r.least) +
-                                                    " and " + std::to_string(r.most)};
+    return Problem{std::string{place} + r.name, "is " + std::to_string(r.value) + ", allowed " +
+                                                    std::to_string(r.least) + " to " +
+                                                    std::to_string(r.most)};
   }
   return std::nullopt;
 }

@@ -1,4 +1,4 @@
-// Parameters of one satellite receiver in the car file.
+// Parameters of one satellite receiver (GNSS with IMU), as the car file gives them.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

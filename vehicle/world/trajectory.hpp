@@ -1,6 +1,7 @@
-// A path with a speed at every point: what planning promises and control follows.
-//   frames Map; curvature positive to the left; banking positive where the left side is lower
-//          (towards the inside of a left-hand oval)
+// Path with a planned speed at every point: output of planning, input of control.
+//   units  in the names: m, rad, m/s, m/s^2
+//   frames Map; yaw and curvature positive to the left; banking positive where the left side is
+//          lower (towards the inside of a left-hand oval)
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

@@ -72,10 +72,10 @@ Result<bool, Problem> BenchBook::keep(const JsonValue& value, std::string_view l
     refusal_ = Problem{"bench." + value.text("place"), value.text("what")};
     return true;
   }
-  if (server_.empty()) return refuse("type", "the server has not said hello");
+  if (server_.empty()) return refuse("type", "expected hello first");
   if (type == "scenario") return keep_scenario(line);
   if (type == "run") return keep_run(value, line);
-  if (value.number("run") != run_) return refuse("run", "is not the newest run");
+  if (value.number("run") != run_) return refuse("run", "expected the number of the newest run");
   if (type == "event") return keep_event(value, line);
   publish("bench_" + type, line);
   return true;
@@ -100,7 +100,7 @@ Result<bool, Problem> BenchBook::keep_hello(const JsonValue& value) {
 }
 
 Result<bool, Problem> BenchBook::keep_scenario(std::string_view line) {
-  if (scenarios_ >= announced_) return refuse("scenario", "more than were announced");
+  if (scenarios_ >= announced_) return refuse("scenario", "more scenarios than hello announced");
   if (list_.size() + line.size() > kListMax_bytes)
     return refuse("scenario", "the list is too long");
   if (!list_.empty()) list_ += ", ";
@@ -127,7 +127,8 @@ Result<bool, Problem> BenchBook::keep_event(const JsonValue& value, std::string_
     ++events_again_;
     return true;
   }
-  if (events_ >= kEventsMax) return refuse("event", "more than a run has");
+  if (events_ >= kEventsMax)
+    return refuse("event", "more than " + std::to_string(kEventsMax) + " events in one run");
   events_again_ = ++events_;
   publish("bench_event", line, true);
   return true;

@@ -76,8 +76,8 @@ command::Person ClientRegistry::person(ClientId client) const {
   return {.console = client, .name = who_[client].name};
 }
 
-std::optional<Request> ClientRegistry::stated(ClientId client, std::string_view text,
-                                              const StateSource& eyes, Instant now) {
+std::optional<Request> ClientRegistry::receive_text(ClientId client, std::string_view text,
+                                                    const StateSource& eyes, Instant now) {
   if (!present_.test(client)) return std::nullopt;
   auto request = parse_request(text);
   if (!request) {
@@ -101,7 +101,7 @@ std::optional<Request> ClientRegistry::stated(ClientId client, std::string_view 
   return *std::move(request);
 }
 
-void ClientRegistry::stated_binary(ClientId client) {
+void ClientRegistry::receive_binary(ClientId client) {
   tell_error(client, {"message", "this base takes texts only"});
 }
 

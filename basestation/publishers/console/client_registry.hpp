@@ -50,9 +50,9 @@ class ClientRegistry {
   void joined(ClientId client, const Identity& who, Instant now);
   void left(ClientId client);
   // A request for somebody else to carry out; what the room does itself gives none.
-  std::optional<Request> stated(ClientId client, std::string_view text, const StateSource& eyes,
-                                Instant now);
-  void stated_binary(ClientId client);
+  std::optional<Request> receive_text(ClientId client, std::string_view text,
+                                      const StateSource& eyes, Instant now);
+  void receive_binary(ClientId client);
 
   void tell_error(ClientId client, const Problem& problem);
   void tell_all(std::string text);

@@ -47,13 +47,13 @@ void ConsoleService::submit(service::CarService& car, Instant now) {
         car.requests().left(clients_.person(news->client), now);
         clients_.left(news->client);
         break;
-      case web::ClientNews::Kind::kStated:
-        if (const auto request = clients_.stated(news->client, news->text, *this, now)) {
+      case web::ClientNews::Kind::kText:
+        if (const auto request = clients_.receive_text(news->client, news->text, *this, now)) {
           execute(news->client, *request, now);
         }
         break;
       case web::ClientNews::Kind::kBinary:
-        clients_.stated_binary(news->client);
+        clients_.receive_binary(news->client);
         break;
     }
   }
@@ -71,7 +71,7 @@ void ConsoleService::execute(web::ClientId client, const Request& request, Insta
   } else if (const auto* const ask_of_bench = std::get_if<AskBench>(&request)) {
     done = ask_bench(*ask_of_bench, by, now);
   } else if (std::holds_alternative<AskPlayback>(request)) {
-    done = Unexpected{Problem{"playback", "this is no replay"}};
+    done = Unexpected{Problem{"playback", "this base shows a live car, not a replay"}};
   }
   if (!done) clients_.tell_error(client, done.error());
 }

@@ -58,13 +58,14 @@ void ReplayConsole::receive() {
       case web::ClientNews::Kind::kLeft:
         clients_.left(news->client);
         break;
-      case web::ClientNews::Kind::kStated:
-        if (const auto request = clients_.stated(news->client, news->text, *this, player_.now())) {
+      case web::ClientNews::Kind::kText:
+        if (const auto request =
+                clients_.receive_text(news->client, news->text, *this, player_.now())) {
           execute(news->client, *request);
         }
         break;
       case web::ClientNews::Kind::kBinary:
-        clients_.stated_binary(news->client);
+        clients_.receive_binary(news->client);
         break;
     }
   }

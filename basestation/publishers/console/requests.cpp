@@ -323,7 +323,7 @@ Result<Request, Problem> parse_request(std::string_view text) {
     if (!reader.problem()) return request;
     return Unexpected{Problem{type + "." + reader.problem()->place, reader.problem()->what}};
   }
-  return Unexpected{Problem{"type", "not one that this base knows"}};
+  return Unexpected{Problem{"type", "this base does not know this type of request"}};
 }
 
 Role role_for(const Request& request) {

@@ -121,7 +121,7 @@ class RosPublisher : public service::Publisher {
                            ? node_list<ros::kGidOfHumble>(*domain_, node_, writers_)
                            : node_list<ros::kGidOfIron>(*domain_, node_, writers_);
     if (!(*writer)->write(bytes))
-      return Unexpected{Problem{"ros_discovery_info", "Fast DDS does not take it"}};
+      return Unexpected{Problem{"ros_discovery_info", "Fast DDS did not send the list of nodes"}};
     return true;
   }
 

@@ -39,12 +39,13 @@ void ClientRegistry::left(ClientId client) {
   watch_all_.reset(client);
 }
 
-std::optional<PlaybackControl> ClientRegistry::stated(ClientId client, std::string_view text) {
+std::optional<PlaybackControl> ClientRegistry::receive_text(ClientId client,
+                                                            std::string_view text) {
   return handle_request(client, parse_text(text));
 }
 
-std::optional<PlaybackControl> ClientRegistry::stated_bytes(ClientId client,
-                                                            std::span<const std::uint8_t> bytes) {
+std::optional<PlaybackControl> ClientRegistry::receive_bytes(ClientId client,
+                                                             std::span<const std::uint8_t> bytes) {
   return handle_request(client, parse_binary(bytes));
 }
 

@@ -41,9 +41,9 @@ class ClientRegistry {
 
   void joined(web::ClientId client);
   void left(web::ClientId client);
-  std::optional<PlaybackControl> stated(web::ClientId client, std::string_view text);
-  std::optional<PlaybackControl> stated_bytes(web::ClientId client,
-                                              std::span<const std::uint8_t> bytes);
+  std::optional<PlaybackControl> receive_text(web::ClientId client, std::string_view text);
+  std::optional<PlaybackControl> receive_bytes(web::ClientId client,
+                                               std::span<const std::uint8_t> bytes);
 
   bool wanted(std::size_t channel) const;  // by anybody, or kept for who comes
   bool anybody() const { return present_.any(); }

@@ -44,12 +44,12 @@ std::vector<PlaybackControl> FoxgloveServer::receive() {
       case web::ClientNews::Kind::kLeft:
         room_.left(news->client);
         break;
-      case web::ClientNews::Kind::kStated:
-        control = room_.stated(news->client, news->text);
+      case web::ClientNews::Kind::kText:
+        control = room_.receive_text(news->client, news->text);
         break;
       case web::ClientNews::Kind::kBinary: {
         const auto* const bytes = reinterpret_cast<const std::uint8_t*>(news->text.data());
-        control = room_.stated_bytes(news->client, {bytes, news->text.size()});
+        control = room_.receive_bytes(news->client, {bytes, news->text.size()});
         break;
       }
     }

@@ -243,11 +243,11 @@ Result<Request, Problem> parse_text(std::string_view text) {
     if (row.op == op) return Request{Refusable{row.capability}};
   }
   return Unexpected{Problem{
-      "message", op.empty() ? "it has no op" : "no op of that name: " + op.substr(0, kNamed)}};
+      "message", op.empty() ? "expected a field op" : "unknown op: " + op.substr(0, kNamed)}};
 }
 
 Result<Request, Problem> parse_binary(std::span<const std::uint8_t> bytes) {
-  if (bytes.empty()) return Unexpected{Problem{"message", "it is empty"}};
+  if (bytes.empty()) return Unexpected{Problem{"message", "is empty"}};
   switch (static_cast<ClientOp>(bytes[0])) {
     case ClientOp::kMessageData:
       return Request{Refusable{"clientPublish"}};
@@ -256,7 +256,7 @@ Result<Request, Problem> parse_binary(std::span<const std::uint8_t> bytes) {
     case ClientOp::kPlaybackControl:
       return playback_of(bytes.subspan(1));
   }
-  return Unexpected{Problem{"message", "no binary op " + std::to_string(bytes[0])}};
+  return Unexpected{Problem{"message", "unknown binary op " + std::to_string(bytes[0])}};
 }
 
 }  // namespace pitwall::publishers::foxglove

@@ -62,7 +62,7 @@ Result<LcmLink, Problem> LcmLink::open(const LcmUrl& url) {
   lcm_t* const lcm = lcm_create(url.text().c_str());
   if (lcm == nullptr) {
     return Unexpected{Problem{"--lcm " + url.text(),
-                              "LCM finds no way there: is there a route for multicast? "
+                              "LCM cannot send there; if no route for multicast exists: "
                               "ip route add 224.0.0.0/4 dev lo"}};
   }
   return LcmLink{lcm};

@@ -146,8 +146,8 @@ TextLine bench_line(const transport::BenchPause& pause) {
 // Whether the car's CAN bus is that of its database; nothing until the car has said so.
 std::optional<TextLine> bus_line(const state::VehicleState& vehicle, Instant now) {
   const auto value = [&](telemetry::FieldIndex field) {
-    const double stated = vehicle.view(field, now).value;
-    return std::isnan(stated) ? 0.0 : stated;
+    const double fields = vehicle.view(field, now).value;
+    return std::isnan(fields) ? 0.0 : fields;
   };
   const state::FieldView identity = vehicle.view(telemetry::field("bus.identity"), now);
   if (identity.quality == Quality::kNever) return std::nullopt;
@@ -171,9 +171,9 @@ std::optional<TextLine> bus_line(const state::VehicleState& vehicle, Instant now
 }
 
 // One field as its value is said, with its unit; nothing to add where it was never heard.
-class Statement {
+class FieldTexts {
  public:
-  Statement(const state::VehicleState& vehicle, Instant now) : vehicle_(vehicle), now_(now) {}
+  FieldTexts(const state::VehicleState& vehicle, Instant now) : vehicle_(vehicle), now_(now) {}
   std::string word(telemetry::FieldIndex at) const {
     const telemetry::FieldRow& row = telemetry::kFields[at];
     std::string text = state::value_text(row, vehicle_.view(at, now_).value);
@@ -191,7 +191,7 @@ class Statement {
 };
 
 // What a receiver says of itself, what the car makes of it, and what became of its bytes.
-void add_receiver(const Statement& stated, std::size_t unit, std::vector<TextLine>& lines) {
+void add_receiver(const FieldTexts& fields, std::size_t unit, std::vector<TextLine>& lines) {
   using telemetry::field;
   using telemetry::FieldIndex;
   using telemetry::Group;
@@ -199,29 +199,29 @@ void add_receiver(const Statement& stated, std::size_t unit, std::vector<TextLin
   const FieldIndex first = telemetry::fields_of(unit == 0 ? Group::kGnss0 : Group::kGnss1).first;
   const auto of = [&](FieldIndex of_unit_0) { return first + of_unit_0 - kFirst; };
   const std::string head = "          gnss" + std::to_string(unit) + "  ";
-  if (stated.ever(of(field("gnss0.position_verdict")))) {
-    lines.push_back({head + " position: " + stated.word(of(field("gnss0.position_verdict"))) +
-                         "   velocity: " + stated.word(of(field("gnss0.velocity_verdict"))) +
-                         "   heading: " + stated.word(of(field("gnss0.heading_verdict"))),
+  if (fields.ever(of(field("gnss0.position_verdict")))) {
+    lines.push_back({head + " position: " + fields.word(of(field("gnss0.position_verdict"))) +
+                         "   velocity: " + fields.word(of(field("gnss0.velocity_verdict"))) +
+                         "   heading: " + fields.word(of(field("gnss0.heading_verdict"))),
                      Tone::kPlain});
     add_words(std::string(head.size(), ' '),
-              {"satellites " + stated.word(of(field("gnss0.satellites"))),
-               "  type " + stated.word(of(field("gnss0.type"))),
-               "  sigma " + stated.word(of(field("gnss0.sigma"))),
-               "  corrections " + stated.word(of(field("gnss0.differential_age"))) + " old",
-               "  position " + stated.word(of(field("gnss0.position_age"))) + " old"},
+              {"satellites " + fields.word(of(field("gnss0.satellites"))),
+               "  type " + fields.word(of(field("gnss0.type"))),
+               "  sigma " + fields.word(of(field("gnss0.sigma"))),
+               "  corrections " + fields.word(of(field("gnss0.differential_age"))) + " old",
+               "  position " + fields.word(of(field("gnss0.position_age"))) + " old"},
               lines, Tone::kPlain);
   }
   constexpr FieldIndex kTraffic = telemetry::fields_of(Group::kReceivers).first;
   constexpr FieldIndex kPerUnit = telemetry::fields_of(Group::kReceivers).count / 2;
   static_assert(field("receivers.bytes_1") == kTraffic + kPerUnit);
-  if (!stated.ever(kTraffic)) return;
+  if (!fields.ever(kTraffic)) return;
   constexpr std::array<const char*, kPerUnit> kNames{
       "bytes", "logs", "bad checksum", "bad frame", "resynchronised", "refused", "lost"};
   std::vector<std::string> words;
   for (std::size_t i = 0; i < kPerUnit; ++i)
     words.push_back((i == 0 ? "" : "  ") +
-                    (kNames[i] + (" " + stated.word(kTraffic + unit * kPerUnit + i))));
+                    (kNames[i] + (" " + fields.word(kTraffic + unit * kPerUnit + i))));
   add_words(std::string(head.size(), ' '), words, lines, Tone::kPlain);
 }
 
@@ -229,35 +229,35 @@ void add_receiver(const Statement& stated, std::size_t unit, std::vector<TextLin
 // the car has said so.
 std::vector<TextLine> sensor_lines(const state::VehicleState& vehicle, Instant now) {
   using telemetry::field;
-  const Statement stated(vehicle, now);
-  const double excluded = stated.value(field("localization.excluded"));
-  if (!stated.ever(field("localization.excluded")) || std::isnan(excluded)) return {};
+  const FieldTexts fields(vehicle, now);
+  const double excluded = fields.value(field("localization.excluded"));
+  if (!fields.ever(field("localization.excluded")) || std::isnan(excluded)) return {};
   std::vector<TextLine> lines;
   lines.push_back(
-      {"sensors   excluded by the operator: " + stated.word(field("localization.excluded")),
+      {"sensors   excluded by the operator: " + fields.word(field("localization.excluded")),
        excluded > 0.0 ? Tone::kWarning : Tone::kPlain});
-  lines.push_back({"          imu0: " + stated.word(field("localization.imu0_verdict")) +
-                       "   imu1: " + stated.word(field("localization.imu1_verdict")) +
-                       "   wheels: " + stated.word(field("localization.wheel_verdict")),
+  lines.push_back({"          imu0: " + fields.word(field("localization.imu0_verdict")) +
+                       "   imu1: " + fields.word(field("localization.imu1_verdict")) +
+                       "   wheels: " + fields.word(field("localization.wheel_verdict")),
                    Tone::kPlain});
-  for (const std::size_t unit : {0U, 1U}) add_receiver(stated, unit, lines);
+  for (const std::size_t unit : {0U, 1U}) add_receiver(fields, unit, lines);
   return lines;
 }
 
 // Of all streams that the car watches, those that are not as they should be.
 void add_watchdogs(const state::VehicleState& vehicle, Instant now, std::vector<TextLine>& lines) {
-  const Statement stated(vehicle, now);
+  const FieldTexts fields(vehicle, now);
   const auto [first, count] = telemetry::fields_of(telemetry::Group::kStreams);
-  if (!stated.ever(first)) return;
+  if (!fields.ever(first)) return;
   constexpr double kNever = 1.0, kLate = 3.0, kLost = 4.0;
   static_assert(telemetry::label_at(telemetry::kBaseStates, 4) == "LOST");
   std::vector<std::string> words;
   bool bad = false;
   for (telemetry::FieldIndex i = first; i < first + count; ++i) {
-    const double health = stated.value(i);
+    const double health = fields.value(i);
     if (!(health >= kLate) && health != kNever) continue;
     bad = bad || health >= kLost;
-    words.push_back(std::string{telemetry::kFields[i].name} + " " + stated.word(i));
+    words.push_back(std::string{telemetry::kFields[i].name} + " " + fields.word(i));
   }
   const Tone tone = bad ? Tone::kAlarm : words.empty() ? Tone::kPlain : Tone::kWarning;
   if (words.empty()) words.emplace_back("all streams are as they should be");
@@ -266,12 +266,12 @@ void add_watchdogs(const state::VehicleState& vehicle, Instant now, std::vector<
 
 // Why the car stops or has stopped; nothing until it has said so.
 std::optional<TextLine> stop_line(const state::VehicleState& vehicle, Instant now) {
-  const Statement stated(vehicle, now);
+  const FieldTexts fields(vehicle, now);
   constexpr auto kCause = telemetry::field("mode.first_stop_cause");
-  if (!stated.ever(kCause)) return std::nullopt;
-  const bool stops = stated.value(kCause) > 0.0;
+  if (!fields.ever(kCause)) return std::nullopt;
+  const bool stops = fields.value(kCause) > 0.0;
   return TextLine{
-      "stop      " + (stops ? "because: " + stated.word(kCause) : std::string{"no reason"}),
+      "stop      " + (stops ? "because: " + fields.word(kCause) : std::string{"no reason"}),
       stops ? Tone::kAlarm : Tone::kPlain};
 }
 

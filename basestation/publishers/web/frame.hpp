@@ -1,7 +1,7 @@
-// Binary frames from base to console: see PROTOCOL.md.
-//   in     fields with value, age, quality, judgement; points of a field's past
-//   out    bytes, little endian; the 24 bytes of the header are made for each client, because each
-//          has lost another number of frames
+// Binary frames from base to console, as PROTOCOL.md describes them.
+//   in     fields with value, age, quality, judgement; points of the history of a field
+//   out    bytes, little endian. The header of 24 bytes is made for each client, because it counts
+//          the frames that this client has lost
 //   cost   O(entries)
 // SPDX-License-Identifier: Apache-2.0
 #pragma once

@@ -131,7 +131,7 @@ HttpAnswer HttpResponder::answer(const HttpQuestion& question) {
     answer = refusal(kForbidden, text_of(who.error()));
   } else if (config_.subprotocols.empty() && !query_value(question.target, "token").empty()) {
     answer = refusal(kBad,
-                     "a token does not belong into an address: log in, or send the header "
+                     "a token must not be part of the address: log in, or send the header "
                      "Authorization: Bearer TOKEN");
   } else if (config_.subprotocols.empty() && path == kSession) {
     answer = session(question, who);
@@ -166,7 +166,7 @@ HttpAnswer HttpResponder::session(const HttpQuestion& question,
     return answer;
   }
   if (question.method != "GET") {
-    answer = refusal(kNoMethod, "only GET, POST and DELETE here");
+    answer = refusal(kNoMethod, "expected GET, POST or DELETE");
     answer.allow = "GET, POST, DELETE";
     return answer;
   }
@@ -183,7 +183,7 @@ HttpAnswer HttpResponder::session(const HttpQuestion& question,
 HttpAnswer HttpResponder::log_in(const HttpQuestion& question) const {
   const auto asked = json::JsonValue::parse(question.body, "login");
   const std::string token = asked ? asked->text("token") : std::string{};
-  if (token.empty()) return refusal(kBad, R"(a login is {"token": "..."})");
+  if (token.empty()) return refusal(kBad, R"(expected {"token": "..."})");
   const std::string session =
       config_.access.tokens->session(token, {config_.utc().ns + kSessionLasts.ns});
   if (session.empty()) return refusal(kNoToken, text_of(Refused::kToken));
@@ -238,7 +238,7 @@ HttpAnswer HttpResponder::open_foreign(const HttpQuestion& question, std::string
   }
   std::string known;
   for (const std::string_view name : config_.subprotocols) known += " " + std::string{name};
-  return refusal(kBad, "this WebSocket speaks" + known);
+  return refusal(kBad, "expected one of the subprotocols:" + known);
 }
 
 HttpAnswer HttpResponder::serve(const HttpQuestion& question, std::string_view path,
@@ -246,7 +246,7 @@ HttpAnswer HttpResponder::serve(const HttpQuestion& question, std::string_view p
   if (!config_.subprotocols.empty()) return open_foreign(question, path, who);
   const bool of_a_car = path == "/ws" || path.starts_with("/api/");
   const auto car = of_a_car ? car_of(question.target) : 0;
-  if (!car) return refusal(kNotFound, "no car of that number here");
+  if (!car) return refusal(kNotFound, "this base has no car of that number");
   if (path == "/ws") {
     if (!question.upgrade) return refusal(kBad, "/ws is a WebSocket");
     HttpAnswer answer;
@@ -256,7 +256,7 @@ HttpAnswer HttpResponder::serve(const HttpQuestion& question, std::string_view p
   }
   if (path.starts_with(kLayouts)) return layout(question, path.substr(kLayouts.size()), who);
   if (question.method != "GET" && question.method != "HEAD") {
-    HttpAnswer answer = refusal(kNoMethod, "only GET and HEAD here");
+    HttpAnswer answer = refusal(kNoMethod, "expected GET or HEAD");
     answer.allow = "GET, HEAD";
     return answer;
   }
@@ -281,7 +281,7 @@ HttpAnswer HttpResponder::file(const HttpQuestion& question, std::string_view pa
   const ServedFile* const file = files_.find(path);
   HttpAnswer answer;
   if (file == nullptr) {
-    if (path != "/") return refusal(kNotFound, "nothing of that name here");
+    if (path != "/") return refusal(kNotFound, "no file of that name");
     answer.type = type_of("index.html");
     answer.body = shared(std::string{kNotBuilt});
     return answer;
@@ -296,13 +296,15 @@ HttpAnswer HttpResponder::file(const HttpQuestion& question, std::string_view pa
 
 HttpAnswer HttpResponder::layout(const HttpQuestion& question, std::string_view name,
                                  const Identity& who) {
-  if (!is_layout_name(name)) return refusal(kNotFound, "a layout's name has letters and digits");
+  if (!is_layout_name(name))
+    return refusal(kNotFound, "expected a layout name of letters and digits");
   if (question.method == "PUT") {
-    if (who.role != Role::kOperator) return refusal(kForbidden, "layouts are kept by operators");
+    if (who.role != Role::kOperator)
+      return refusal(kForbidden, "only an operator can save a layout");
     return put_layout(name, question.body);
   }
   if (question.method != "GET") {
-    HttpAnswer answer = refusal(kNoMethod, "only GET and PUT here");
+    HttpAnswer answer = refusal(kNoMethod, "expected GET or PUT");
     answer.allow = "GET, PUT";
     return answer;
   }
@@ -322,12 +324,12 @@ HttpAnswer HttpResponder::layout(const HttpQuestion& question, std::string_view 
 }
 
 HttpAnswer HttpResponder::put_layout(std::string_view name, std::string_view body) {
-  if (body.size() > kLayoutBytes) return refusal(kTooLarge, "a layout has at most 256 KiB");
+  if (body.size() > kLayoutBytes) return refusal(kTooLarge, "the layout is larger than 256 KiB");
   const auto value = json::JsonValue::parse(body, "layout");
   if (!value) return refusal(kBad, to_string(value.error()));
-  if (!value->is_object()) return refusal(kBad, "a layout is an object");
+  if (!value->is_object()) return refusal(kBad, "layout: expected a JSON object");
   if (!layouts_.contains(name) && layouts_.size() >= kLayoutsMax) {
-    return refusal(kNoRoom, "a hundred layouts are kept already");
+    return refusal(kNoRoom, "100 layouts are saved already, and no more fit");
   }
   if (!config_.layouts.empty()) {
     const auto written =

@@ -106,7 +106,8 @@ class WebServer::Engine::HttpSession : public std::enable_shared_from_this<HttpS
         return upgrade(client, std::move(answer));
       }
       engine_.count([](WebCounters& c) { ++c.refused_places; });
-      answer = refusal(503, "all places for consoles are taken");
+      answer =
+          refusal(503, "no connection is free: the base serves its largest number of consoles");
     }
     if (answer.status >= 400) engine_.count([](WebCounters& c) { ++c.refused_http; });
     write(std::move(answer), request.keep_alive(), request.version(),

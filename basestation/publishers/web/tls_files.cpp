@@ -36,10 +36,11 @@ Result<bool, Problem> use_key(SSL_CTX* context, const std::string& file) {
   const PrivateKey key{PEM_read_bio_PrivateKey(bytes.get(), nullptr, no_password, nullptr),
                        &EVP_PKEY_free};
   if (!key) {
-    return Unexpected{Problem{file, "no private key in PEM, without a password: " + complaint()}};
+    return Unexpected{
+        Problem{file, "expected a private key in PEM without a password: " + complaint()}};
   }
   if (SSL_CTX_use_PrivateKey(context, key.get()) != 1) {
-    return Unexpected{Problem{file, "not the key of the certificate: " + complaint()}};
+    return Unexpected{Problem{file, "is not the key of the certificate: " + complaint()}};
   }
   return true;
 }
@@ -64,11 +65,11 @@ Result<TlsContext, Problem> read_tls_files(const std::string& certificate, const
       context, SSL_OP_NO_COMPRESSION | SSL_OP_NO_RENEGOTIATION | SSL_OP_CIPHER_SERVER_PREFERENCE);
   SSL_CTX_set_mode(context, SSL_MODE_RELEASE_BUFFERS);
   if (SSL_CTX_use_certificate_chain_file(context, certificate.c_str()) != 1)
-    return Unexpected{Problem{certificate, "no certificate in PEM: " + complaint()}};
+    return Unexpected{Problem{certificate, "expected a certificate in PEM: " + complaint()}};
   const auto used = use_key(context, key);
   if (!used) return Unexpected{used.error()};
   if (SSL_CTX_check_private_key(context) != 1)
-    return Unexpected{Problem{key, "not the key of " + certificate + ": " + complaint()}};
+    return Unexpected{Problem{key, "is not the key of " + certificate + ": " + complaint()}};
   tls.warning = warning_of(SSL_CTX_get0_certificate(context), certificate);
   return tls;
 }

@@ -112,8 +112,8 @@ struct WebServer::Engine {
   WaitingRoom::Connection newest_connection = 0;
   WaitingRoom waiting;
   std::map<WaitingRoom::Connection, std::weak_ptr<HttpSession>> sessions;
-  std::string stated;  // of what was refused last, and when
-  std::optional<Instant> stated_at;
+  std::string last_refusal;  // of what was refused last, and when
+  std::optional<Instant> last_refusal_at;
   // After what the sessions in its handlers refer to, so that it goes before.
   asio::io_context io{1};
   Tcp::acceptor acceptor;
@@ -230,7 +230,7 @@ class WebServer::Engine::Socket : public std::enable_shared_from_this<Socket> {
     pace_.receive(transport::wall_now());
     engine_.count([](WebCounters& c) { ++c.texts_received; });
     ClientNews news{
-        .kind = stream_.got_text() ? ClientNews::Kind::kStated : ClientNews::Kind::kBinary,
+        .kind = stream_.got_text() ? ClientNews::Kind::kText : ClientNews::Kind::kBinary,
         .client = client_};
     news.text = beast::buffers_to_string(received_.data());
     received_.consume(received_.size());

@@ -82,9 +82,9 @@ void WebServer::Engine::refuse(std::uint64_t WebCounters::*counter, const std::s
   count([counter](WebCounters& c) { ++(c.*counter); });
   const Instant now = transport::wall_now();
   const std::string what = why.substr(0, why.find(':'));
-  if (what == stated && stated_at && now - *stated_at < kSayingAgain) return;
-  stated = what;
-  stated_at = now;
+  if (what == last_refusal && last_refusal_at && now - *last_refusal_at < kSayingAgain) return;
+  last_refusal = what;
+  last_refusal_at = now;
   responder.config().say("console refused: " + why);
 }
 
@@ -222,7 +222,8 @@ Result<std::unique_ptr<WebServer>, Problem> WebServer::start(transport::UdpAddre
         transport::posix_call([] { return ::eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK); })};
   }
   if (!hold_reserve()) {
-    return Unexpected{Problem{"--web " + to_string(listen), "no memory for its reserve"}};
+    return Unexpected{
+        Problem{"--web " + to_string(listen), "no memory for the reserve of the server"}};
   }
   engine->accept();
   engine->tend();
@@ -261,7 +262,7 @@ std::optional<ClientNews> WebServer::next_news(std::size_t car) {
     news.pop_front();
     if (item->kind == ClientNews::Kind::kLeft) door.leaving.reset(item->client);
   }
-  if (item->kind == ClientNews::Kind::kStated || item->kind == ClientNews::Kind::kBinary) {
+  if (item->kind == ClientNews::Kind::kText || item->kind == ClientNews::Kind::kBinary) {
     send(ClientSet{}.set(item->client), nullptr);
   }
   return item;

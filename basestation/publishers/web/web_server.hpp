@@ -36,7 +36,7 @@
 namespace pitwall::publishers::web {
 
 struct ClientNews {
-  enum class Kind : std::uint8_t { kJoined, kLeft, kStated, kBinary };
+  enum class Kind : std::uint8_t { kJoined, kLeft, kText, kBinary };
   Kind kind = Kind::kJoined;
   ClientId client = 0;
   Identity who{};      // kJoined

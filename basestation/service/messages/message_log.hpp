@@ -1,8 +1,9 @@
-// Messages of one car's service: the newest of every state and the last lines of every log, as JSON
-// texts. Consoles, the recorder and other tools get the very same ones.
+// Messages of one car's service as JSON texts: the newest message of each state type, and the last
+// lines of each log. Consoles, the recorder and other tools all get the same ones.
 //   in     texts with their type and time
-//   out    each to every subscriber at once; those that who comes later has to know
-//   bound  kLines of each log are kept
+//   out    each message at once to every subscriber; for a client that connects later, the kept
+//          states and lines
+//   bound  the last kLines of each log are kept
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

@@ -86,51 +86,51 @@ std::string_view severity_of(const telemetry::Event& event) {
 
 constexpr std::array kWindows_s{1, 5, 30};
 
-std::string down_windows(const LinkStatement& stated, std::size_t path) {
+std::string down_windows(const LinkSources& sources, std::size_t path) {
   constexpr int kOwnWindow_s = 5;  // of PathFigures' rate
-  const telemetry::PathFigures& received = stated.report.paths[path].received;
+  const telemetry::PathFigures& received = sources.report.paths[path].received;
   Array windows;
   for (const int length_s : kWindows_s) {
-    const link::PathWindow window = stated.meter.path(path, seconds(length_s));
+    const link::PathWindow window = sources.meter.path(path, seconds(length_s));
     Object object;
     object.number("seconds", length_s).number("loss", window.loss);
-    object.number("rtt_ms", stated.meter.round_trip_ms(seconds(length_s)));
+    object.number("rtt_ms", sources.meter.round_trip_ms(seconds(length_s)));
     object.number("jitter_ms", received.jitter.milliseconds());
     object.number("reorder", window.late).number("duplicate", window.duplicate);
     constexpr double kBytesPerKbit = 125.0;
     object.number("kbit_s",
                   length_s == kOwnWindow_s ? received.rate_bytes_per_s / kBytesPerKbit : kUnset);
-    windows.json(object.number("cap_kbit_s", stated.meter.down_cap_kbit_s(path)).str());
+    windows.json(object.number("cap_kbit_s", sources.meter.down_cap_kbit_s(path)).str());
   }
   return windows.str();
 }
 
-std::string up_windows(const LinkStatement& stated, std::size_t path, Instant now) {
+std::string up_windows(const LinkSources& sources, std::size_t path, Instant now) {
   constexpr std::array kLoss{telemetry::field("radio.loss_0"), telemetry::field("radio.loss_1")};
-  const state::FieldView loss = stated.vehicle.view(kLoss[path], now);
+  const state::FieldView loss = sources.vehicle.view(kLoss[path], now);
   const bool known = loss.quality <= state::Quality::kLate && !loss.unset;
   Array windows;
   for (const int length_s : kWindows_s) {
     windows.json(Object{}
                      .number("seconds", length_s)
                      .number("loss", known ? loss.value : kUnset)
-                     .number("rtt_ms", stated.meter.round_trip_ms(seconds(length_s)))
-                     .number("kbit_s", stated.meter.path(path, seconds(length_s)).up_kbit_s)
-                     .number("cap_kbit_s", stated.up_cap_kbit_s)
+                     .number("rtt_ms", sources.meter.round_trip_ms(seconds(length_s)))
+                     .number("kbit_s", sources.meter.path(path, seconds(length_s)).up_kbit_s)
+                     .number("cap_kbit_s", sources.up_cap_kbit_s)
                      .str());
   }
   return windows.str();
 }
 
-std::string groups_text(const LinkStatement& stated, Instant now) {
+std::string groups_text(const LinkSources& sources, Instant now) {
   Array groups;
   for (const telemetry::GroupRow& row : telemetry::kGroupTable) {
     if (row.direction != telemetry::Direction::kDown) continue;
-    const state::FieldView view = stated.vehicle.group(row.group, now);
+    const state::FieldView view = sources.vehicle.group(row.group, now);
     const bool ever = view.quality != state::Quality::kNever;
     groups.json(Object{}
                     .text("group", row.name)
-                    .number("kbit_s", stated.meter.group_kbit_s(row.group))
+                    .number("kbit_s", sources.meter.group_kbit_s(row.group))
                     .json("age_ms", ever ? json::number(view.age.milliseconds()) : "null")
                     .number("target_ms", row.target_age.milliseconds())
                     .str());
@@ -312,26 +312,26 @@ std::string mark_text(const std::string& text, const std::string& by, Instant no
       .str();
 }
 
-std::string link_text(const LinkStatement& stated, Instant now) {
+std::string link_text(const LinkSources& sources, Instant now) {
   Array paths;
-  for (std::size_t path = 0; path < stated.paths; ++path) {
+  for (std::size_t path = 0; path < sources.paths; ++path) {
     paths.json(Object{}
                    .number("path", path)
                    .text("direction", "down")
-                   .json("windows", down_windows(stated, path))
+                   .json("windows", down_windows(sources, path))
                    .str());
     paths.json(Object{}
                    .number("path", path)
                    .text("direction", "up")
-                   .json("windows", up_windows(stated, path, now))
+                   .json("windows", up_windows(sources, path, now))
                    .str());
   }
   return Object{}
       .text("type", "link")
-      .text("state", text_of(stated.state))
-      .number("since_ms", stated.since.milliseconds())
+      .text("state", text_of(sources.state))
+      .number("since_ms", sources.since.milliseconds())
       .json("paths", paths.str())
-      .json("groups", groups_text(stated, now))
+      .json("groups", groups_text(sources, now))
       .str();
 }
 

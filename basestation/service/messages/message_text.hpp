@@ -42,7 +42,7 @@ std::string fuel_text(const state::FuelLeft& fuel);
 std::string event_text(const telemetry::Event& event);
 std::string mark_text(const std::string& text, const std::string& by, Instant now);
 
-struct LinkStatement {
+struct LinkSources {
   const telemetry::LinkReport& report;
   const link::LinkMeter& meter;
   const state::VehicleState& vehicle;
@@ -51,6 +51,6 @@ struct LinkStatement {
   std::uint8_t paths = 1;
   double up_cap_kbit_s = kUnset;  // of each path
 };
-std::string link_text(const LinkStatement& stated, Instant now);
+std::string link_text(const LinkSources& sources, Instant now);
 
 }  // namespace pitwall::service

@@ -61,17 +61,18 @@ std::string settings_text(const command::SettingsEditor& editor,
       .str();
 }
 
-std::string expected_text(const command::OperatorEntries& stated, double fuel_left_l, Instant now) {
-  const bool loaded = !std::isnan(stated.expected.fuel_loaded_l);
+std::string expected_text(const command::OperatorEntries& entries, double fuel_left_l,
+                          Instant now) {
+  const bool loaded = !std::isnan(entries.expected.fuel_loaded_l);
   return Object{}
       .text("type", "expected")
-      .number("round_speed_mps", stated.expected.round_speed_mps)
-      .text("round_speed_by", stated.round_speed_by)
-      .number("fuel_loaded_l", stated.expected.fuel_loaded_l)
-      .text("fuel_by", stated.fuel_by)
-      .number("fuel_ms", loaded ? stated.fuel_at.milliseconds() : kUnset)
+      .number("round_speed_mps", entries.expected.round_speed_mps)
+      .text("round_speed_by", entries.round_speed_by)
+      .number("fuel_loaded_l", entries.expected.fuel_loaded_l)
+      .text("fuel_by", entries.fuel_by)
+      .number("fuel_ms", loaded ? entries.fuel_at.milliseconds() : kUnset)
       .number("fuel_left_l", loaded ? fuel_left_l : kUnset)
-      .number("track_flag", stated.expected.track_flag)
+      .number("track_flag", entries.expected.track_flag)
       .number("time_ms", now.milliseconds())
       .str();
 }

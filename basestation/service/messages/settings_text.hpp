@@ -19,7 +19,7 @@ std::string settings_text(const command::SettingsEditor& editor,
                           const alarms::AlarmSettings& alarms,
                           const std::optional<Problem>& unreadable = {});
 // `fuel_left_l`: of what was filled in, as it is reckoned now.
-std::string expected_text(const command::OperatorEntries& stated, double fuel_left_l, Instant now);
+std::string expected_text(const command::OperatorEntries& entries, double fuel_left_l, Instant now);
 
 // "settings file unreadable: FILE:3:5: ...; built-in limits in force"
 std::string unreadable_text(const Problem& problem);

@@ -1,10 +1,11 @@
-// A base that records: what a killed one left is made whole and known again, then everything is
-// kept, with the very messages that consoles get.
-//   in     the folder, what the segments say of the run; the car's service
-//   out    the recorder; lines for a person, by `say`; fields of the base that tell how it records
+// Recording of one car by the base. At the start, recordings that a killed base left are repaired
+// and read back into the service.
+//   in     the folder of the recordings, the metadata of the run; the car's service
+//   out    the recorder, which keeps everything, with the very messages that consoles get; lines
+//          for the log, by `say`; fields of the base that tell how the recording goes
 //   invariants
-//          inputs of the evaluator beside states are recorded, too: check_alarms() gives the same
-//          list
+//          the inputs of the alarm evaluator that are not vehicle state are recorded too, so that
+//          check_alarms() computes the same alarm list from the recording
 //   errors Problem where the folder cannot be made or written
 // SPDX-License-Identifier: Apache-2.0
 #pragma once

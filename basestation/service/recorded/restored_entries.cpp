@@ -23,16 +23,16 @@ Instant entered_at(const json::JsonValue& text, Instant reported) {
 void EntriesReader::expected(std::string_view json, Instant at) {
   const auto text = json::JsonValue::parse(json, "expected");
   if (!text) return;
-  command::OperatorEntries stated;
-  stated.expected.round_speed_mps = text->number("round_speed_mps");
-  stated.expected.track_flag = text->number("track_flag");
-  stated.expected.fuel_loaded_l = text->number("fuel_loaded_l");
-  stated.expected.fuel_entries = std::isnan(stated.expected.fuel_loaded_l) ? 0 : 1;
-  stated.round_speed_by = text->text("round_speed_by");
-  stated.fuel_by = text->text("fuel_by");
-  stated.fuel_at = entered_at(*text, at);
+  command::OperatorEntries entries;
+  entries.expected.round_speed_mps = text->number("round_speed_mps");
+  entries.expected.track_flag = text->number("track_flag");
+  entries.expected.fuel_loaded_l = text->number("fuel_loaded_l");
+  entries.expected.fuel_entries = std::isnan(entries.expected.fuel_loaded_l) ? 0 : 1;
+  entries.round_speed_by = text->text("round_speed_by");
+  entries.fuel_by = text->text("fuel_by");
+  entries.fuel_at = entered_at(*text, at);
   fuel_.loaded(text->number("fuel_left_l"));
-  stated_ = std::move(stated);
+  entries_ = std::move(entries);
 }
 
 void EntriesReader::state(const telemetry::Snapshot& state, telemetry::GroupSet groups) {
@@ -45,8 +45,8 @@ void EntriesReader::state(const telemetry::Snapshot& state, telemetry::GroupSet 
 }
 
 std::optional<RestoredEntries> EntriesReader::result(Instant now) const {
-  if (!stated_) return std::nullopt;
-  RestoredEntries recalled{.entries = *stated_, .fuel_left_l = fuel_.level_l()};
+  if (!entries_) return std::nullopt;
+  RestoredEntries recalled{.entries = *entries_, .fuel_left_l = fuel_.level_l()};
   if (!std::isfinite(recalled.fuel_left_l)) return recalled;
   if (engine_at_ && *engine_at_ < now && std::isfinite(engine_.throttle)) {
     const double burnt_l = state::fuel_flow_lps(engine_) * (now - *engine_at_).seconds();

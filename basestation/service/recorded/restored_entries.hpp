@@ -33,7 +33,7 @@ class EntriesReader {
   std::optional<RestoredEntries> result(Instant now) const;  // none: nobody had entered anything
 
  private:
-  std::optional<command::OperatorEntries> stated_;
+  std::optional<command::OperatorEntries> entries_;
   state::FuelEstimate fuel_;
   state::EngineSample engine_;
   std::optional<Instant> engine_at_;

@@ -214,9 +214,9 @@ void derive_flags(const Pass& pass, const Expectations& expected) {
   pass.put(BaseField::kFlagConflict, received ? (flag_conflict(flags) ? 1.0 : 0.0) : kUnset,
            {kTrack});
   const double round_mps = pass.value(kRound);
-  const RoundSpeedStated speeds{.race_control_mps = round_mps,
-                                .pit_wall_mps = expected.round_speed_mps,
-                                .car_target_mps = pass.usable(kTarget)};
+  const RoundSpeeds speeds{.race_control_mps = round_mps,
+                           .pit_wall_mps = expected.round_speed_mps,
+                           .car_target_mps = pass.usable(kTarget)};
   pass.put(BaseField::kRaceControlSpeed, round_mps, {kRound});
   pass.put(BaseField::kRoundSpeedExpected, expected.round_speed_mps);
   pass.put(BaseField::kRoundSpeedConflict,
@@ -271,13 +271,14 @@ bool MonitorState::sampled_anew(const VehicleState& vehicle, Group group, Instan
 }
 
 // By the car's own level where it tells one, else by what was loaded and burnt.
-void MonitorState::step_fuel(const VehicleState& vehicle, const Expectations& stated, Instant now) {
+void MonitorState::step_fuel(const VehicleState& vehicle, const Expectations& expectations,
+                             Instant now) {
   const auto value = [&](FieldIndex index) { return vehicle.view(index, now).value; };
   const double level_l = value(field("fuel.level")), lap = value(field("track.lap"));
   fuel_measured_ = fuel_measured_ || !std::isnan(level_l);
-  bool reckoned = stated.fuel_entries != fuel_entries_;
-  if (reckoned) estimate_.loaded(stated.fuel_loaded_l);
-  fuel_entries_ = stated.fuel_entries;
+  bool reckoned = expectations.fuel_entries != fuel_entries_;
+  if (reckoned) estimate_.loaded(expectations.fuel_loaded_l);
+  fuel_entries_ = expectations.fuel_entries;
   if (sampled_anew(vehicle, Group::kPowertrain, now, engine_at_)) {
     estimate_.receive({.speed_rpm = value(field("engine.speed")),
                        .throttle = value(field("powertrain.throttle_position")),

@@ -40,7 +40,7 @@ struct MonitorState {
   FuelLeft fuel_left(const FuelPlan& plan) const;
 
  private:
-  void step_fuel(const VehicleState& vehicle, const Expectations& stated, Instant now);
+  void step_fuel(const VehicleState& vehicle, const Expectations& expectations, Instant now);
   bool sampled_anew(const VehicleState& vehicle, telemetry::Group group, Instant now,
                     Instant& newest);
 

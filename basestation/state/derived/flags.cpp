@@ -25,19 +25,19 @@ int restriction_of_track_flag(double flag) {
   return kRestriction.at(static_cast<std::size_t>(flag));
 }
 
-bool flag_conflict(const FlagEntries& stated) {
-  if (stated.encodings_differ > 0.0) return true;
-  const double should_hold = binding(stated.race_control_track, stated.pit_wall_track);
-  return differ(stated.car_track, should_hold) ||
-         differ(stated.race_control_track, stated.pit_wall_track) ||
-         differ(stated.race_control_vehicle, stated.car_vehicle);
+bool flag_conflict(const FlagEntries& flags) {
+  if (flags.encodings_differ > 0.0) return true;
+  const double should_hold = binding(flags.race_control_track, flags.pit_wall_track);
+  return differ(flags.car_track, should_hold) ||
+         differ(flags.race_control_track, flags.pit_wall_track) ||
+         differ(flags.race_control_vehicle, flags.car_vehicle);
 }
 
-bool round_speed_conflict(const RoundSpeedStated& stated) {
-  const double round_mps = stated.race_control_mps;
+bool round_speed_conflict(const RoundSpeeds& speeds) {
+  const double round_mps = speeds.race_control_mps;
   if (!(round_mps > 0.0)) return false;  // none was said
-  return std::abs(round_mps - stated.pit_wall_mps) > kRoundSpeedTolerance_mps ||
-         stated.car_target_mps > round_mps + kRoundSpeedTolerance_mps;
+  return std::abs(round_mps - speeds.pit_wall_mps) > kRoundSpeedTolerance_mps ||
+         speeds.car_target_mps > round_mps + kRoundSpeedTolerance_mps;
 }
 
 }  // namespace pitwall::state

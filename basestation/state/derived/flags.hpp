@@ -23,12 +23,12 @@ struct FlagEntries {
   double pit_wall_track = kUnset;
   double encodings_differ = kUnset;  // 1: the two ways of race control into the car disagree
 };
-bool flag_conflict(const FlagEntries& stated);
+bool flag_conflict(const FlagEntries& flags);
 
-struct RoundSpeedStated {
+struct RoundSpeeds {
   double race_control_mps = kUnset, pit_wall_mps = kUnset, car_target_mps = kUnset;
 };
-bool round_speed_conflict(const RoundSpeedStated& stated);
+bool round_speed_conflict(const RoundSpeeds& speeds);
 
 // Which of two flags binds the car more; RED, then black, yellow, green. Unknown flags bind most.
 int restriction_of_track_flag(double flag);

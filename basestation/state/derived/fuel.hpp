@@ -1,13 +1,13 @@
-// Fuel range in laps and attempts. The paper's team accepted an attempt of two laps with fuel for
-// one, and lost its place.
-//   in     litres in the tank, litres used and lap number as they come; the plan of the race
-//   out    litres per lap, laps left, whole attempts that still leave fuel to come home
+// Fuel range in laps and in attempts of the passing competition. An attempt takes two laps and the
+// lap into the pits; a team that began one with fuel for a single lap lost its place.
+//   in     litres in the tank, litres used since the start, lap number; the plan of the race
+//   out    litres per lap, laps left, whole attempts after which the car still reaches the pits
 //   invariants
-//          a lap counts when the car drove it whole, from one change of the lap number to the next,
-//          with fuel burnt. Judged by the thirstiest of the last kLaps; by the plan's guess until
-//          there is one
-//          filling the tank begins anew, and forgets no lap
-//   errors a level that is no number changes nothing
+//          only a whole lap is measured: from one change of the lap number to the next, with fuel
+//          burnt in it. The consumption is the largest of the last kLaps measured laps; before the
+//          first one it is the guess of the plan
+//          refuelling starts a new measurement; the laps measured before stay
+//   errors a level that is not a number changes nothing
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

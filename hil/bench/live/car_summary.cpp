@@ -51,7 +51,7 @@ world::LossDetector detector_of(yaml::StrictMap& map) {
   if (by == "period") return kPeriod;
   if (by == "socket_queue") return kSocketQueue;
   if (by == "interface") return kInterface;
-  map.fail("by", "is no detector of losses");
+  map.fail("by", "expected one of: counter, period, socket_queue, interface");
 }
 
 world::LossReport loss_of(yaml::StrictMap map) {

@@ -350,7 +350,8 @@ Result<LiveResult, Problem> run_live(const scenario::Scenario& scenario,
   if (auto problem = refused_by(BenchMode::kLive, scenario.faults))
     return Unexpected{*std::move(problem)};
   if (scenario.receivers)
-    return Unexpected{Problem{"receivers", "live, the car's own file says what its receivers are"}};
+    return Unexpected{Problem{
+        "receivers", "allowed in lockstep only: in a live run the car file names the receivers"}};
   for (const scenario::OperatorText& word : scenario.operator_texts)
     if (const auto fit = inputs::parse_text_command(word.text); !fit)
       return Unexpected{fit.error()};

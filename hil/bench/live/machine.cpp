@@ -38,7 +38,7 @@ Result<bool, Problem> fill(const std::string& disk, const std::string& filler) {
   if (!asked.ok()) return refuse(disk, asked.reason());
   const transport::FileDescriptor file(
       posix_call([&] { return open(filler.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0600); }));
-  if (!file.valid()) return refuse(filler, "cannot be made");
+  if (!file.valid()) return refuse(filler, "cannot be created");
   const auto bytes = static_cast<off_t>(room.f_bavail * room.f_frsize);
   const auto taken = posix_call([&] { return fallocate(file.get(), 0, 0, bytes); });
   if (!taken.ok()) return refuse(filler, taken.reason());
@@ -64,7 +64,7 @@ bool is_machine_fault(BenchFaultKind kind) {
 }
 
 Result<bool, Problem> mount_disk(const std::string& folder) {
-  if (!is_guest()) return refuse("log_disk_full", "only in a guest: bus exec --guest");
+  if (!is_guest()) return refuse("log_disk_full", "possible only in a guest: bus exec --guest");
   const auto made = posix_call([&] { return mkdir(folder.c_str(), 0755); });
   if (!made.ok() && made.error != EEXIST) return refuse(folder, made.reason());
   const auto mounted =
@@ -81,7 +81,8 @@ Result<Machine, Problem> Machine::take(std::span<const BenchFault> faults,
     if (!is_machine_fault(fault.kind)) continue;
     const std::string kind(faults::row_of(fault.kind).name);
     if (!is_guest())
-      return refuse(kind, "only in a guest, never on a machine that others use: bus exec --guest");
+      return refuse(
+          kind, "possible only in a guest, because it changes the whole machine: bus exec --guest");
     if (fault.kind == BenchFaultKind::kLogDiskFull && disk.empty())
       return refuse(kind, "this run has no disk of its own to fill");
     machine.actions_.push_back({.fault = fault});

@@ -25,7 +25,7 @@ std::string name_of(Role role) { return std::string(kRoleNames[static_cast<std::
 std::optional<Problem> ProcessSupervisor::start() {
   for (const ProcessAction& action : script_)
     if (!plays(action.role))
-      return Problem{name_of(action.role), "a fault names it, but this run has none"};
+      return Problem{name_of(action.role), "a fault acts on this process, but the run has none"};
   for (const ProcessAction& action : script_)
     if (action.act == Act::kStart)
       if (auto problem = prepare(action.role)) return problem;
@@ -108,7 +108,7 @@ std::optional<Problem> ProcessSupervisor::missing() {
     if (const auto ended = one.process->poll())
       return Problem{member(role).command.front(), "the " + name_of(role) + " ended with code " +
                                                        std::to_string(ended->shell_code()) +
-                                                       " although nobody asked it to"};
+                                                       " before the run was over"};
   }
   return std::nullopt;
 }

@@ -19,11 +19,20 @@
 #include "hil/bench/signals.hpp"
 #include "hil/can_bus/memory_bus.hpp"
 #include "hil/grading/grader.hpp"
+#include "protocol/telemetry/registry/labels.hpp"
 
 namespace pitwall::bench {
 namespace {
 
 constexpr std::size_t kInboxFrames = 4096;  // a second of a full bus, and one tick is 10 ms
+
+// "driving", "controlled stop, IMU: both units lost".
+std::string mode_text(const safety::SupervisorOutput& chosen) {
+  std::string text{telemetry::label_at(telemetry::kModes, static_cast<std::size_t>(chosen.mode))};
+  if (chosen.cause != safety::Cause::kNone)
+    text += std::string{", "} + safety::text_of(chosen.cause);
+  return text;
+}
 
 class Lockstep {
  public:
@@ -58,6 +67,8 @@ class Lockstep {
       for (Instant at = now + kRigStep; at <= now + tick; at += kRigStep) step_rig(at);
       const bool over = options_.over && options_.over(view(now));
       if (!over && !has_contact(result_.outcome)) continue;
+      if (record_ && has_contact(result_.outcome))
+        record_->event(now, "contact", to_text(result_.outcome));
       length_ = now - Instant{};
       break;
     }
@@ -236,10 +247,7 @@ class Lockstep {
       record_->event(now, "flag", scenario::name_of(flag_));
     }
     if (identity_changed_) record_->event(now, "identity", gateway::sentence(identity_));
-    if (out.chosen.mode_changed)
-      record_->event(now, "mode",
-                     std::to_string(static_cast<int>(out.chosen.mode)) + " " +
-                         safety::text_of(out.chosen.cause));
+    if (out.chosen.mode_changed) record_->event(now, "mode", mode_text(out.chosen));
     if (rig_.laps().finished != laps_) {
       laps_ = rig_.laps().finished;
       record_->event(now, "lap", std::to_string(laps_));

@@ -158,9 +158,9 @@ void VirtualStation::serve_base(Instant at) {
 
 void VirtualStation::run_text_commands(Instant at) {
   const auto& words = scenario_.operator_texts;
-  for (; stated_ < words.size() && Instant{} + words[stated_].at <= at; ++stated_) {
-    const auto done = operator_.execute(words[stated_].text, base_->requests(), base_time(at));
-    if (!done) refusals_.push_back(words[stated_].text + ": " + done.error().what);
+  for (; next_text_ < words.size() && Instant{} + words[next_text_].at <= at; ++next_text_) {
+    const auto done = operator_.execute(words[next_text_].text, base_->requests(), base_time(at));
+    if (!done) refusals_.push_back(words[next_text_].text + ": " + done.error().what);
   }
 }
 

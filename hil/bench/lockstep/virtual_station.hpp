@@ -108,7 +108,7 @@ class VirtualStation {
   telemetry::Stamp newest_stamp_ = 0;  // as the base's file has it
   bool spare_ = false;                 // the base that there is, or comes next
   Instant advanced_{};
-  std::size_t stated_ = 0;
+  std::size_t next_text_ = 0;
   std::vector<std::string> refusals_;
   std::vector<telemetry::CommandId> commands_;
   std::vector<telemetry::Event> events_;

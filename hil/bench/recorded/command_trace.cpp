@@ -60,7 +60,7 @@ class Tracer {
       if (frame.id != message.id || frame.extended != message.extended) continue;
       values_.resize(message.signals.size());
       if (!can::decode(message, frame, values_))
-        return Problem{"tick " + std::to_string(tick), message.name + " is no such frame"};
+        return Problem{"tick " + std::to_string(tick), message.name + " cannot be decoded"};
       trace_.commands[i].push_back({trace_.length, values_[places_[i].signal]});
     }
     return std::nullopt;

@@ -60,7 +60,8 @@ struct RunFile {
 Result<RunFile, Problem> file_of(const RecordedRun& run, const std::string& key,
                                  const std::string& instead, std::vector<std::string>& remarks) {
   const std::string path = path_of(run, key, instead);
-  if (path.empty()) return Unexpected{Problem{"--" + key, "the recording names no such file"}};
+  if (path.empty())
+    return Unexpected{Problem{"--" + key, "expected FILE, because the recording does not name it"}};
   auto text = transport::read_file(path);
   if (!text) return Unexpected{text.error()};
   bits::Sha256 hash;

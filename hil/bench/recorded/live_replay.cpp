@@ -174,7 +174,8 @@ Result<Playable, Problem> playable(traffic::Recording recording, const CommandTr
       recording, [](const traffic::Source& source) { return source.name == recorder::kTickTopic; });
   const auto first = first_of(recording, is_played);
   if (!tick || !first)
-    return Unexpected{Problem{"recording", "no frame and no byte of a receiver came to the car"}};
+    return Unexpected{
+        Problem{"recording", "holds no input of the car: neither frames nor bytes of receivers"}};
   const std::int64_t end_ns = tick->ns + recorded.length.ns;
   std::erase_if(recording.records,
                 [&](const traffic::Record& record) { return record.at.ns > end_ns; });

@@ -104,7 +104,7 @@ const RecordedRun::Place& RecordedRun::place_of(std::uint16_t channel) {
   const recording::Channel& here = segment_->reader.channels().at(channel);
   Place place;
   if (here.topic == recorder::kReceivedTopic) place.kind = Kind::kReceived;
-  if (here.topic == recorder::kSentTopic) place.kind = Kind::kStated;
+  if (here.topic == recorder::kSentTopic) place.kind = Kind::kSent;
   if (here.topic == recorder::kTickTopic) place.kind = Kind::kTick;
   if (here.topic.starts_with(kReceiverTopic)) {
     place.kind = Kind::kReceiver;
@@ -129,10 +129,10 @@ std::optional<Problem> RecordedRun::take(const recording::McapMessage& message) 
     case Kind::kTick:
       return take_tick(message);
     case Kind::kReceived:
-    case Kind::kStated: {
+    case Kind::kSent: {
       const auto frame = recorder::decode_frame(message.data);
       if (!frame) return problem(frame.error());
-      if (place.kind == Kind::kStated) {
+      if (place.kind == Kind::kSent) {
         collected_.sent.push_back(*frame);
       } else {
         collected_.received.push_back({*frame, at(message.logged_ns)});
@@ -145,7 +145,7 @@ std::optional<Problem> RecordedRun::take(const recording::McapMessage& message) 
       if (!finished_->state) finished_->state.emplace();
       finished_->state->at = at(message.logged_ns);
       if (!place.fields->decode(message.data, finished_->state->values))
-        return problem("a state that is none");
+        return problem("a message of the vehicle state cannot be decoded");
       finished_->state->groups.add(*group);
       return std::nullopt;
     }
@@ -157,7 +157,7 @@ std::optional<Problem> RecordedRun::take_tick(const recording::McapMessage& mess
   RecordedTick tick = std::exchange(collected_, {});
   tick.now = at(message.logged_ns);
   if (!recording::from_cdr(message.data, tick.given))
-    return problem("a tick as another version records it");
+    return problem("a tick cannot be decoded: recorded by another version");
   if (tick.given.number == 0 && number_ > 0) {
     is_over_ = true;
     remarks_.push_back(segment_->path + ": another run begins here, compare it alone");
@@ -179,9 +179,10 @@ std::optional<Problem> RecordedRun::incomplete(const RecordedTick& tick) const {
   const recorder::TickRecord& given = tick.given;
   const std::string number = "tick " + std::to_string(given.number) + ": ";
   if (tick.received.size() != given.frames_received)
-    return problem(number + count_of(tick.received.size(), given.frames_received, "frames heard"));
+    return problem(number +
+                   count_of(tick.received.size(), given.frames_received, "received frames"));
   if (tick.sent.size() != given.frames_sent)
-    return problem(number + count_of(tick.sent.size(), given.frames_sent, "frames said"));
+    return problem(number + count_of(tick.sent.size(), given.frames_sent, "sent frames"));
   if (bytes != given.receiver_bytes)
     return problem(number + count_of(bytes, given.receiver_bytes, "bytes of receivers"));
   return std::nullopt;

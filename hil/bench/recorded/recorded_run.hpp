@@ -65,7 +65,7 @@ class RecordedRun {
   std::size_t done() const;
 
  private:
-  enum class Kind : std::uint8_t { kOther, kReceived, kStated, kReceiver, kTick, kState };
+  enum class Kind : std::uint8_t { kOther, kReceived, kSent, kReceiver, kTick, kState };
   struct Place {
     Kind kind = Kind::kOther;
     std::size_t unit = 0;

@@ -40,9 +40,10 @@ class Collector {
   }
 
   Result<RunFacts, Problem> finish() && {
-    if (!zero_) return Unexpected{Problem{"recording", "its car heard no frame"}};
+    if (!zero_) return Unexpected{Problem{"recording", "the car received no frame"}};
     if (!is_placed_)
-      return Unexpected{Problem{"recording", "its car never knew where it was: no start"}};
+      return Unexpected{
+          Problem{"recording", "the car never knew its position, so the start is unknown"}};
     facts_.operator_texts = std::move(texts_).take();
     const auto is_after = [&](const auto& entry) { return entry.at > facts_.length; };
     std::erase_if(facts_.operator_texts, is_after);

@@ -106,7 +106,7 @@ Answer BenchServer::refuse(const Problem& problem) {
 Answer BenchServer::start(const StartRequest& request) {
   if (running())
     return refuse({"start", "run " + std::to_string(run_->start.run) + " (" + run_->id +
-                                ") goes on; stop it first"});
+                                ") is still running; stop it first"});
   const auto found = std::ranges::find(scenarios_, request.scenario, &Listed::id);
   if (found == scenarios_.end()) return refuse({"scenario", "no such scenario"});
   if (!found->problem.empty()) return refuse({"scenario", found->problem});
@@ -133,7 +133,7 @@ Answer BenchServer::start(const StartRequest& request) {
 }
 
 Answer BenchServer::stop(const StopRequest& request) {
-  if (!running()) return refuse({"stop", "nothing runs"});
+  if (!running()) return refuse({"stop", "no run is in progress"});
   run_->stopped_by = request.by.empty() ? "somebody" : request.by;
   return {.to_asker = {}, .to_all = {run_text()}, .start = {}, .stop = true};
 }

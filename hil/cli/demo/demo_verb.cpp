@@ -78,7 +78,7 @@ std::vector<std::string> base_words(const DemoOptions& options, std::span<const 
 }
 
 // What the program says goes into a file.
-std::vector<std::string> stated_into(const std::string& file, std::vector<std::string> words) {
+std::vector<std::string> with_output_in(const std::string& file, std::vector<std::string> words) {
   words.insert(words.begin(), {"sh", "-c", "out=$1; shift; exec \"$@\" > \"$out\"", "sh", file});
   return words;
 }
@@ -89,7 +89,7 @@ Result<transport::Process, Problem> start_base(const DemoOptions& options,
   if (!options.headless) return transport::Process::spawn({.argv = words});
   words.emplace_back("--plain");
   return transport::Process::spawn(
-      {.argv = stated_into(options.folder + "/base_screen.txt", std::move(words))});
+      {.argv = with_output_in(options.folder + "/base_screen.txt", std::move(words))});
 }
 
 // Whether a program on this machine takes connections at this port.
@@ -120,7 +120,7 @@ Result<transport::Process, Problem> start_serving_base(const DemoOptions& option
   const Instant end = transport::monotonic_now() + kBaseStart;
   while (transport::monotonic_now() < end) {
     if (base->wait_until(transport::monotonic_now() + kBaseLook)) {
-      return Unexpected{Problem{"pitwall-base", "did not start; it has said above why"}};
+      return Unexpected{Problem{"pitwall-base", "did not start; its own message is above"}};
     }
     if (options.web_port == 0 || is_served(options.web_port)) return base;
   }
@@ -188,7 +188,7 @@ Result<std::vector<int>, Problem> run_several(const DemoOptions& options,
     if (!hub) return Unexpected{hub.error()};
     hubs.push_back(*std::move(hub));
     auto bench = transport::Process::spawn(
-        {.argv = stated_into(car.folder + "/run.txt", bench_options(options, car))});
+        {.argv = with_output_in(car.folder + "/run.txt", bench_options(options, car))});
     if (!bench) return Unexpected{bench.error()};
     benches.push_back(*std::move(bench));
   }
@@ -222,9 +222,9 @@ int report(const DemoOptions& options, std::span<const DemoCar> cars, std::span<
   std::string json;
   for (std::size_t i = 0; i < cars.size(); ++i) {
     if (several) {
-      const auto stated = transport::read_file(cars[i].folder + "/run.txt");
+      const auto output = transport::read_file(cars[i].folder + "/run.txt");
       std::printf("\ncar %d %s\n%s", cars[i].number, cars[i].name.c_str(),
-                  stated ? stated->c_str() : "");
+                  output ? output->c_str() : "");
     }
     auto read = read_report(cars[i], codes[i]);
     if (!read) return refuse(read.error());

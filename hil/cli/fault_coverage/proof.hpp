@@ -35,7 +35,7 @@ inline constexpr std::array kInformsOnly{
                 "a full bus harms by late messages alone, and message_age acts on those; the load "
                 "tells the operator whose fault they are"},
     InformsOnly{world::Monitor::kFlagAgreement,
-                "of two flags that differ the car heeds the stricter and of an unknown one it "
+                "of two flags that differ the car follows the stricter and of an unknown one it "
                 "stops, whoever notices; the operator has to ask race control"},
 };
 static_assert(kInformsOnly.size() <= kInformsOnlyMax);

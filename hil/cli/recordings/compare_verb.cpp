@@ -42,7 +42,8 @@ Result<bench::CompareRules, Problem> rules_of(const CompareOptions& options) {
     const auto [stop, error] = std::from_chars(start, end, value);
     if (equals == std::string::npos || equals == 0 || error != std::errc{} || stop != end ||
         !(value >= 0.0) || std::isinf(value))
-      return Unexpected{Problem{"--tolerance " + text, "expected SIGNAL=VALUE, from 0"}};
+      return Unexpected{
+          Problem{"--tolerance " + text, "expected SIGNAL=VALUE, with a value of at least 0"}};
     rules.tolerance[text.substr(0, equals)] = value;
   }
   return rules;

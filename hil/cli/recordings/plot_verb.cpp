@@ -59,9 +59,8 @@ Result<std::vector<report::ChosenSignal>, Problem> chosen_of(const PlotOptions& 
 
 Result<report::LogPart, Problem> part_of(const PlotOptions& options, const replay::CanLog& log) {
   if (!(options.until_s >= options.from_s + report::kLeastDrawn_s))
-    return Unexpected{
-        Problem{formatted("--from %g --until %g", options.from_s, options.until_s),
-                "nothing is between them: --until has to be at least 1 ms after --from"}};
+    return Unexpected{Problem{formatted("--from %g --until %g", options.from_s, options.until_s),
+                              "expected --until at least 1 ms after --from"}};
   const double length_s = report::span_of(log).length_s;
   if (options.from_s > length_s)
     return Unexpected{Problem{formatted("--from %g", options.from_s),

@@ -147,8 +147,8 @@ Result<CanLog, Problem> LogBuilder::finish() && {
                              "in front of each part");
   if (added_ == 0 && c.error_frames == 0 && c.bad_records + c.cut_tails > 0) {
     const LogRemark& first = log_.remarks.front();
-    return Unexpected{Problem{first.place, "looks like " + log_.format +
-                                               ", but holds no frame that reads: " + first.what}};
+    return Unexpected{Problem{
+        first.place, "looks like " + log_.format + ", but holds no readable frame: " + first.what}};
   }
   return std::move(log_);
 }

@@ -263,8 +263,8 @@ struct CandumpLine : TextLine {
     const std::size_t opening = text.find(quote);
     return (text.size() - opening == n + 2 && peek() == quote) ? (++at, true)
                                                                : refuse(
-                                                                     "the column of characters "
-                                                                     "has not one for each byte");
+                                                                     "the text column needs one "
+                                                                     "character for each byte");
   }
 };
 

@@ -60,7 +60,7 @@ std::optional<Problem> FrameFilter::node_problem() const {
   for (const SendingNode& node : options_.nodes)
     if (node.is_left_out && !has_seen(node))
       return Problem{"--overlay " + node.name,
-                     "no frame is one of its messages; expected a node that sent some: " + known};
+                     "this node sent none of the frames; expected one of: " + known};
   return std::nullopt;
 }
 

@@ -54,7 +54,7 @@ Result<RestampRules, Problem> RestampRules::make(const can::Manifest& manifest,
                          .protection = row.protection});
   }
   if (out.rules.empty())
-    return refuse(manifest.name, "no message of it has a counter or a checksum: nothing to stamp");
+    return refuse(manifest.name, "has no message with a counter or a checksum: nothing to stamp");
   std::ranges::sort(out.rules, {}, [](const RestampRule& r) { return key_of(r.extended, r.id); });
   return out;
 }

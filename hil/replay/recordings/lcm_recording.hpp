@@ -1,11 +1,11 @@
-// Event logs of LCM, as lcm-logger and our own recorder write them.
+// Reader of LCM event logs, as lcm-logger and our own recorder write them.
 //   in     the whole file; its name for remarks
-//   out    a source for each channel. Of the types that our recorder has, found by the fingerprint
-//          that each message bears: CAN frames and the bytes of receivers; all else as it is, with
-//          its fingerprint as type
+//   out    one source per channel. Messages of our recorder's types, known by the fingerprint that
+//          each carries, become CAN frames and bytes of receivers; all others stay bytes, with
+//          their fingerprint as type
 //   units  stamps: time of the event, whole microseconds
 //   errors Problem for a file without an event. Bytes between events, and messages of our types
-//          that are shorter than they say, are left out and told
+//          that are too short for their own length field, are left out with a remark
 //   cost   O(bytes); nothing is copied
 //   source protocol/recording/lcm_log.hpp; protocol/telemetry/export/lcm_schema.hpp
 // SPDX-License-Identifier: Apache-2.0

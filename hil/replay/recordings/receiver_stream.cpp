@@ -44,13 +44,13 @@ std::optional<gnss::GpsTime> gps_of(const gnss::VectorNavMessage& m) {
   return gnss::GpsTime{static_cast<std::int64_t>(ns)};
 }
 
-Span stated_by(const gnss::NovatelFrame& frame) {
+Span span_of(const gnss::NovatelFrame& frame) {
   Span span;
   span.gps = gps_of(frame);
   return span;
 }
 
-Span stated_by(const gnss::VectorNavFrame& frame) {
+Span span_of(const gnss::VectorNavFrame& frame) {
   const auto message = gnss::decode(frame);
   if (!message) return {};
   Span span;
@@ -68,7 +68,7 @@ std::vector<Span> spans_of(Bytes file) {
   Stream stream;
   std::size_t in_messages = 0;
   const auto sink = [&](const auto& frame) {
-    Span span = stated_by(frame);
+    Span span = span_of(frame);
     span.begin = static_cast<std::size_t>(stream.counters().garbage_bytes) + in_messages;
     span.end = span.begin + frame.bytes;
     in_messages += frame.bytes;
@@ -171,7 +171,8 @@ Result<Recording, Problem> read_receiver_stream(const transport::FileBytes& file
       receiver == Receiver::kNovatel ? novatel_spans(bytes) : vectornav_spans(bytes);
   StreamClock clock{spans, builder};
   if (!clock.knows())
-    return refuse(name + ": byte 0", "no message states a time: when to send them is not known");
+    return refuse(name + ": byte 0",
+                  "holds no message with a time, so it is not known when to send them");
   const auto source =
       builder.add_source("receiver", SourceKind::kReceiver, std::string{to_string(receiver)});
   std::size_t at = 0;

@@ -65,7 +65,7 @@ Result<Recording, Problem> read_recording(transport::FileBytes file, const std::
       break;
   }
   return refuse(name,
-                "is no recording that is read: expected MCAP, a bag of ROS 2 (.mcap, .db3), "
+                "is not a recording: expected MCAP, a bag of ROS 2 (.mcap, .db3), "
                 "an event log of LCM, or the bytes of a NovAtel or VectorNav receiver");
 }
 

@@ -27,7 +27,7 @@ Result<ByteTarget, Problem> serial_of(std::string_view whole, std::string_view t
     if (error != std::errc{} || end != rate.data() + rate.size())
       return refuse(whole, "\"" + std::string(rate) + "\" is not a baud rate");
     if (!transport::is_serial_rate(device.baud))
-      return refuse(whole, "no tty has the rate " + std::string(rate));
+      return refuse(whole, "serial devices of Linux do not have the rate " + std::string(rate));
     device.path = text.substr(0, colon);
   }
   if (!device.path.starts_with('/'))

@@ -121,14 +121,16 @@ bool is_identifier(std::string_view name) {
 
 std::optional<Problem> unsupported(const Message& m) {
   if (m.extended) {
-    return Problem{m.place, "message " + m.name + ": only frames with 11-bit ids"};
+    return Problem{m.place, "message " + m.name + ": expected an 11-bit id"};
   }
   if (!is_identifier(m.name)) return Problem{m.place, m.name + " cannot be a name in C++"};
   for (const Signal& s : m.signals) {
-    if (s.selector) return Problem{s.place, "signal " + s.name + " is multiplexed"};
+    if (s.selector)
+      return Problem{s.place,
+                     "signal " + s.name + " is multiplexed, which the generator cannot translate"};
     if (!is_identifier(s.name)) return Problem{s.place, s.name + " cannot be a name in C++"};
     if (s.layout.min > s.layout.max) {
-      return Problem{s.place, "signal " + s.name + ": the range is upside down"};
+      return Problem{s.place, "signal " + s.name + ": the minimum is above the maximum"};
     }
   }
   return std::nullopt;

@@ -28,7 +28,7 @@ struct Statement {
   HolderId holder;
   std::uint16_t epoch, renewal;
 };
-std::optional<Statement> stated(const Values& values) {
+std::optional<Statement> statement_in(const Values& values) {
   const double holder = values[kHolder], epoch = values[kEpoch], renewal = values[kRenewal];
   if (!(holder >= 0 && epoch >= 0 && renewal >= 0)) return std::nullopt;  // unset
   return Statement{static_cast<HolderId>(holder), static_cast<std::uint16_t>(epoch),
@@ -90,24 +90,24 @@ void AuthorityRegister::begin(HolderId who, Instant now) {
 }
 
 void AuthorityView::receive(const Values& values, const Received& received) {
-  const auto now_stated = stated(values);
-  if (!now_stated) return;
+  const auto statement = statement_in(values);
+  if (!statement) return;
   const bool silent = !received_at_ || received.at - *received_at_ > kAuthorityExpiry;
-  if (silent || is_newer(now_stated->epoch, epoch_, kNumbers)) {
+  if (silent || is_newer(statement->epoch, epoch_, kNumbers)) {
     *this = {};
-    holder_ = now_stated->holder;
-    epoch_ = now_stated->epoch;
-  } else if (now_stated->epoch != epoch_) {
+    holder_ = statement->holder;
+    epoch_ = statement->epoch;
+  } else if (statement->epoch != epoch_) {
     return;
   }
   received_at_ = received_at_ ? std::max(*received_at_, received.at) : received.at;
-  if (now_stated->holder == 0) holder_ = 0;  // this epoch is over, whatever comes late
-  if (holder_ == 0 || holder_ != now_stated->holder) return;
-  if (renewed_ && !is_newer(now_stated->renewal, renewal_, kNumbers)) return;
+  if (statement->holder == 0) holder_ = 0;  // this epoch is over, whatever comes late
+  if (holder_ == 0 || holder_ != statement->holder) return;
+  if (renewed_ && !is_newer(statement->renewal, renewal_, kNumbers)) return;
   // One whose time cannot be told yet counts when a copy of it can be.
   if (const auto renewed = renewal_time(values, received)) {
     renewed_ = *renewed;
-    renewal_ = now_stated->renewal;
+    renewal_ = statement->renewal;
   }
 }
 

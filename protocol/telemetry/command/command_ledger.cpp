@@ -31,28 +31,28 @@ bool CommandLedgerOf<Depth>::take(const Record& record, const Received& received
 template <std::size_t Depth>
 bool CommandLedgerOf<Depth>::take_command(const Record& record, const Received& received,
                                           const AuthorityView& authority) {
-  const auto stated = parse_command(record.payload);
-  if (!stated) return false;
-  if (stated->base_run != run_) return ++counters_.other_base, true;
-  Entry& entry = entries_[stated->number % Depth];
-  if (entry.number == stated->number) {
+  const auto request = parse_command(record.payload);
+  if (!request) return false;
+  if (request->base_run != run_) return ++counters_.other_base, true;
+  Entry& entry = entries_[request->number % Depth];
+  if (entry.number == request->number) {
     ++counters_.repeated;
     entry.result_known = false;  // it still asks
-    if (entry.waits() && !entry.expires) learn_expiry(entry, *stated, received);
+    if (entry.waits() && !entry.expires) learn_expiry(entry, *request, received);
     return true;
   }
   // What is older than memory reaches has had its answer, else the newer one were not given.
-  if (stated->number + std::uint64_t{Depth} <= newest_) return ++counters_.repeated, true;
+  if (request->number + std::uint64_t{Depth} <= newest_) return ++counters_.repeated, true;
   if (entry.number != 0 && !is_final(entry.outcome)) return ++counters_.full, true;
   ++counters_.received;
-  newest_ = std::max(newest_, stated->number);
+  newest_ = std::max(newest_, request->number);
   entry = {};
-  entry.number = stated->number;
-  if (stated->known()) {
-    entry.command = stated->command();
-    learn_expiry(entry, *stated, received);
+  entry.number = request->number;
+  if (request->known()) {
+    entry.command = request->command();
+    learn_expiry(entry, *request, received);
   }
-  if (const Outcome outcome = judge(*stated, authority, received.at); is_final(outcome)) {
+  if (const Outcome outcome = judge(*request, authority, received.at); is_final(outcome)) {
     settle(entry, outcome);
   }
   return true;

@@ -1,11 +1,13 @@
-// Two ends whose registries differ: each tells the other which groups its packets may hold, so that
-// the other reads those that both know alike and skips the rest.
+// Exchange of group lists between two ends whose telemetry registries differ. Each end tells the
+// other which groups its packets may hold; the other reads the groups that both know and skips the
+// rest.
 //   wire   kSchema: have u8 (1: the peer's list is complete here), total u8, first u8, then for
 //          each place from the first on: hash u32 (low half of the group's), bits u16
+//   out    the layout to read the peer's packets by; which of our groups may be sent
 //   invariants
-//          nothing is said while both registries are the same. Else no group goes before the peer
-//          has the whole list; a group with another hash is another group, whatever its name
-//   out    the layout to read the peer's packets by; which of our groups may go
+//          nothing is sent while both registries are the same. Otherwise no group is sent before
+//          the peer has the whole list. A group with another hash is another group, even under the
+//          same name
 //   cost   no allocation
 // SPDX-License-Identifier: Apache-2.0
 #pragma once

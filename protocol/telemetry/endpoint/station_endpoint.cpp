@@ -21,7 +21,7 @@ struct StationEndpoint::Parts {
   void note_release();
   // A stop that no packet has said yet.
   bool stop_waits() const {
-    return stop.state().level != StopLevel::kNone && stop.state() != stop_stated;
+    return stop.state().level != StopLevel::kNone && stop.state() != stop_sent;
   }
   Snapshot sample(Instant now) const;
   void make_packet(const PacketPlan& plan, Instant now);
@@ -32,7 +32,7 @@ struct StationEndpoint::Parts {
   std::array<std::uint64_t, kGroups> sequence_of{};  // of the packet that brought the group
   GroupSet mapped;  // groups whose time was told by compared clocks
   StopTransmitter stop;
-  StopState stop_stated, stop_asked;  // by the newest packet; when it was last tried to make one
+  StopState stop_sent, stop_asked;  // by the newest packet; when it was last tried to make one
   AuthorityRegister authority;
   JoystickSender joystick;
   CommandTransmitter transmitter;
@@ -160,7 +160,7 @@ Snapshot StationEndpoint::Parts::sample(Instant now) const {
 
 void StationEndpoint::Parts::make_packet(const PacketPlan& plan, Instant now) {
   const Snapshot snapshot = sample(now);
-  stop_stated = stop.state();
+  stop_sent = stop.state();
   const std::size_t wants = transmitter.wanted() + events.wanted();
   const std::size_t safe =
       lane.choose(snapshot, endpoint.peer_knows(), {endpoint.round_trip(), plan.rate}, now);

@@ -1,5 +1,5 @@
-// Test vectors of the group codec, for whoever writes another one: for each group the code of every
-// field and the bits that they become.
+// Test vectors of the group codec, for independent implementations: for each group the code of
+// every field and the encoded bits.
 //   form   GROUP CASE NAME=CODE ... HEX; a code k stands for min + k * resolution of the registry,
 //          "-" for unset. Bits most significant first, zeros to a whole byte
 //   cases  first, last, unset: every field at its first or last code, or unset

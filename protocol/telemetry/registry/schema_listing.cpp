@@ -60,7 +60,7 @@ bool read_line(std::string_view line, Listing& listing) {
 }
 
 template <class Say>
-std::string stated(Say&& say) {
+std::string text_by(Say&& say) {
   std::string text;
   say([&](std::string_view part) { text += part; });
   return text;
@@ -79,13 +79,13 @@ Listing read_listing(std::string_view text) {
 }
 
 std::string group_text(Group group) {
-  return stated([&](auto&& sink) { say_group(group, sink); });
+  return text_by([&](auto&& sink) { say_group(group, sink); });
 }
 std::string safety_text() {
-  return stated([](auto&& sink) { say_safety(sink); });
+  return text_by([](auto&& sink) { say_safety(sink); });
 }
 std::string schema_text() {
-  return stated([](auto&& sink) { say_all(sink); });
+  return text_by([](auto&& sink) { say_all(sink); });
 }
 
 }  // namespace pitwall::telemetry

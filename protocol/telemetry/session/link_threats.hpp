@@ -1,15 +1,16 @@
-// Attacks and key errors on the radio as one end sees them: detectors over the counters of its
+// Detectors of attacks and key errors on the radio, as one end sees them in the counters of its
 // association.
-//   in     the counters, from zero on; the time, at least once each kThreatSample
-//   out    the set of threats that are active, and each change of it once, for logs and events
+//   in     the counters since the association began; the time, at least once each kThreatSample
+//   out    the set of active threats, and each change of it once, for logs and events
 //   invariants
-//          a threat becomes active at the sample at which its count of the last kThreatWindow
-//          reaches its limit, so an attack that is faster than that limit is seen in less time. It
-//          stays active until the count was below half of the limit for kThreatHold
-//          limits lie above what a network that loses, copies and reorders, a restart of either end
-//          and a change of address bring about. While a session is young or its peer is silent,
-//          packets of the session before and repeated openings are expected: then they count less
-//          at most one change of each threat is told in kThreatHold, whatever the rate of datagrams
+//          a threat becomes active at the sample at which its count over the last kThreatWindow
+//          reaches its limit; a faster attack reaches it sooner. It ends when the count has been
+//          below half of the limit for kThreatHold
+//          the limits are above what a network without an attacker causes by loss, copies,
+//          reordering, a restart of either end and a change of address. While a session is young or
+//          its peer is silent, packets of the session before and repeated openings are expected;
+//          then they count less
+//          at most one change of each threat is reported per kThreatHold, at any rate of datagrams
 //   errors none
 //   cost   step(): a comparison, each kThreatSample less than a microsecond; no allocation
 // SPDX-License-Identifier: Apache-2.0

@@ -1,15 +1,15 @@
-// Pause of bench time: how long it stands now, and how long it has stood in all.
+// Pauses of the bench clock: the length of the present one, and of all of them together.
 //
 //   wall clock   0    10    20    30    40
 //   bench time   0    10    10    10    20
 //   now          0     0    10    20     0
 //   total        0     0    10    20    20
 //
-//   in     the page that a bench keeps; the wall clock
-//   out    spans of the wall clock
+//   in     the clock page that the bench writes; the wall clock
+//   out    durations by the wall clock
 //   invariants
-//          total is what the clock in use is behind the wall clock, so it shrinks where bench time
-//          leaps forward to that of a guest
+//          total is the lag of bench time behind the wall clock. It shrinks where bench time leaps
+//          forward to the time of a guest
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

@@ -13,7 +13,7 @@ namespace pitwall::transport {
 Result<ClockKeeper, Problem> ClockKeeper::keep(const std::string& path) {
   auto memory = ClockMemory::open(path);
   if (!memory) return Unexpected{memory.error()};
-  if (!memory->lock()) return Unexpected{Problem{path, "another bench keeps its time here"}};
+  if (!memory->lock()) return Unexpected{Problem{path, "another bench uses this clock file"}};
   memory->page().horizon_ns.store(INT64_MAX);
   return ClockKeeper{*std::move(memory)};
 }

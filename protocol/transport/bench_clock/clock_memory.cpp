@@ -24,13 +24,13 @@ struct flock whole_file(short kind) {
 Result<ClockMemory, Problem> ClockMemory::open(const std::string& path) {
   FileDescriptor file{posix_call(
       [&] { return ::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0600); })};
-  if (!file.valid()) return Unexpected{Problem{path, "no file for bench time can be opened here"}};
+  if (!file.valid()) return Unexpected{Problem{path, "the file for bench time cannot be opened"}};
   struct stat status {};
   if (!posix_call([&] { return ::fstat(file.get(), &status); }).ok() || !S_ISREG(status.st_mode))
-    return Unexpected{Problem{path, "not a file that bench time can be kept in"}};
+    return Unexpected{Problem{path, "expected a regular file for bench time"}};
   // A new file is zero bytes long; what is added to it reads as zero.
   if (status.st_size != 0 && status.st_size != static_cast<off_t>(sizeof(ClockPage)))
-    return Unexpected{Problem{path, "holds something else than bench time"}};
+    return Unexpected{Problem{path, "is not a file of bench time"}};
   const auto grown = posix_call([&] { return ::ftruncate(file.get(), sizeof(ClockPage)); });
   if (!grown.ok()) return Unexpected{Problem{path, grown.reason()}};
   void* const mapped =
@@ -45,7 +45,7 @@ Result<ClockMemory, Problem> ClockMemory::open(const std::string& path) {
   }
   page->magic.compare_exchange_strong(magic, ClockPage::kMagic);
   if (magic != 0 && magic != ClockPage::kMagic)
-    return Unexpected{Problem{path, "holds something else than bench time"}};
+    return Unexpected{Problem{path, "is not a file of bench time"}};
   return memory;
 }
 

@@ -152,7 +152,7 @@ Result<CanInterface, Problem> CanInterface::open(std::string_view interface) {
     static_cast<void>(posix_call(
         [&] { return setsockopt(out.socket_.get(), SOL_NETLINK, option, &on, sizeof on); }));
   if (!out.socket_.valid() || !out.refresh())
-    return Unexpected{out.problem("the kernel does not tell about interfaces")};
+    return Unexpected{out.problem("cannot ask the kernel about interfaces")};
   return out;
 }
 

@@ -27,7 +27,7 @@ Result<PreparedFrames, Problem> PreparedFrames::make(std::span<const can::Frame>
     CanWire wire;
     sizes[i] = to_wire(frames[i], wire);
     if (sizes[i] == 0)
-      return Unexpected{Problem{"frame " + std::to_string(i + 1), "no bus can carry it"}};
+      return Unexpected{Problem{"frame " + std::to_string(i + 1), "is not a valid CAN frame"}};
     if (frames[i].fd && !fd_flags.empty()) wire.flags = fd_flags[i];
     const auto* begin = reinterpret_cast<const std::uint8_t*>(&wire);
     out.bytes_.insert(out.bytes_.end(), begin, begin + sizes[i]);

@@ -1,12 +1,13 @@
-// One CAN_RAW socket of the kernel: batched, non-blocking, stamped, with every loss counted. Or the
-// same over the bus `unix:PATH` (unix_bus, unix_can_hub), for kernels without CAN, where
-//   - a frame's time is when the hub put it into our queue
-//   - losses are those that the hub tells of, in their place; the queue is the hub's, its size too,
-//     and trailing losses are told once there is room
-//   - there is no controller: no error frames but those that another client writes, and no state
-//   - send() with a hub that does not read is "would block" after 277 frames or so
-//   - the hub may go: that is hung_up(), counted, and send() says "network down" until receive() or
-//     poll_drops(), which look every 100 ms, have found another one at PATH
+// CAN_RAW socket of the kernel: batched, non-blocking, with receive times and with every lost frame
+// counted. It serves the bus `unix:PATH` (unix_bus, unix_can_hub) too, for kernels without CAN,
+// where
+//   - the time of a frame is when the hub put it into this socket's queue
+//   - the queue and its size are the hub's. The hub reports losses at their place among the frames;
+//     losses after the last frame are reported once the queue has room
+//   - there is no controller: error frames come only from other clients, and there is no bus state
+//   - send() returns "would block" after about 277 frames while the hub does not read
+//   - when the hub ends, hung_up() is true and counted, and send() says "network down" until
+//     receive() or poll_drops(), which look every 100 ms, find a new hub at PATH
 //   in     an interface name (can0, vcan0, unix:/run/bus), frames to send
 //   out    frames with the kernel's receive time on the monotonic clock; counters; bus state
 //   units  Instant (CLOCK_MONOTONIC nanoseconds), bytes

@@ -104,7 +104,7 @@ Result<UnixBusEnd, Problem> UnixBusEnd::open(std::string_view interface, UnixBus
   UnixBusEnd out(*address, std::move(options));
   out.silence_ = FileDescriptor(posix_call([] { return eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK); }));
   if (!out.silence_.valid())
-    return Unexpected{Problem{std::string(interface), "no descriptor left"}};
+    return Unexpected{Problem{std::string(interface), "no file descriptor is left"}};
   const auto connected = out.connect();
   if (!connected.ok()) return Unexpected{hub_problem(interface, connected)};
   return out;
@@ -116,8 +116,8 @@ PosixOutcome UnixBusEnd::connect() {
       !received.ok())
     return received;
   if (options_.own)
-    if (const auto stated = connect_to_hub(address_, Hearing::kNothing, sender); !stated.ok())
-      return stated;
+    if (const auto greeted = connect_to_hub(address_, Hearing::kNothing, sender); !greeted.ok())
+      return greeted;
   sender_ = std::move(sender);
   connected_ = true;
   if (!receiver_.valid()) {

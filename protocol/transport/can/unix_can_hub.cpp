@@ -155,10 +155,10 @@ std::string UnixCanHub::claim() {
   const int fd = listener_.get();
   // On the socket before it has a path: so the path is never open to others, not for a moment.
   const auto closed = posix_call([&] { return fchmod(fd, kOwnerOnly); });
-  if (!closed.ok()) return "cannot be closed to others: " + closed.reason();
+  if (!closed.ok()) return "cannot be restricted to its owner: " + closed.reason();
   const auto bound = posix_call(
       [&] { return bind(fd, reinterpret_cast<const sockaddr*>(&address_), sizeof address_); });
-  if (!bound.ok()) return "cannot be made: " + bound.reason();
+  if (!bound.ok()) return "cannot be created: " + bound.reason();
   struct stat mine {};
   const auto looked = posix_call([&] { return lstat(address_.sun_path, &mine); });
   if (!looked.ok()) return looked.reason();

@@ -21,8 +21,8 @@ Result<sockaddr_un, Problem> address_of(const std::string& path) {
   sockaddr_un address{};
   address.sun_family = AF_UNIX;
   if (path.empty() || path.size() >= sizeof address.sun_path)
-    return Unexpected{Problem{path, "a socket's path has 1 to " +
-                                        std::to_string(sizeof address.sun_path - 1) + " bytes"}};
+    return Unexpected{Problem{
+        path, "expected a path of 1 to " + std::to_string(sizeof address.sun_path - 1) + " bytes"}};
   path.copy(address.sun_path, path.size());
   return address;
 }
@@ -126,13 +126,13 @@ Result<LineListener, Problem> LineListener::open(const std::string& path) {
   const auto refuse = [&](const std::string& why) { return Unexpected{Problem{path, why}}; };
   if (const std::string why = make_room(*address); !why.empty()) return refuse(why);
   FileDescriptor fd{stream_socket()};
-  if (!fd.valid()) return refuse("no descriptor left");
+  if (!fd.valid()) return refuse("no file descriptor is left");
   // On the socket before it has a path: so the path is never open to others, not for a moment.
   const auto shut = posix_call([&] { return fchmod(fd.get(), kOwnerOnly); });
-  if (!shut.ok()) return refuse("cannot be closed to others: " + shut.reason());
+  if (!shut.ok()) return refuse("cannot be restricted to its owner: " + shut.reason());
   const auto bound =
       posix_call([&] { return ::bind(fd.get(), generic(*address), sizeof *address); });
-  if (!bound.ok()) return refuse("cannot be made: " + bound.reason());
+  if (!bound.ok()) return refuse("cannot be created: " + bound.reason());
   const auto listening = posix_call([&] { return ::listen(fd.get(), kLineBacklog); });
   if (!listening.ok()) return refuse("cannot listen: " + listening.reason());
   return LineListener{path, std::move(fd)};

@@ -39,7 +39,7 @@ Result<SerialLine, Problem> SerialLine::adopt(FileDescriptor fd) {
   if (!set.ok()) return Unexpected{Problem{place, set.reason()}};
   if (isatty(fd.get()) == 1) {
     const auto raw = make_raw(fd.get());
-    if (!raw.ok()) return Unexpected{Problem{place, "no raw mode: " + raw.reason()}};
+    if (!raw.ok()) return Unexpected{Problem{place, "cannot be set to raw mode: " + raw.reason()}};
   }
   return SerialLine(std::move(fd));
 }

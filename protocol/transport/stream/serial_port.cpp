@@ -52,13 +52,14 @@ PosixOutcome make_raw(int tty) { return set_raw(tty, nullptr); }
 Result<FileDescriptor, Problem> open_serial(const std::string& path, int baud) {
   const Rate* rate = rate_of(baud);
   if (rate == nullptr)
-    return Unexpected{Problem{path, "no tty has the rate " + std::to_string(baud)}};
+    return Unexpected{
+        Problem{path, "serial devices of Linux do not have the rate " + std::to_string(baud)}};
   const auto opened =
       posix_call([&] { return ::open(path.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC); });
   FileDescriptor fd(opened);
   if (!fd.valid()) return Unexpected{Problem{path, opened.reason()}};
   const auto raw = set_raw(fd.get(), rate);
-  if (!raw.ok()) return Unexpected{Problem{path, "no serial device: " + raw.reason()}};
+  if (!raw.ok()) return Unexpected{Problem{path, "is not a serial device: " + raw.reason()}};
   static_cast<void>(posix_call([&] { return tcflush(fd.get(), TCIFLUSH); }));  // of another rate
   return fd;
 }

@@ -33,7 +33,7 @@ struct Rig {
                         }};
 
   static alarms::AlarmIndex slip() { return *alarms::find_alarm("wheel_slip"); }
-  static SettingsEditor::Statement stated(bool holds = true, std::string reason = "new tyres") {
+  static SettingsEditor::Origin origin(bool holds = true, std::string reason = "new tyres") {
     return {.by = kAda, .holds_authority = holds, .reason = std::move(reason), .at = {}};
   }
   alarms::AlarmEdit slip_at(double limit) const {
@@ -53,7 +53,7 @@ struct Rig {
 TEST(SettingsEditor, AChangeIsWrittenAndThenInForce) {
   Rig rig;
   const std::string before = rig.evaluator.alarms().settings().version_text();
-  ASSERT_TRUE(rig.editor.change(Rig::stated(), rig.slip_at(0.1)));
+  ASSERT_TRUE(rig.editor.change(Rig::origin(), rig.slip_at(0.1)));
   EXPECT_EQ(rig.slip_limit(), 0.1);
   EXPECT_EQ(rig.written_limit, 0.1);
   EXPECT_EQ(rig.written_revision, 8u);
@@ -79,25 +79,25 @@ TEST(SettingsEditor, WhatIsRefusedChangesNothing) {
     EXPECT_EQ(rig.writes, 0);
     EXPECT_EQ(rig.audit.lines().back().result, "refused: " + done.error().what);
   };
-  refused(rig.editor.change(Rig::stated(false), rig.slip_at(0.1)), "authority");
-  refused(rig.editor.change(Rig::stated(true, ""), rig.slip_at(0.1)), "reason");
-  refused(rig.editor.change(Rig::stated(), rig.slip_at(kUnset)), "number");
+  refused(rig.editor.change(Rig::origin(false), rig.slip_at(0.1)), "authority");
+  refused(rig.editor.change(Rig::origin(true, ""), rig.slip_at(0.1)), "reason");
+  refused(rig.editor.change(Rig::origin(), rig.slip_at(kUnset)), "number");
   auto softer = rig.slip_at(0.1);
   softer.setting.priority = alarms::Priority::kLow;
-  refused(rig.editor.change(Rig::stated(), softer), "a high alarm stays high");
+  refused(rig.editor.change(Rig::origin(), softer), "a high alarm stays high");
   auto unknown = rig.slip_at(0.1);
   unknown.key = "nonsense";
-  refused(rig.editor.change(Rig::stated(), unknown), "no such alarm");
-  refused(rig.editor.change(Rig::stated(), Rig::limit_of(16'000)), "");
+  refused(rig.editor.change(Rig::origin(), unknown), "no such alarm");
+  refused(rig.editor.change(Rig::origin(), Rig::limit_of(16'000)), "");
   const alarms::Limit crossed{.warning_low = 10.0, .bad_low = 12.0};
-  refused(rig.editor.change(Rig::stated(), Rig::limit_of(kBattery, crossed)), "");
-  refused(rig.editor.change_budget(Rig::stated(false), 128.0), "authority");
+  refused(rig.editor.change(Rig::origin(), Rig::limit_of(kBattery, crossed)), "");
+  refused(rig.editor.change_budget(Rig::origin(false), 128.0), "authority");
   for (const double wrong : {63.9, 256.1, -1.0, kUnset, double{INFINITY}}) {
-    refused(rig.editor.change_budget(Rig::stated(), wrong), "expected 64 to 256 kbit/s");
+    refused(rig.editor.change_budget(Rig::origin(), wrong), "expected 64 to 256 kbit/s");
   }
   rig.disk_takes_it = false;
-  refused(rig.editor.change(Rig::stated(), rig.slip_at(0.1)), "disk full");
-  refused(rig.editor.change_budget(Rig::stated(), 128.0), "disk full");
+  refused(rig.editor.change(Rig::origin(), rig.slip_at(0.1)), "disk full");
+  refused(rig.editor.change_budget(Rig::origin(), 128.0), "disk full");
 }
 
 TEST(SettingsEditor, SetsOfValuesAreChangedAndNoted) {
@@ -107,7 +107,7 @@ TEST(SettingsEditor, SetsOfValuesAreChangedAndNoted) {
   ASSERT_EQ(limit.bad_values, 1U << 3 | 1U << 4);
   limit.bad_values = 1U << 3;
   limit.warning_values = 0;
-  ASSERT_TRUE(rig.editor.change(Rig::stated(), Rig::limit_of(kMode, limit)));
+  ASSERT_TRUE(rig.editor.change(Rig::origin(), Rig::limit_of(kMode, limit)));
   EXPECT_EQ(rig.evaluator.limits().of(kMode).bad_values, limit.bad_values);
   EXPECT_EQ(rig.evaluator.limits().of(kMode).warning_values, 0U);
   EXPECT_EQ(rig.audit.lines().back().what,
@@ -116,17 +116,17 @@ TEST(SettingsEditor, SetsOfValuesAreChangedAndNoted) {
 
 TEST(SettingsEditor, ABoundThatIsNotSaidIsNone) {
   Rig rig;
-  ASSERT_TRUE(rig.editor.change(Rig::stated(), Rig::limit_of(kBattery, {.bad_low = 11.0})));
+  ASSERT_TRUE(rig.editor.change(Rig::origin(), Rig::limit_of(kBattery, {.bad_low = 11.0})));
   EXPECT_EQ(rig.evaluator.limits().of(kBattery).bad_low, 11.0);
   EXPECT_TRUE(std::isnan(rig.evaluator.limits().of(kBattery).warning_low));
 }
 
 TEST(SettingsEditor, TheBudgetIsKeptWithTheRest) {
   Rig rig;
-  ASSERT_TRUE(rig.editor.change_budget(Rig::stated(), 128.0));
+  ASSERT_TRUE(rig.editor.change_budget(Rig::origin(), 128.0));
   EXPECT_EQ(rig.editor.budget().now, 128.0);
   EXPECT_EQ(rig.written_budget, 128.0);
-  ASSERT_TRUE(rig.editor.change(Rig::stated(), rig.slip_at(0.1)));
+  ASSERT_TRUE(rig.editor.change(Rig::origin(), rig.slip_at(0.1)));
   EXPECT_EQ(rig.written_budget, 128.0);
 }
 
@@ -135,7 +135,7 @@ TEST(SettingsEditor, WithoutAFileAChangeHoldsUntilTheEnd) {
   Audit audit;
   SettingsEditor editor{evaluator, audit, 0, {.most = 256.0, .now = 256.0}, {}};
   EXPECT_FALSE(editor.kept());
-  ASSERT_TRUE(editor.change_budget(Rig::stated(), 100.0));
+  ASSERT_TRUE(editor.change_budget(Rig::origin(), 100.0));
   EXPECT_EQ(editor.revision(), 1u);
 }
 

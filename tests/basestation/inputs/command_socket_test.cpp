@@ -70,7 +70,8 @@ TEST_F(Commands, OnlyTheOwnerMayUseTheFile) {
 TEST_F(Commands, EachClientIsAnOperatorOfItsOwn) {
   auto one = client(), two = client();
   EXPECT_EQ(answers(one, {"take 5"}), std::vector<std::string>{"done"});
-  EXPECT_EQ(answers(two, {"renew"}), std::vector<std::string>{"refused: does not hold it"});
+  EXPECT_EQ(answers(two, {"renew"}),
+            std::vector<std::string>{"refused: does not hold the authority"});
   EXPECT_EQ(answers(one, {"renew"}), std::vector<std::string>{"done"});
   EXPECT_EQ(socket_->clients(), 2U);
 }

@@ -38,20 +38,20 @@ class JudgementStoreTest : public ::testing::Test {
 TEST_F(JudgementStoreTest, AFileThatIsNotThereIsMadeWithTheFirstChange) {
   LimitsStore store{path()};
   EXPECT_FALSE(store.unreadable());
-  EXPECT_NE(store.stated().find("not there"), std::string::npos) << store.stated();
+  EXPECT_NE(store.remark().find("not there"), std::string::npos) << store.remark();
   EXPECT_EQ(text_of(), "no file");
   ASSERT_TRUE(save(store, 1));
   EXPECT_EQ(LimitsStore{path()}.judgement().revision, 1u);
-  EXPECT_EQ(LimitsStore{path()}.stated(), "");
+  EXPECT_EQ(LimitsStore{path()}.remark(), "");
 }
 
 TEST_F(JudgementStoreTest, ABrokenFileIsNamedWithItsLineAndLeftAlone) {
   write(kBroken);
   const LimitsStore store{path()};
   ASSERT_TRUE(store.unreadable());
-  EXPECT_TRUE(store.stated().starts_with("settings file unreadable: " + path() + ":3:"))
-      << store.stated();
-  EXPECT_TRUE(store.stated().ends_with("; built-in limits in force")) << store.stated();
+  EXPECT_TRUE(store.remark().starts_with("settings file unreadable: " + path() + ":3:"))
+      << store.remark();
+  EXPECT_TRUE(store.remark().ends_with("; built-in limits in force")) << store.remark();
   EXPECT_EQ(store.judgement().alarms.version(), alarms::AlarmSettings{}.version());
   EXPECT_EQ(store.judgement().revision, 0u);
   EXPECT_EQ(text_of(), kBroken);

@@ -19,11 +19,11 @@ class Plans : public testing::Test {
     return car;
   }
   Result<std::vector<Plan>, Problem> planned(const std::vector<settings::Arguments>& cars) {
-    return plans_of(cars, [this](const std::string& line) { stated_.push_back(line); });
+    return plans_of(cars, [this](const std::string& line) { remarks_.push_back(line); });
   }
 
   Result<transport::TemporaryFolder, Problem> folder_ = transport::TemporaryFolder::create("plans");
-  std::vector<std::string> stated_;
+  std::vector<std::string> remarks_;
 };
 
 TEST_F(Plans, EachCarHasItsOwnPlaceKeysAndDocuments) {
@@ -72,12 +72,12 @@ TEST_F(Plans, EachCarHasItsStampFileBesideItsKeysOrWhereItIsAskedFor) {
   EXPECT_EQ((*plans)[1].config.association.newest_stamp, 81U);
   EXPECT_EQ((*plans)[2].stamp_file, "");
   EXPECT_EQ((*plans)[2].config.association.newest_stamp, 0U);
-  EXPECT_TRUE(stated_.empty());
+  EXPECT_TRUE(remarks_.empty());
 }
 
 TEST_F(Plans, AStampFileThatCannotBeReadIsToldAndStopsNothing) {
   ASSERT_TRUE(planned({car(7)})) << "one that is not there is none yet";
-  EXPECT_TRUE(stated_.empty());
+  EXPECT_TRUE(remarks_.empty());
   settings::Arguments arguments = car(8);
   const std::string path = folder_->path() + "/8/base.stamp";
   ASSERT_TRUE(transport::write_file(path, "stamp: 8", 0600));
@@ -85,9 +85,9 @@ TEST_F(Plans, AStampFileThatCannotBeReadIsToldAndStopsNothing) {
   ASSERT_TRUE(plans) << to_string(plans.error());
   EXPECT_EQ(plans->front().config.association.newest_stamp, 0U);
   EXPECT_EQ(plans->front().stamp_file, path) << "it is written anew";
-  ASSERT_EQ(stated_.size(), 1U);
-  EXPECT_EQ(stated_[0].find("stamp file unreadable: " + path + ":1: error: is cut short"), 0U)
-      << stated_[0];
+  ASSERT_EQ(remarks_.size(), 1U);
+  EXPECT_EQ(remarks_[0].find("stamp file unreadable: " + path + ":1: error: is cut short"), 0U)
+      << remarks_[0];
 }
 
 TEST_F(Plans, TwoCarsWithOneStampFileAreRefused) {
@@ -96,7 +96,8 @@ TEST_F(Plans, TwoCarsWithOneStampFileAreRefused) {
   const auto plans = planned({first, second});
   ASSERT_FALSE(plans);
   EXPECT_EQ(to_string(plans.error()),
-            "car 8: " + second.stamp_file + ": error: this is the stamp file of car 7, too");
+            "car 8: " + second.stamp_file +
+                ": error: car 7 has the same stamp file; each car needs its own");
   first.stamp_file = second.stamp_file = "none";
   EXPECT_TRUE(planned({first, second}));
 }
@@ -160,19 +161,19 @@ TEST_F(Plans, WhatIsMissingIsTold) {
            {[](settings::Arguments& a) { a.web_port = 1, a.tokens_file = "/nowhere"; }, "/nowhere"},
            {[](settings::Arguments& a) { a.command_file = "/nowhere"; }, "/nowhere"},
            {[](settings::Arguments& a) { a.track = "/nowhere.yaml"; }, "/nowhere.yaml"}}) {
-    settings::Arguments arguments = car(static_cast<int>(stated_.size()) + 1);
+    settings::Arguments arguments = car(static_cast<int>(remarks_.size()) + 1);
     change(arguments);
     const auto plan = planned({arguments});
     ASSERT_FALSE(plan) << place;
     EXPECT_NE(to_string(plan.error()).find(place), std::string::npos) << to_string(plan.error());
-    stated_.emplace_back();
+    remarks_.emplace_back();
   }
 }
 
 TEST_F(Plans, KeysOfABenchAreSaidAndOnlyTheirSessionsAreLogged) {
   settings::Arguments arguments = car(7);
   EXPECT_TRUE(planned({arguments}));
-  EXPECT_EQ(stated_.size(), 0u);
+  EXPECT_EQ(remarks_.size(), 0u);
   arguments.key_log = folder_->path() + "/keys.log";
   const auto refused = planned({arguments});
   ASSERT_FALSE(refused);
@@ -181,9 +182,9 @@ TEST_F(Plans, KeysOfABenchAreSaidAndOnlyTheirSessionsAreLogged) {
   const auto plans = planned({arguments});
   ASSERT_TRUE(plans) << to_string(plans.error());
   EXPECT_TRUE(plans->front().config.association.key_log);
-  ASSERT_EQ(stated_.size(), 1u);
-  EXPECT_NE(stated_[0].find("KEYS OF A BENCH"), std::string::npos) << stated_[0];
-  EXPECT_NE(stated_[0].find(arguments.key_log), std::string::npos) << stated_[0];
+  ASSERT_EQ(remarks_.size(), 1u);
+  EXPECT_NE(remarks_[0].find("KEYS OF A BENCH"), std::string::npos) << remarks_[0];
+  EXPECT_NE(remarks_[0].find(arguments.key_log), std::string::npos) << remarks_[0];
 }
 
 TEST_F(Plans, AReplayNeedsNoRadioAndSaysThatItIsOne) {

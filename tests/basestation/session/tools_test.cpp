@@ -27,7 +27,7 @@ class SessionTools : public testing::Test {
     ASSERT_TRUE(session_->begin(server_.get(), say()));
   }
   Say say() {
-    return [this](const std::string& line) { stated_ += line + "\n"; };
+    return [this](const std::string& line) { remarks_ += line + "\n"; };
   }
   void serve_all() {
     session_->service().advance(transport::monotonic_now());
@@ -38,7 +38,7 @@ class SessionTools : public testing::Test {
 
   Result<transport::TemporaryFolder, Problem> folder_ = transport::TemporaryFolder::create("stand");
   settings::Arguments arguments_;
-  std::string stated_;
+  std::string remarks_;
   publishers::metrics::Board board_;
   std::unique_ptr<publishers::web::WebServer> server_;
   std::unique_ptr<CarSession> session_;
@@ -49,14 +49,14 @@ TEST_F(SessionTools, NothingThatIsNotAskedForIsStarted) {
   const std::size_t before = session_->loop().publishers.size();
   ASSERT_TRUE(attach_tools(*session_, {}, say()));
   EXPECT_EQ(session_->loop().publishers.size(), before);
-  EXPECT_EQ(stated_.find("Foxglove"), std::string::npos);
+  EXPECT_EQ(remarks_.find("Foxglove"), std::string::npos);
 }
 
 TEST_F(SessionTools, FoxgloveIsSaidAndIsInTheMetricsOfItsCar) {
   arguments_.foxglove_port = 0;
   begin();
   ASSERT_TRUE(attach_tools(*session_, {.board = &board_, .server = server_.get()}, say()));
-  EXPECT_NE(stated_.find("Foxglove at ws://127.0.0.1:"), std::string::npos) << stated_;
+  EXPECT_NE(remarks_.find("Foxglove at ws://127.0.0.1:"), std::string::npos) << remarks_;
   serve_all();
   const std::string text = board_.text();
   EXPECT_NE(text.find(R"(pitwall_car_info{car="7",name="Blue",mode="NONE"} 1)"), std::string::npos);

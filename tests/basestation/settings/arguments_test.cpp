@@ -63,7 +63,7 @@ TEST(Arguments, MistakesAreTheCallersExitCode) {
     const auto* const leave = std::get_if<Leave>(&parsed);
     ASSERT_NE(leave, nullptr) << words.front();
     EXPECT_EQ(leave->code, 2) << words.front();
-    EXPECT_FALSE(leave->stated.empty()) << words.front();
+    EXPECT_FALSE(leave->message.empty()) << words.front();
   }
 }
 
@@ -74,7 +74,7 @@ TEST(Arguments, HelpIsNoMistake) {
   const auto* const leave = std::get_if<Leave>(&parsed);
   ASSERT_NE(leave, nullptr);
   EXPECT_EQ(leave->code, 0);
-  EXPECT_TRUE(leave->stated.empty());
+  EXPECT_TRUE(leave->message.empty());
 }
 
 TEST(Arguments, OfRosHaveDefaultsAndBounds) {

@@ -187,10 +187,10 @@ class Attacker {
   bool execute() {
     std::array<std::uint8_t, 512> bytes{};
     const transport::ReadOutcome read = transport::read_available(STDIN_FILENO, bytes);
-    stated_.append(bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(read.bytes));
-    for (std::size_t end = 0; (end = stated_.find('\n')) != std::string::npos;
-         stated_.erase(0, end + 1)) {
-      std::istringstream words(stated_.substr(0, end));
+    received_.append(bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(read.bytes));
+    for (std::size_t end = 0; (end = received_.find('\n')) != std::string::npos;
+         received_.erase(0, end + 1)) {
+      std::istringstream words(received_.substr(0, end));
       if (!execute(words)) std::fprintf(stderr, "what is: %s\n", words.str().c_str());
     }
     return !read.ended;
@@ -279,7 +279,7 @@ class Attacker {
   UdpAddress base_;
   std::optional<UdpAddress> car_;
   std::vector<UdpDatagram> batch_ = std::vector<UdpDatagram>(UdpSocket::kBatch);
-  std::string stated_;
+  std::string received_;
   Recording recording_;
   PacketForger forger_{1};
 

@@ -33,7 +33,8 @@ TEST_F(FaultsVerb, AFaultIsJudgedAtAnotherSpeed) {
   EXPECT_EQ(walking.code, 0) << walking.out << walking.err;
   EXPECT_NE(walking.out.find("f06_frames_twice@walking"), std::string::npos) << walking.out;
   EXPECT_NE(walking.out.find("drives 3."), std::string::npos) << walking.out;
-  expect_refusal({"faults", "--only", "x_oversteer", "--speed", "walking"}, "does not exist");
+  expect_refusal({"faults", "--only", "x_oversteer", "--speed", "walking"},
+                 "not possible at this speed");
 }
 
 // A monitor that is only reported fails the verb, with the table of what failed without it.

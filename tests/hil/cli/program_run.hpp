@@ -56,12 +56,12 @@ class ProgramRun : public ::testing::Test {
   // Wrong usage or bad input: exit code 2, a reason on stderr, nothing on stdout that looks like a
   // result.
   void expect_refusal(const std::vector<std::string>& words, const std::string& reason) {
-    const ProgramOutput stated = run(words);
+    const ProgramOutput result = run(words);
     std::string line;
     for (const std::string& word : words) line += word + " ";
-    EXPECT_EQ(stated.code, 2) << line;
-    EXPECT_NE(stated.err.find(reason), std::string::npos) << line << "said: " << stated.err;
-    EXPECT_EQ(stated.out.find("verdict"), std::string::npos) << line;
+    EXPECT_EQ(result.code, 2) << line;
+    EXPECT_NE(result.err.find(reason), std::string::npos) << line << "said: " << result.err;
+    EXPECT_EQ(result.out.find("verdict"), std::string::npos) << line;
   }
 
  private:

@@ -272,7 +272,7 @@ TEST_F(ReplayCarBus, CountersGoOnOverLoopsWhereTheyAreRestamped) {
   const auto json = transport::read_file(folder_->path() + "/out.json");
   EXPECT_NE(json.value_or("").find("\"restamped_per_pass\": 33"), std::string::npos);
   EXPECT_EQ(play({"--interface", bus_, "--id", "4B8", "--restamp", manifest}), 2);
-  EXPECT_TRUE(warned_.starts_with(manifest + ": error: none of the frames")) << warned_;
+  EXPECT_TRUE(warned_.starts_with(manifest + ": error: gives none of the frames")) << warned_;
 }
 
 TEST_F(ReplayCarBus, WhatANodeSendsIsLeftOutByTheDatabase) {

@@ -24,6 +24,22 @@ TEST(TimeCharts, AFaultShadesEveryPlotWhileItLasts) {
   EXPECT_EQ(count(html, "data-label=\"steering_stuck\""), 1u) << "and has a lane";
 }
 
+// A run that a contact cut off has no frames afterwards; that is no empty bus.
+TEST(TimeCharts, TheBusLoadEndsWithTheRun) {
+  RunData run = run_of({});
+  run.facts.duration_s = 4.0 * run.truth.back().t_s;
+  const std::string html = time_charts(run);
+  const auto last_x = [&](const std::string& plot) {
+    const std::size_t line = html.find("<path class=\"mark\"", html.find("\"" + plot + "\""));
+    const std::string path = html.substr(line, html.find("/>", line) - line);
+    return std::stod(path.substr(path.rfind('L') + 1));
+  };
+  // The last window of 0.25 s is drawn at its middle, and pixels have one decimal.
+  constexpr double kWidth_px = 1060.0;
+  const double half_window_px = 0.5 * 0.25 * kWidth_px / run.end_s();
+  EXPECT_NEAR(last_x("bus_load"), last_x("wall_gap"), half_window_px + 0.1);
+}
+
 TEST(TimeCharts, AViolationHasItsPlace) {
   EXPECT_EQ(count(time_charts(run_of({.with_failure = true})), "data-label=\"first violation"), 1u);
 }

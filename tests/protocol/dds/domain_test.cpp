@@ -119,8 +119,8 @@ TEST(DdsDomain, WhatCannotBeIsRefusedWithTheReason) {
   };
   EXPECT_EQ(why({.domain = 102}), "DDS domain 102: error: expected 0 to 101");
   EXPECT_EQ(why({.domain = -1}), "DDS domain -1: error: expected 0 to 101");
-  EXPECT_EQ(why({.interface = "wlan0"}), "DDS domain 0: error: wlan0 is no IPv4 address");
-  EXPECT_EQ(why({.peers = {"car7"}}), "DDS domain 0: error: car7 is no IPv4 address");
+  EXPECT_EQ(why({.interface = "wlan0"}), "DDS domain 0: error: wlan0 is not an IPv4 address");
+  EXPECT_EQ(why({.peers = {"car7"}}), "DDS domain 0: error: car7 is not an IPv4 address");
   auto here = Domain::join({.domain = 74});
   ASSERT_TRUE(here);
   ASSERT_TRUE((*here)->write_to(kTopic, {}));

@@ -123,11 +123,11 @@ TEST(Cdr, WhatNoWriterMakesIsRefusedWithItsReason) {
     const auto got = decode<Mixed>(bytes);
     return got ? std::string{} : to_string(got.error());
   };
-  EXPECT_EQ(spoiled(1, 7), "message: error: another representation than plain CDR: 0, 7");
-  EXPECT_EQ(spoiled(0, 1), "message: error: another representation than plain CDR: 1, 1");
-  EXPECT_EQ(spoiled(26, 'c'), "field text: error: a string without NUL at its end");
-  EXPECT_EQ(spoiled(36, 2), "field flag: error: a bool of 2");
-  EXPECT_EQ(spoiled(31, 0xFF), "field list: error: 4278190082 elements in 26 bytes");
+  EXPECT_EQ(spoiled(1, 7), "message: error: expected plain CDR, found representation 0, 7");
+  EXPECT_EQ(spoiled(0, 1), "message: error: expected plain CDR, found representation 1, 1");
+  EXPECT_EQ(spoiled(26, 'c'), "field text: error: expected NUL at the end of the string");
+  EXPECT_EQ(spoiled(36, 2), "field flag: error: expected a bool of 0 or 1, found 2");
+  EXPECT_EQ(spoiled(31, 0xFF), "field list: error: 4278190082 elements do not fit into 26 bytes");
 }
 
 // Nobody promises what a spoiled message says; it must end, and inside of its bytes.

@@ -98,13 +98,13 @@ test("a layout that is none is told of, and the page is drawn as usual", async (
   keep("primary.json", '{"columns": 7}');
   const { page, context } = await stage.open();
   const refused = (wanted) => document.querySelector(".refused")?.textContent.includes(wanted);
-  await until(page, "what is wrong", refused, "no layout; the usual one is shown (layout primary)");
+  await until(page, "what is wrong", refused, "not valid; the default is shown (layout primary)");
   assert.equal(await page.locator(".primary .panel").count(), 9);
   await context.close();
   keep("primary.json", '{"columns": [{"share": 1, "panels": ["map"]}]}');
   keep("plots.json", "{");
   const { page: next } = await stage.open();
-  await until(next, "what is wrong", refused, "no JSON; the usual one is shown (layout plots)");
+  await until(next, "what is wrong", refused, "not JSON; the default is shown (layout plots)");
   assert.equal(await next.locator(".primary .panel").count(), 1);
 });
 

@@ -248,12 +248,12 @@ void World::release() {
 }
 
 void World::note_holders() {
-  telemetry::Values stated;
+  telemetry::Values values;
   const HolderId holder = authority_.holder(now_);
   if (holder == 0) return;
-  authority_.put(stated, now_);
+  authority_.put(values, now_);
   truth_.ever_held[holder] = true;
-  const double age_ms = stated[telemetry::field("authority.renewal_age")];
+  const double age_ms = values[telemetry::field("authority.renewal_age")];
   truth_.renewed[holder] = std::max(truth_.renewed[holder], now_ - from_seconds(age_ms * 1e-3));
 }
 
@@ -266,12 +266,12 @@ void World::base_sends() {
   packet.route = where_.base_sends();
   packet.stop = stop_.state();
   packet.presses = truth_.presses;
-  telemetry::Values stated;
-  authority_.put(stated, now_);
-  packet.holder = stated[telemetry::field("authority.holder")];
-  packet.epoch = stated[telemetry::field("authority.epoch")];
-  packet.renewal = stated[telemetry::field("authority.renewal")];
-  packet.renewal_age = stated[telemetry::field("authority.renewal_age")];
+  telemetry::Values values;
+  authority_.put(values, now_);
+  packet.holder = values[telemetry::field("authority.holder")];
+  packet.epoch = values[telemetry::field("authority.epoch")];
+  packet.renewal = values[telemetry::field("authority.renewal")];
+  packet.renewal_age = values[telemetry::field("authority.renewal_age")];
   std::array<std::uint8_t, 96> buffer{};
   BodyWriter body(buffer, buffer.size(), Direction::kUp);
   body.begin(now_, 1);
@@ -308,16 +308,16 @@ void World::meet(std::uint8_t run) {
 
 void World::hear_state(const UpPacket& packet) {
   if (packet.run != run_met_) meet(packet.run);
-  telemetry::Values stated;
-  stated[telemetry::field("authority.holder")] = packet.holder;
-  stated[telemetry::field("authority.epoch")] = packet.epoch;
-  stated[telemetry::field("authority.renewal")] = packet.renewal;
-  stated[telemetry::field("authority.renewal_age")] = packet.renewal_age;
+  telemetry::Values values;
+  values[telemetry::field("authority.holder")] = packet.holder;
+  values[telemetry::field("authority.epoch")] = packet.epoch;
+  values[telemetry::field("authority.renewal")] = packet.renewal;
+  values[telemetry::field("authority.renewal_age")] = packet.renewal_age;
   Received received;
   received.at = now_;
   received.sent_earliest = packet.sent;
   if (planted_ == Planted::kRenewalAtReception) received.sent_earliest = now_;
-  view_.receive(stated, received);
+  view_.receive(values, received);
   if (packet.epoch >= truth_.newest_epoch) {
     truth_.newest_epoch = packet.epoch;
     truth_.newest_holder = packet.holder;
@@ -345,9 +345,9 @@ Broken World::deliver_up(const UpPacket& packet, bool relayed) {
   received.at = now_;
   received.sent_earliest = planted_ == Planted::kAgeFromReception ? now_ : packet.sent;
   for (const Record& record : body->records) {
-    const auto stated = telemetry::parse_command(record.payload);
-    const bool forge = planted_ == Planted::kAnyConsole && stated;
-    CHECK(ledger_.take(record, received, forge ? forged_view(stated->issuer) : view_));
+    const auto values = telemetry::parse_command(record.payload);
+    const bool forge = planted_ == Planted::kAnyConsole && values;
+    CHECK(ledger_.take(record, received, forge ? forged_view(values->issuer) : view_));
   }
   return Broken::kNothing;
 }
@@ -396,13 +396,13 @@ void World::hand_out() {
 telemetry::AuthorityView World::forged_view(HolderId who) const {
   telemetry::AuthorityRegister forged;
   forged.take(who, now_);
-  telemetry::Values stated;
-  forged.put(stated, now_);
+  telemetry::Values values;
+  forged.put(values, now_);
   Received received;
   received.at = now_;
   received.sent_earliest = now_;
   telemetry::AuthorityView view;
-  view.receive(stated, received);
+  view.receive(values, received);
   return view;
 }
 

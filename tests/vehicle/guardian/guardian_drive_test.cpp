@@ -52,10 +52,10 @@ TEST(GuardianTakeOver, SaysTheSameWhateverWasBefore) {
     ASSERT_EQ(again->mode(), Mode::kDriving);
     EXPECT_EQ(first->out.gate_refusals, 0U);
     EXPECT_EQ(again->out.gate_refusals, 0U);
-    ASSERT_EQ(first->stated.size(), again->stated.size());
-    for (std::size_t i = 0; i < first->stated.size(); ++i) {
-      EXPECT_EQ(first->stated[i].id, again->stated[i].id);
-      EXPECT_EQ(first->stated[i].data, again->stated[i].data) << first->stated[i].id;
+    ASSERT_EQ(first->sent.size(), again->sent.size());
+    for (std::size_t i = 0; i < first->sent.size(); ++i) {
+      EXPECT_EQ(first->sent[i].id, again->sent[i].id);
+      EXPECT_EQ(first->sent[i].data, again->sent[i].data) << first->sent[i].id;
     }
     expect_same(first->state.status.command, again->state.status.command);
   }
@@ -65,7 +65,7 @@ TEST(GuardianTakeOver, SaysTheSameWhateverWasBefore) {
 TEST(GuardianTakeOver, ItsGateHasSeenWhatTheCarWasToldLast) {
   const CarPtr car = silent(kBeforeItActs);
   car->tick();
-  ASSERT_EQ(car->stated.size(), 6U);
+  ASSERT_EQ(car->sent.size(), 6U);
   const auto& windows = car->state.gate.windows;
   const auto seen = [&](std::uint64_t times) {
     return std::count_if(windows.begin(), windows.end(),
@@ -200,7 +200,7 @@ void expect_open_loop(Straight& car, safety::SafeStopState& twin, int times) {
   for (int i = 0; i < times; ++i) {
     const world::ActuatorCommand before = car.state.following.command;
     do car.tick();
-    while (car.stated.empty());
+    while (car.sent.empty());
     ASSERT_EQ(car.state.status.guidance, Guidance::kOpenLoop);
     const safety::SafeStopInputs in{
         .stop = car.state.record.stop,
@@ -236,7 +236,7 @@ TEST(GuardianOpenLoop, WhereFeedbackComesBackTheWheelsTurnNoFasterThanEver) {
   car->imus_live = true;
   car->state.reckoning.pose.y_m = 4.5;  // it wants to turn far to the right
   do car->tick();
-  while (car->stated.empty());
+  while (car->sent.empty());
   ASSERT_EQ(car->state.status.guidance, Guidance::kInertial);
   const double turned_rad = car->state.following.command.road_wheel_rad - before_rad;
   EXPECT_NEAR(turned_rad, -car->params.following.slew_rad_per_s * kSpeakEvery.seconds(), 1e-9);

@@ -30,7 +30,7 @@ struct Driven {
   void expect_given(bool given, Cause cause) const {
     EXPECT_EQ(car.mode() == Mode::kHandedBack, given);
     EXPECT_EQ(car.out.mode_changed, given);
-    EXPECT_EQ(car.stated.empty(), given);
+    EXPECT_EQ(car.sent.empty(), given);
     if (!given) return;
     EXPECT_EQ(car.cause(), cause);
     EXPECT_EQ(car.state.status.guidance, Guidance::kNone);
@@ -138,7 +138,7 @@ TEST(GuardianTakeOver, BeginsAnew) {
   ASSERT_EQ(car.mode(), Mode::kDriving);
   EXPECT_EQ(car.state.fresh_records, 0);
   EXPECT_FALSE(car.state.open_loop.active);
-  EXPECT_FALSE(car.stated.empty());
+  EXPECT_FALSE(car.sent.empty());
   EXPECT_EQ(car.state.status.since, car.now);
 }
 

@@ -45,13 +45,13 @@ TEST_F(Guardian, ActsAfterThirtyMillisecondsAndNotBefore) {
   while (car->now - last < milliseconds(29)) {
     car->tick();
     ASSERT_EQ(car->mode(), Mode::kWatching) << (car->now - last).milliseconds();
-    ASSERT_TRUE(car->stated.empty());
+    ASSERT_TRUE(car->sent.empty());
   }
   car->tick();
   EXPECT_EQ(car->now - last, milliseconds(30));
   EXPECT_EQ(car->mode(), Mode::kDriving);
   EXPECT_EQ(car->cause(), Cause::kCarSilent);
-  EXPECT_EQ(car->stated.size(), 6u) << "four commands, the report, the accelerations";
+  EXPECT_EQ(car->sent.size(), 6u) << "four commands, the report, the accelerations";
 }
 
 TEST_F(Guardian, AMachineThatStoodStillIsNoSilentCar) {
@@ -228,16 +228,16 @@ TEST_F(Guardian, GivesTheCarBackToAProcessThatIsBackInTimeAndNeverTwoSpeak) {
   ASSERT_EQ(car->mode(), Mode::kDriving);
   car->car_publishes = true;
   bool spoke_at_once = false;
-  std::size_t stated_after = 0;
+  std::size_t sent_after = 0;
   for (int i = 0; i < 500; ++i) {
     car->car_speaks = !guardian_drives(*car);
     const bool was_given = !guardian_drives(*car);
     car->tick();
     spoke_at_once |= car->car_speaks && drives(car->mode());
-    if (was_given) stated_after += car->stated.size();
+    if (was_given) sent_after += car->sent.size();
   }
   EXPECT_FALSE(spoke_at_once);
-  EXPECT_EQ(stated_after, 0u);
+  EXPECT_EQ(sent_after, 0u);
   EXPECT_EQ(car->mode(), Mode::kWatching);
   EXPECT_EQ(car->state.status.hand_backs, 1u);
   EXPECT_FALSE(car->state.status.latched);
@@ -306,7 +306,7 @@ TEST_F(Guardian, YieldsToAProcessThatSpeaks) {
   car->car_publishes = car->car_speaks = true;
   car->run(milliseconds(30));
   EXPECT_FALSE(drives(car->mode()));
-  EXPECT_TRUE(car->stated.empty());
+  EXPECT_TRUE(car->sent.empty());
   EXPECT_TRUE(car->state.status.latched) << "the car's process learns that it must stop";
 }
 

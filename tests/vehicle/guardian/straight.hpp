@@ -49,7 +49,7 @@ class Straight {
   double x_m = 0.0, y_m = 0.0, speed_mps = kSpeed_mps, brake_kpa = 0.0;
   std::uint8_t counter = 0;
   std::uint8_t report_counter = 0;
-  std::vector<can::Frame> stated;  // by the guardian, in the last tick
+  std::vector<can::Frame> sent;    // by the guardian, in the last tick
   std::vector<can::Frame> so_far;  // by the guardian
   Output out;
 
@@ -79,8 +79,8 @@ class Straight {
                 .can = incoming,
                 .sensors = samples,
                 .now = now});
-    stated.assign(out.frames.begin(), out.frames.end());
-    so_far.insert(so_far.end(), stated.begin(), stated.end());
+    sent.assign(out.frames.begin(), out.frames.end());
+    so_far.insert(so_far.end(), sent.begin(), sent.end());
     execute();
   }
 
@@ -162,7 +162,7 @@ class Straight {
   }
 
   void execute() {
-    for (const can::Frame& frame : stated) {
+    for (const can::Frame& frame : sent) {
       av21::BrakePressureCmd brake;
       if (frame.id == av21::BrakePressureCmd::kId && av21::decode(frame, brake))
         brake_kpa = brake.brake_pressure_cmd;

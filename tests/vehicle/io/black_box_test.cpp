@@ -24,7 +24,7 @@ struct Ticks {
   std::vector<can::ReceivedFrame> received{{.frame = {.id = 0x11, .length = 8}, .at = {}},
                                            {.frame = {.id = 0x12, .length = 4}, .at = {}}};
   world::SensorInput sensors;
-  std::vector<can::Frame> stated{{.id = 0x21, .length = 8}};
+  std::vector<can::Frame> sent{{.id = 0x21, .length = 8}};
   telemetry::Snapshot state;
   std::vector<std::uint8_t> air = std::vector<std::uint8_t>(200, 0x5A);
 
@@ -32,7 +32,7 @@ struct Ticks {
     for (can::ReceivedFrame& frame : received) frame.at = now - milliseconds(1);
     state.sampled_at.fill(now);
     state.values.at.fill(static_cast<double>(tick));
-    box.tick({.now = now, .can = received, .sensors = sensors, .requests = {}}, stated);
+    box.tick({.now = now, .can = received, .sensors = sensors, .requests = {}}, sent);
     box.radio(true, now, {.path = 1, .bytes = air});
     box.radio(false, now, {.bytes = air});
     box.receiver(tick % 2, now, air);

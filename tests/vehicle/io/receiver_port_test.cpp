@@ -42,10 +42,10 @@ template <class Say>
 void hears_three(ReceiverPort& port, Say&& say) {
   EXPECT_FALSE(port.byte_at());
   world::SensorInput out;
-  std::vector<std::uint8_t> stated, observed;
+  std::vector<std::uint8_t> sent, observed;
   for (std::uint32_t k = 0; k < 3; ++k) {
     const Message message = some_heading(1'000 * (k + 1));
-    stated.insert(stated.end(), message.span().begin(), message.span().end());
+    sent.insert(sent.end(), message.span().begin(), message.span().end());
     say(message.span());
   }
   const Instant limit = transport::monotonic_now() + seconds(10);
@@ -55,7 +55,7 @@ void hears_three(ReceiverPort& port, Say&& say) {
     });
   }
   ASSERT_EQ(out.headings.size(), 3U);
-  EXPECT_EQ(observed, stated) << "every byte, in order";
+  EXPECT_EQ(observed, sent) << "every byte, in order";
   EXPECT_EQ(out.headings[2].unit, 1);
   ASSERT_TRUE(port.byte_at());
   EXPECT_LE(*port.byte_at(), transport::monotonic_now());

@@ -1,8 +1,9 @@
-// The regulator with feed-forward: the law of steering/path_steering.hpp along the drive
-// trajectory.
-//   in     EgoState (Map, Body), Trajectory (Map), what was learned of the steering
+// Lateral regulator with feed-forward: the control law of steering/path_steering.hpp along the
+// drive trajectory.
+//   in     EgoState (Map, Body), Trajectory (Map), the learned correction of the steering
 //   out    road-wheel angle [rad], left positive
-//   errors verdict as in lateral.hpp; without a usable trajectory or ego the last angle is held
+//   errors verdict as in lateral.hpp; without a usable trajectory or ego state the last angle is
+//          held
 //   cost   O(trajectory points), no allocation
 // SPDX-License-Identifier: Apache-2.0
 #pragma once

@@ -1,15 +1,15 @@
-// Planner of stop paths: from the car, beside the line, down to the low side of the banking before
-// it is slow (a slow car slides down), and to a place that is straight and level if one lies within
-// the distance it has.
-//   in     the line, the car's place on it, the change of offset that the drive trajectory is in,
-//          the limits of the speed
-//   out    StopPath: a path that begins where the car is, with the direction and the curvature of
-//          the drive trajectory, and the share of the deceleration that ends it at the better place
+// Planner of stop paths: from the car, parallel to the line, down to the low side of the banking
+// while the car is still fast (a slow car slides down), and to a straight and level place if the
+// stopping distance reaches one.
+//   in     the line; the car's position along it and speed; the change of offset that the drive
+//          trajectory is in; the speed limits of a stop
+//   out    StopPath: a path that begins at the car, with the direction and the curvature of the
+//          drive trajectory, and the share of the deceleration that ends it at the better place
 //   invariants
-//          the change to the low side needs no more lateral acceleration than kChangeMost and than
-//          the corner leaves of the share of the friction ellipse, at the speed that the car has
-//          there; it is over where the car is at low_speed. The path comes no nearer to a wall than
-//          clearance_m, or where the car is nearer already, no nearer than that
+//          the change to the low side needs at most kChangeMost_mps2 of lateral acceleration, and
+//          at most what the corner leaves of the share of the friction ellipse at the speed there;
+//          it is complete where the car reaches low_speed. The path keeps clearance_m from the
+//          walls; a car that is nearer already comes no nearer
 //   frames Map; offsets positive left
 //   errors none: where nothing better is possible the path stays beside the line
 //   cost   O(kRoadPoints) per tried place and change, below 0.2 ms; no allocation

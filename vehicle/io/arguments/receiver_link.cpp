@@ -30,12 +30,13 @@ Result<ReceiverLink, Problem> serial_of(std::string_view whole, std::string_view
     const std::string_view rate = text.substr(colon + 1);
     const auto [end, error] = std::from_chars(rate.data(), rate.data() + rate.size(), device.baud);
     if (error != std::errc{} || end != rate.data() + rate.size())
-      return refuse(whole, "\"" + std::string(rate) + "\" is no baud rate");
+      return refuse(whole, "\"" + std::string(rate) + "\" is not a baud rate");
     if (!transport::is_serial_rate(device.baud))
-      return refuse(whole, "no tty has the rate " + std::string(rate));
+      return refuse(whole, "serial devices of Linux do not have the rate " + std::string(rate));
     device.path = text.substr(0, colon);
   }
-  if (!device.path.starts_with('/')) return refuse(whole, "the device is a path, as /dev/ttyS0");
+  if (!device.path.starts_with('/'))
+    return refuse(whole, "expected the path of a device, as /dev/ttyS0");
   return ReceiverLink{device};
 }
 
@@ -81,7 +82,8 @@ Result<ReceiverLinks, Problem> receiver_links(const std::vector<std::string>& wo
     of_unit = *std::move(link);
   }
   for (std::size_t unit = 0; unit < given.size(); ++unit)
-    if (!given[unit]) return refuse("unit " + std::to_string(unit), "this receiver has no link");
+    if (!given[unit])
+      return refuse("unit " + std::to_string(unit), "expected a link for this receiver");
   if (to_string(*given[0]) == to_string(*given[1]))
     return refuse(to_string(*given[0]), "the receivers need two different links");
   return ReceiverLinks{*given[0], *given[1]};

@@ -39,8 +39,8 @@ SensorFile read(yaml::StrictMap& map) {
   for (yaml::StrictMap& row : map.maps("sensors")) {
     const SensorRow sensor = read_row(row);
     for (const SensorRow& other : file.sensors) {
-      if (other.name == sensor.name) row.fail("name", "occurs twice");
-      if (other.topic == sensor.topic) row.fail("topic", "occurs twice");
+      if (other.name == sensor.name) row.fail("name", "another sensor has this name");
+      if (other.topic == sensor.topic) row.fail("topic", "another sensor has this topic");
     }
     file.sensors.push_back(sensor);
   }

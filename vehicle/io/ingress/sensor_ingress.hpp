@@ -1,12 +1,12 @@
-// Sensors that speak ROS 2, for perception: the newest sample of each, and how it comes.
+// Input of ROS 2 sensor topics for perception: the newest sample of each sensor, with statistics of
+// its arrival.
 //   in     topics of a sensor file, over DDS
 //   out    newest sample of each sensor by type; rate, gap, latency, drops, refusals
 //   invariants
-//          each sensor has its own DDS participant, with sockets and threads of its own: none waits
-//          for another, and nothing of it runs in the 100 Hz loop, which takes from mailboxes and
-//          atomic figures without waiting
-//          what is not a whole, well-formed message of the type is refused, counted, and never
-//          seen by anybody
+//          each sensor has its own DDS participant with its own sockets and threads, so that none
+//          waits for another. No part of them runs in the 100 Hz loop, which takes from mailboxes
+//          and atomic figures without waiting
+//          a message that is not whole and well-formed is refused, counted, and not delivered
 //   units  latency: from header.stamp to arrival, both in UTC
 //   errors start(): Problem with the sensor. Later: counters
 // SPDX-License-Identifier: Apache-2.0

@@ -21,10 +21,11 @@ export async function fetchLayout<T>(
     const answer = await fetch(place(name));
     if (answer.status === 204) return null;
     const layout = answer.ok ? read(await answer.json()) : null;
-    if (layout === null) say(name, "the kept one is no layout; the usual one is shown");
+    if (layout === null) say(name, "the saved layout is not valid; the default is shown");
     return layout;
   } catch (error) {
-    if (error instanceof SyntaxError) say(name, "the kept one is no JSON; the usual one is shown");
+    const isJson = !(error instanceof SyntaxError);
+    if (!isJson) say(name, "the saved layout is not JSON; the default is shown");
     return null;
   }
 }

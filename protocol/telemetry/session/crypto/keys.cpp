@@ -70,7 +70,7 @@ Result<Lines, Problem> split(std::string_view text, const std::string& place) {
     std::size_t which = 0;
     while (which < kLineNames.size() && kLineNames[which] != name) ++which;
     if (colon == std::string_view::npos || which == kLineNames.size()) {
-      return Unexpected{Problem{here, "not one of role:, public:, secret:, peer:, use:"}};
+      return Unexpected{Problem{here, "expected one of: role:, public:, secret:, peer:, use:"}};
     }
     if (lines.number[which] != 0) {
       return Unexpected{Problem{here, std::string(name) + ": occurs twice"}};
@@ -130,7 +130,7 @@ std::string text_of(const PublicKey& key) {
 Result<PublicKey, Problem> parse_public_key(std::string_view text, const std::string& place) {
   PublicKey key{};
   if (parse_hex(trimmed(text), key)) return key;
-  return Unexpected{Problem{place, "a key is 64 hexadecimal digits"}};
+  return Unexpected{Problem{place, "expected 64 hexadecimal digits"}};
 }
 
 std::string text_of(const KeyFile& keys) {
@@ -164,7 +164,7 @@ Result<KeyFile, Problem> parse_key_file(std::string_view text, const std::string
   KeyFile keys{.role = found, .own = {}, .peer = *peer};
   keys.own.public_key = *own;
   if (!parse_hex((*lines)[Line::kSecret], keys.own.secret_key.bytes)) {
-    return wrong(Line::kSecret, "a key is 64 hexadecimal digits");
+    return wrong(Line::kSecret, "expected 64 hexadecimal digits");
   }
   if (public_of(keys.own.secret_key) != keys.own.public_key) {
     return wrong(Line::kPublic, "does not belong to secret:");

@@ -30,7 +30,7 @@ class Clients : public ::testing::Test {
     return types;
   }
   std::optional<Request> says(ClientId client, const std::string& text) {
-    return clients_.stated(client, text, eyes_, kNow);
+    return clients_.receive_text(client, text, eyes_, kNow);
   }
   using Types = std::vector<std::string>;
 
@@ -94,7 +94,7 @@ TEST_F(Clients, AViewerLooksOnly) {
 
 TEST_F(Clients, AnErrorIsToldToItsConsoleOnly) {
   EXPECT_FALSE(says(kAnna, "{"));
-  clients_.stated_binary(kAnna);
+  clients_.receive_binary(kAnna);
   const auto sendings = clients_.take();
   ASSERT_EQ(sendings.size(), 2u);
   for (const Sending& sending : sendings) EXPECT_EQ(sending.to, web::ClientSet{}.set(kAnna));

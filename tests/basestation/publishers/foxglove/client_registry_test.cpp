@@ -22,8 +22,8 @@ class FoxgloveRoom : public testing::Test {
     room_.take();
   }
   void subscribe(web::ClientId client, int id, int channel) {
-    room_.stated(client, R"({"op":"subscribe","subscriptions":[{"id":)" + std::to_string(id) +
-                             R"(,"channelId":)" + std::to_string(channel) + "}]}");
+    room_.receive_text(client, R"({"op":"subscribe","subscriptions":[{"id":)" + std::to_string(id) +
+                                   R"(,"channelId":)" + std::to_string(channel) + "}]}");
   }
   // The statuses that a client was told, in a row.
   std::string statuses(web::ClientId client) {
@@ -76,7 +76,7 @@ TEST_F(FoxgloveRoom, NobodyIsToldWhatHeHasNotSubscribedOrNoMore) {
   EXPECT_FALSE(room_.wanted(0));
   subscribe(kAnna, 5, 0);
   EXPECT_TRUE(room_.wanted(0));
-  room_.stated(kAnna, R"({"op":"unsubscribe","subscriptionIds":[5]})");
+  room_.receive_text(kAnna, R"({"op":"unsubscribe","subscriptionIds":[5]})");
   room_.message(0, UtcTime{}, kBody);
   EXPECT_TRUE(room_.take().empty());
   subscribe(kAnna, 5, 0);
@@ -106,18 +106,18 @@ TEST_F(FoxgloveRoom, MistakesOfSubscriptionAreToldAndCounted) {
   subscribe(kAnna, 2, 0);
   EXPECT_NE(statuses(kAnna).find("channel 0 is subscribed already"), std::string::npos);
   EXPECT_EQ(refused("subscribe"), 3U);
-  room_.stated(kAnna, R"({"op":"unsubscribe","subscriptionIds":[3]})");
+  room_.receive_text(kAnna, R"({"op":"unsubscribe","subscriptionIds":[3]})");
   EXPECT_NE(statuses(kAnna).find("no subscription 3"), std::string::npos);
-  room_.stated(kAnna, "nonsense");
+  room_.receive_text(kAnna, "nonsense");
   EXPECT_EQ(refused("malformed"), 1U);
 }
 
 TEST_F(FoxgloveRoom, WhoPublishesOrSetsIsRefusedAndNobodyElseHearsOfIt) {
-  room_.stated(kAnna, R"({"op":"advertise","channels":[{"id":1,"topic":"/cmd"}]})");
-  room_.stated_bytes(kAnna, std::vector<std::uint8_t>{1, 0, 0, 0, 0, 'x'});
-  room_.stated_bytes(kAnna, std::vector<std::uint8_t>{2, 0});
-  room_.stated(kAnna, R"({"op":"setParameters","parameters":[]})");
-  EXPECT_FALSE(room_.stated_bytes(
+  room_.receive_text(kAnna, R"({"op":"advertise","channels":[{"id":1,"topic":"/cmd"}]})");
+  room_.receive_bytes(kAnna, std::vector<std::uint8_t>{1, 0, 0, 0, 0, 'x'});
+  room_.receive_bytes(kAnna, std::vector<std::uint8_t>{2, 0});
+  room_.receive_text(kAnna, R"({"op":"setParameters","parameters":[]})");
+  EXPECT_FALSE(room_.receive_bytes(
       kAnna, std::vector<std::uint8_t>{3, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0}));
   for (const Sending& sending : room_.take()) {
     EXPECT_TRUE(sending.to.test(kAnna));
@@ -144,27 +144,27 @@ TEST_F(FoxgloveRoom, ThresholdsAreReadAndWatched) {
     }
     return all;
   };
-  room_.stated(kAnna, R"({"op":"subscribeParameterUpdates","parameterNames":[]})");
+  room_.receive_text(kAnna, R"({"op":"subscribeParameterUpdates","parameterNames":[]})");
   room_.parameters({{"/a", 1}, {"/b", 2}});
   EXPECT_EQ(reported(kAnna), "/a=1 /b=2 ") << "all means those to come, too";
-  room_.stated(kBert, R"({"op":"getParameters","parameterNames":["/b","/none"],"id":"!"})");
+  room_.receive_text(kBert, R"({"op":"getParameters","parameterNames":["/b","/none"],"id":"!"})");
   EXPECT_EQ(reported(kBert), "/b=2! ");
-  room_.stated(kBert, R"({"op":"subscribeParameterUpdates","parameterNames":["/b"]})");
+  room_.receive_text(kBert, R"({"op":"subscribeParameterUpdates","parameterNames":["/b"]})");
   room_.parameters({{"/a", 1}, {"/b", 3}});
   EXPECT_EQ(reported(kBert), "/b=3 ");
   room_.parameters({{"/a", 5}, {"/b", 3}});
   EXPECT_EQ(reported(kBert), "") << "not asked for";
-  room_.stated(kAnna, R"({"op":"unsubscribeParameterUpdates","parameterNames":[]})");
+  room_.receive_text(kAnna, R"({"op":"unsubscribeParameterUpdates","parameterNames":[]})");
   room_.left(kBert);
   room_.parameters({{"/a", 6}, {"/b", 6}});
   EXPECT_EQ(reported(kAnna), "");
-  room_.stated(kAnna, R"({"op":"getParameters","parameterNames":[]})");
+  room_.receive_text(kAnna, R"({"op":"getParameters","parameterNames":[]})");
   EXPECT_EQ(reported(kAnna), "/a=6 /b=6 ");
 }
 
 TEST_F(FoxgloveRoom, TheGraphIsToldToWhoAsks) {
-  room_.stated(kAnna, R"({"op":"subscribeConnectionGraph"})");
-  room_.stated(kAnna, R"({"op":"unsubscribeConnectionGraph"})");
+  room_.receive_text(kAnna, R"({"op":"subscribeConnectionGraph"})");
+  room_.receive_text(kAnna, R"({"op":"unsubscribeConnectionGraph"})");
   const auto out = room_.take();
   ASSERT_EQ(out.size(), 1U);
   EXPECT_TRUE(out[0].to.test(kAnna));
@@ -190,7 +190,7 @@ TEST_F(FoxgloveRoom, ARecordingIsWoundByItsClients) {
   ClientRegistry room{{.name = "", .session = "", .playback = TimeRange{}}, rows()};
   room.joined(kAnna);
   room.take();
-  const auto control = room.stated_bytes(
+  const auto control = room.receive_bytes(
       kAnna, std::vector<std::uint8_t>{3, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0});
   ASSERT_TRUE(control);
   EXPECT_TRUE(control->play);

@@ -18,7 +18,7 @@ TEST_F(WebServerTest, TextsAndFramesGoBothWays) {
   const ClientId client = join(browser);
   EXPECT_GE(client, kFirstClient);
   browser.say("{\"type\": \"x\"}");
-  EXPECT_EQ(wait_for(ClientNews::Kind::kStated)->text, "{\"type\": \"x\"}");
+  EXPECT_EQ(wait_for(ClientNews::Kind::kText)->text, "{\"type\": \"x\"}");
   server_->send(only(client), text("hello"));
   server_->send(only(client), vehicle(7, 8));
   EXPECT_EQ(browser.receive()->bytes, "hello");
@@ -62,7 +62,7 @@ TEST_F(WebServerTest, AConsoleIsOfTheCarItCameTo) {
   ASSERT_EQ(received[0].size(), 1u);
   ASSERT_EQ(received[1].size(), 2u);
   EXPECT_NE(received[0][0].client, received[1][0].client) << "one numbering for all";
-  EXPECT_EQ(received[1][1].kind, ClientNews::Kind::kStated);
+  EXPECT_EQ(received[1][1].kind, ClientNews::Kind::kText);
   EXPECT_EQ(received[1][1].client, received[1][0].client);
 }
 
@@ -191,9 +191,9 @@ TEST_F(WebServerTest, WhoSaysMoreThanIsHandledIsReadNoFurther) {
   Browser browser;
   join(browser);
   for (int i = 0; i < 100; ++i) browser.say(std::to_string(i));
-  int stated = 0;
-  while (stated < 100 && wait_for(ClientNews::Kind::kStated)) ++stated;
-  EXPECT_EQ(stated, 100) << "nothing is lost";
+  int texts = 0;
+  while (texts < 100 && wait_for(ClientNews::Kind::kText)) ++texts;
+  EXPECT_EQ(texts, 100) << "nothing is lost";
 }
 
 TEST_F(WebServerTest, RandomBytesDoNoHarm) {

@@ -28,14 +28,14 @@ TEST(MessageText, ATicketHasItsGatesItsStepsAndItsReason) {
                           .known = true,
                           .text = "cold"});
   ticket.gates.push_back({.kind = command::GateKind::kFuel, .text = "never heard"});
-  const auto stated = json_of(ticket_text(ticket));
-  EXPECT_EQ(stated.text("type"), "command");
-  EXPECT_EQ(stated.text("name"), "speed limit");
-  EXPECT_EQ(stated.text("step"), "gated");
-  EXPECT_EQ(stated.items("gates")[0].number("age_ms"), 120.0);
-  EXPECT_EQ(stated.items("gates")[1].find("age_ms")->text(), "");
-  EXPECT_EQ(stated.find("times_ms")->number("staged"), 500'000.0);
-  EXPECT_EQ(stated.find("override")->is_object(), false);
+  const auto json = json_of(ticket_text(ticket));
+  EXPECT_EQ(json.text("type"), "command");
+  EXPECT_EQ(json.text("name"), "speed limit");
+  EXPECT_EQ(json.text("step"), "gated");
+  EXPECT_EQ(json.items("gates")[0].number("age_ms"), 120.0);
+  EXPECT_EQ(json.items("gates")[1].find("age_ms")->text(), "");
+  EXPECT_EQ(json.find("times_ms")->number("staged"), 500'000.0);
+  EXPECT_EQ(json.find("override")->is_object(), false);
 }
 
 TEST(MessageText, AuthorityIsNobodysOrSomebodysWithAnEnd) {
@@ -45,19 +45,19 @@ TEST(MessageText, AuthorityIsNobodysOrSomebodysWithAnEnd) {
   EXPECT_EQ(json_of(authority_text(talk, authority, kNow)).number("holder"), 0.0);
   ASSERT_TRUE(talk.take({.console = 16, .name = "Anna"}, kNow));
   ASSERT_TRUE(talk.request({.console = 17, .name = "Bo"}, kNow));
-  const auto stated = json_of(authority_text(talk, authority, kNow + seconds(1)));
-  EXPECT_EQ(stated.text("holder_name"), "Anna");
-  EXPECT_NEAR(stated.number("expires_ms"), 503'000.0, 1.0);
-  EXPECT_EQ(stated.find("request")->text("name"), "Bo");
-  EXPECT_EQ(stated.find("request")->number("until_ms"), 505'000.0);
+  const auto json = json_of(authority_text(talk, authority, kNow + seconds(1)));
+  EXPECT_EQ(json.text("holder_name"), "Anna");
+  EXPECT_NEAR(json.number("expires_ms"), 503'000.0, 1.0);
+  EXPECT_EQ(json.find("request")->text("name"), "Bo");
+  EXPECT_EQ(json.find("request")->number("until_ms"), 505'000.0);
 }
 
 TEST(MessageText, AnEventOfTheCarIsAText) {
-  const auto stated =
+  const auto json =
       json_of(event_text(telemetry::make_event(telemetry::TextEvent{"a\xFF\"b"}, kNow)));
-  EXPECT_EQ(stated.text("type"), "event");
-  EXPECT_NE(stated.text("text").find("\"b"), std::string::npos) << stated.text("text");
-  EXPECT_EQ(stated.text("severity"), "info");
+  EXPECT_EQ(json.text("type"), "event");
+  EXPECT_NE(json.text("text").find("\"b"), std::string::npos) << json.text("text");
+  EXPECT_EQ(json.text("severity"), "info");
   const auto fault =
       telemetry::make_event(telemetry::FaultEvent{.cause = 3, .begins = true, .value = 1}, kNow);
   EXPECT_EQ(json_of(event_text(fault)).text("severity"), "warning");
@@ -95,21 +95,21 @@ TEST(MessageText, AStopHasItsCauseAndTheWayBack) {
   stopped.challenge = 4711.0;
   stopped.steps[1].possible = true;
   stopped.steps[2].why = "release the stop first";
-  auto stated = json_of(stop_text(stopped));
-  EXPECT_TRUE(stated.flag("stopped"));
-  EXPECT_EQ(stated.text("cause"), "too long");
-  EXPECT_EQ(stated.number("challenge"), 4711.0);
-  EXPECT_EQ(stated.find("value")->text(), "") << "no value is no number";
-  EXPECT_EQ(stated.find("since_ms")->text(), "");
-  ASSERT_EQ(stated.items("steps").size(), 4u);
-  EXPECT_EQ(stated.items("steps")[0].text("step"), "release");
-  EXPECT_TRUE(stated.items("steps")[1].flag("possible"));
-  EXPECT_EQ(stated.items("steps")[2].text("why"), "release the stop first");
+  auto json = json_of(stop_text(stopped));
+  EXPECT_TRUE(json.flag("stopped"));
+  EXPECT_EQ(json.text("cause"), "too long");
+  EXPECT_EQ(json.number("challenge"), 4711.0);
+  EXPECT_EQ(json.find("value")->text(), "") << "no value is no number";
+  EXPECT_EQ(json.find("since_ms")->text(), "");
+  ASSERT_EQ(json.items("steps").size(), 4u);
+  EXPECT_EQ(json.items("steps")[0].text("step"), "release");
+  EXPECT_TRUE(json.items("steps")[1].flag("possible"));
+  EXPECT_EQ(json.items("steps")[2].text("why"), "release the stop first");
   stopped.since = kNow;
   stopped.value = 1.6;
-  stated = json_of(stop_text(stopped));
-  EXPECT_EQ(stated.number("since_ms"), 500'000.0);
-  EXPECT_EQ(stated.number("value"), 1.6);
+  json = json_of(stop_text(stopped));
+  EXPECT_EQ(json.number("since_ms"), 500'000.0);
+  EXPECT_EQ(json.number("value"), 1.6);
 }
 
 TEST(MessageText, TheLinkHasBothDirectionsAndEveryGroupOfTheCar) {
@@ -123,22 +123,21 @@ TEST(MessageText, TheLinkHasBothDirectionsAndEveryGroupOfTheCar) {
                rig.now, report.round_trip ? report.round_trip->milliseconds() : kUnset);
   }
   const auto report = rig.station->report(rig.now);
-  const auto stated = json_of(link_text({.report = report,
-                                         .meter = meter,
-                                         .vehicle = rig.base->vehicle(),
-                                         .state = state::LinkState::kGood,
-                                         .since = kNow,
-                                         .paths = 1},
-                                        rig.now));
-  EXPECT_EQ(stated.text("state"), "good");
-  ASSERT_EQ(stated.items("paths").size(), 2u);
-  const auto& down = stated.items("paths")[0].items("windows");
+  const auto json = json_of(link_text({.report = report,
+                                       .meter = meter,
+                                       .vehicle = rig.base->vehicle(),
+                                       .state = state::LinkState::kGood,
+                                       .since = kNow,
+                                       .paths = 1},
+                                      rig.now));
+  EXPECT_EQ(json.text("state"), "good");
+  ASSERT_EQ(json.items("paths").size(), 2u);
+  const auto& down = json.items("paths")[0].items("windows");
   ASSERT_EQ(down.size(), 3u);
   EXPECT_EQ(down[0].number("loss"), 0.0);
   EXPECT_NEAR(down[0].number("rtt_ms"), 20.0, 3.0);
-  EXPECT_GT(stated.items("paths")[1].items("windows")[0].number("kbit_s"), 1.0);
-  EXPECT_EQ(stated.items("groups").size(),
-            telemetry::groups_of(telemetry::Direction::kDown).count());
+  EXPECT_GT(json.items("paths")[1].items("windows")[0].number("kbit_s"), 1.0);
+  EXPECT_EQ(json.items("groups").size(), telemetry::groups_of(telemetry::Direction::kDown).count());
 }
 
 }  // namespace

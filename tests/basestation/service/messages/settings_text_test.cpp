@@ -43,12 +43,12 @@ TEST(SettingsText, WhatNobodySaidIsNull) {
   const auto nothing = json_of(expected_text({}, kUnset, {}));
   EXPECT_TRUE(std::isnan(nothing.number("round_speed_mps")));
   EXPECT_TRUE(std::isnan(nothing.number("fuel_ms")));
-  command::OperatorEntries stated;
-  stated.expected.round_speed_mps = 51.4;
-  stated.expected.fuel_loaded_l = 40.0;
-  stated.fuel_by = "Ada";
-  stated.fuel_at = Instant{seconds(2).ns};
-  const auto reported = json_of(expected_text(stated, 38.5, Instant{seconds(3).ns}));
+  command::OperatorEntries entries;
+  entries.expected.round_speed_mps = 51.4;
+  entries.expected.fuel_loaded_l = 40.0;
+  entries.fuel_by = "Ada";
+  entries.fuel_at = Instant{seconds(2).ns};
+  const auto reported = json_of(expected_text(entries, 38.5, Instant{seconds(3).ns}));
   EXPECT_EQ(reported.number("round_speed_mps"), 51.4);
   EXPECT_EQ(reported.number("fuel_ms"), 2'000.0);
   EXPECT_EQ(reported.text("fuel_by"), "Ada");

@@ -111,10 +111,10 @@ TEST(AlarmCheck, FromItsFilesARaceIsJudgedToTheVerySameAlarms) {
     live.run(seconds(50));  // three segments
     last = alarms_text(live.evaluator.alarms());
   }
-  std::vector<std::string> stated;
-  const auto judged = check_alarms(folder->path(), stated);
+  std::vector<std::string> remarks;
+  const auto judged = check_alarms(folder->path(), remarks);
   ASSERT_TRUE(judged) << to_string(judged.error());
-  EXPECT_TRUE(stated.empty());
+  EXPECT_TRUE(remarks.empty());
   EXPECT_GT(judged->lists(), 50U);
   EXPECT_GT(judged->lines(), 50U);
   EXPECT_EQ(judged->different(), 0U) << judged->differences().front();
@@ -129,8 +129,8 @@ TEST(AlarmCheck, AnotherBeginningOfTheSameRaceIsJudgedByItself) {
     live.begin();
     live.run(seconds(10));
   }
-  std::vector<std::string> stated;
-  const auto judged = check_alarms(folder->path(), stated);
+  std::vector<std::string> remarks;
+  const auto judged = check_alarms(folder->path(), remarks);
   ASSERT_TRUE(judged);
   EXPECT_EQ(judged->different(), 0U) << judged->differences().front();
 }
@@ -148,8 +148,8 @@ TEST(AlarmCheck, AnInputThatWasNotRecordedShows) {
       live.publish();
     }
   }
-  std::vector<std::string> stated;
-  const auto judged = check_alarms(folder->path(), stated);
+  std::vector<std::string> remarks;
+  const auto judged = check_alarms(folder->path(), remarks);
   ASSERT_TRUE(judged);
   EXPECT_GT(judged->different(), 0U);
   EXPECT_FALSE(judged->differences().empty());
@@ -157,10 +157,10 @@ TEST(AlarmCheck, AnInputThatWasNotRecordedShows) {
 
 TEST(AlarmCheck, AFolderWithoutAJudgeIsRefused) {
   const auto folder = transport::TemporaryFolder::create("pitwall_judge");
-  std::vector<std::string> stated;
-  EXPECT_FALSE(check_alarms(folder->path(), stated));
+  std::vector<std::string> remarks;
+  EXPECT_FALSE(check_alarms(folder->path(), remarks));
   replay::testing::record_race(folder->path(), seconds(1));
-  EXPECT_FALSE(check_alarms(folder->path(), stated));
+  EXPECT_FALSE(check_alarms(folder->path(), remarks));
 }
 
 }  // namespace

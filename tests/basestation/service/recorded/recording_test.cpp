@@ -17,16 +17,16 @@ namespace {
 
 TEST(Recording, WhatConsolesAreToldIsKept) {
   const auto folder = transport::TemporaryFolder::create("pitwall_wall");
-  std::vector<std::string> stated;
+  std::vector<std::string> remarks;
   std::string recorded;
   {
     RadioRig rig;
     auto recorder = start_recording(folder->path(), {}, *rig.base,
-                                    [&](const std::string& line) { stated.push_back(line); });
+                                    [&](const std::string& line) { remarks.push_back(line); });
     ASSERT_TRUE(recorder);
     rig.base->messages().add_line("mark", R"({"type": "mark", "text": "the mark"})", Instant{});
   }
-  EXPECT_TRUE(stated.empty());  // there was nothing before
+  EXPECT_TRUE(remarks.empty());  // there was nothing before
   for (const auto paths = recorder::segments_of(folder->path()); const auto& path : *paths) {
     recorded += *transport::read_file(path);
   }

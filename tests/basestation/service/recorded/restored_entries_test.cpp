@@ -15,12 +15,12 @@ using telemetry::field;
 constexpr Instant kEntered{seconds(500).ns};
 
 command::OperatorEntries entries() {
-  command::OperatorEntries stated;
-  stated.expected = {.round_speed_mps = 51.4, .track_flag = 4.0, .fuel_loaded_l = 40.0};
-  stated.round_speed_by = "Ada";
-  stated.fuel_by = "Bob";
-  stated.fuel_at = kEntered;
-  return stated;
+  command::OperatorEntries given;
+  given.expected = {.round_speed_mps = 51.4, .track_flag = 4.0, .fuel_loaded_l = 40.0};
+  given.round_speed_by = "Ada";
+  given.fuel_by = "Bob";
+  given.fuel_at = kEntered;
+  return given;
 }
 
 // The engine at full throttle, told ten times a second.
@@ -93,10 +93,10 @@ TEST(EntriesReader, WhatNobodyHeardWasBurntButNeverMoreThanThereWas) {
 }
 
 TEST(EntriesReader, WhereNoFuelWasEnteredNoneIsLeft) {
-  command::OperatorEntries stated = entries();
-  stated.expected.fuel_loaded_l = kUnset;
+  command::OperatorEntries given = entries();
+  given.expected.fuel_loaded_l = kUnset;
   EntriesReader restored;
-  restored.expected(expected_text(stated, kUnset, kEntered), kEntered);
+  restored.expected(expected_text(given, kUnset, kEntered), kEntered);
   drive(restored, kEntered, kEntered + seconds(1));
   const auto back = restored.result(kEntered + seconds(2));
   EXPECT_TRUE(std::isnan(back->fuel_left_l));

@@ -31,12 +31,12 @@ TEST(LogReader, WhatPeopleEnteredHoldsAgain) {
   RadioRig rig;
   {
     replay::testing::Recording recording{folder->path()};
-    command::OperatorEntries stated;
-    stated.expected = {.round_speed_mps = 51.4, .fuel_loaded_l = 40.0};
-    stated.round_speed_by = stated.fuel_by = "Ada";
-    stated.fuel_at = replay::testing::kRaceStart;
+    command::OperatorEntries given;
+    given.expected = {.round_speed_mps = 51.4, .fuel_loaded_l = 40.0};
+    given.round_speed_by = given.fuel_by = "Ada";
+    given.fuel_at = replay::testing::kRaceStart;
     recording.text(recorder::Topic::kExpected, replay::testing::kRaceStart,
-                   expected_text(stated, 40.0, replay::testing::kRaceStart));
+                   expected_text(given, 40.0, replay::testing::kRaceStart));
   }
   LogReader memory{*rig.base};
   const Instant now = replay::testing::kRaceStart + seconds(7);

@@ -17,7 +17,7 @@ constexpr Duration kTick = milliseconds(100);
 // A car at 60 m/s, heard ten times a second.
 struct Race {
   AttemptBook book;
-  RaceSample stated{.track_flag = kGreen,
+  RaceSample sample{.track_flag = kGreen,
                     .vehicle_flag = kAttacker,
                     .lap = 3,
                     .station_m = 500.0,
@@ -30,17 +30,17 @@ struct Race {
     for (Duration done{}; done < span; done = done + kTick) {
       now += kTick;
       driven_m += 60.0 * kTick.seconds();
-      stated.station_m = std::fmod(driven_m, kLap_m);
+      sample.station_m = std::fmod(driven_m, kLap_m);
       const double counted_m = driven_m - 60.0 * kTick.seconds() * lap_lags;
-      stated.lap = 3.0 + std::floor(counted_m / kLap_m);
+      sample.lap = 3.0 + std::floor(counted_m / kLap_m);
       if (received) say();
     }
   }
   void show(double flag, Duration span = kTick) {
-    stated.track_flag = flag;
+    sample.track_flag = flag;
     drive(span);
   }
-  void say() { book.receive(stated, kAttemptLaps, now); }
+  void say() { book.receive(sample, kAttemptLaps, now); }
   Attempt at() const { return book.attempt(); }
 };
 
@@ -63,10 +63,10 @@ TEST(Attempt, BeginsWithTheWavingGreenFlagAndCountsItsLaps) {
 
 TEST(Attempt, IsNoneForACarWithoutARole) {
   Race race;
-  race.stated.vehicle_flag = 0.0;
+  race.sample.vehicle_flag = 0.0;
   race.show(kWaving, seconds(10));
   EXPECT_TRUE(std::isnan(race.at().number));
-  race.stated.vehicle_flag = kDefender;
+  race.sample.vehicle_flag = kDefender;
   race.drive(seconds(1));
   EXPECT_EQ(race.at().number, 1.0);
 }
@@ -80,9 +80,9 @@ TEST(Attempt, NeitherAFlickerNorAnUnknownFlagNorSilenceEndsIt) {
   race.show(kUnknownFlag, seconds(8));
   race.show(kNothing, seconds(3));
   race.show(kUnset, seconds(3));
-  race.stated.vehicle_flag = kUnset;
+  race.sample.vehicle_flag = kUnset;
   race.show(kWaving, seconds(2));
-  race.stated.vehicle_flag = kAttacker;
+  race.sample.vehicle_flag = kAttacker;
   race.show(kWaving, seconds(2));
   EXPECT_EQ(race.at().number, 1.0);
   EXPECT_EQ(race.at().state, AttemptState::kRunning);
@@ -96,7 +96,7 @@ TEST(Attempt, AnotherFlagOrTheOtherRoleEndsIt) {
   EXPECT_EQ(race.at().state, AttemptState::kEnded);
   race.show(kWaving, seconds(1));
   EXPECT_EQ(race.at().number, 2.0);
-  race.stated.vehicle_flag = kDefender;
+  race.sample.vehicle_flag = kDefender;
   race.drive(seconds(2));
   EXPECT_EQ(race.at().number, 3.0);
   EXPECT_EQ(race.at().state, AttemptState::kRunning);
@@ -124,14 +124,14 @@ TEST(Attempt, ALapNumberThatRunsBackKeepsWhatWasDriven) {
   Race race;
   race.show(kWaving, seconds(20));
   race.drive(seconds(5), false);
-  race.stated.lap = 0;  // the car was started again
+  race.sample.lap = 0;  // the car was started again
   race.say();
   EXPECT_NEAR(race.at().laps, 25.0 * 60.0 / kLap_m, 0.01);
 }
 
 TEST(Attempt, WithoutACourseWholeLapsCount) {
   Race race;
-  race.stated.course_m = kUnset;
+  race.sample.course_m = kUnset;
   race.show(kWaving, seconds(39));
   EXPECT_EQ(race.at().laps, 1.0);  // across the line once
 }
@@ -142,7 +142,7 @@ TEST(Attempt, AStandingCarDrivesNoLaps) {
   const double before = race.at().laps;
   for (int i = 0; i < 10'000; ++i) {
     race.now += kTick;
-    race.stated.station_m += i % 2 == 0 ? 0.1 : -0.1;
+    race.sample.station_m += i % 2 == 0 ? 0.1 : -0.1;
     race.say();
   }
   EXPECT_NEAR(race.at().laps, before, 1e-3);
@@ -151,14 +151,14 @@ TEST(Attempt, AStandingCarDrivesNoLaps) {
 // Gap to the opponent over time: ahead, beside, behind.
 void pass_by(Race& race, double until_gap_m) {
   for (double gap = 20.0; gap > 0.0; gap -= 1.0) {
-    race.stated.gap_ahead_m = gap;
+    race.sample.gap_ahead_m = gap;
     race.drive(kTick);
   }
-  race.stated.gap_ahead_m = race.stated.gap_behind_m = 0.0;
+  race.sample.gap_ahead_m = race.sample.gap_behind_m = 0.0;
   race.drive(kTick);
-  race.stated.gap_ahead_m = kUnset;
+  race.sample.gap_ahead_m = kUnset;
   for (double gap = 1.0; gap <= until_gap_m; gap += 1.0) {
-    race.stated.gap_behind_m = gap;
+    race.sample.gap_behind_m = gap;
     race.drive(kTick);
   }
 }
@@ -168,7 +168,7 @@ TEST(Attempt, ThirtyMetresAheadIsAPass) {
   race.show(kWaving, seconds(1));
   pass_by(race, 29.0);
   EXPECT_EQ(race.at().state, AttemptState::kRunning);
-  race.stated.gap_behind_m = 30.0;
+  race.sample.gap_behind_m = 30.0;
   race.drive(kTick);
   EXPECT_EQ(race.at().state, AttemptState::kPassed);
   race.drive(seconds(90));  // and stays one
@@ -178,11 +178,11 @@ TEST(Attempt, ThirtyMetresAheadIsAPass) {
 TEST(Attempt, NoPassWithoutHavingBeenBehindOrAsDefender) {
   Race ahead;
   ahead.show(kWaving, seconds(1));
-  ahead.stated.gap_behind_m = 50.0;
+  ahead.sample.gap_behind_m = 50.0;
   ahead.drive(seconds(5));
   EXPECT_EQ(ahead.at().state, AttemptState::kRunning);
   Race defender;
-  defender.stated.vehicle_flag = kDefender;
+  defender.sample.vehicle_flag = kDefender;
   defender.show(kWaving, seconds(1));
   pass_by(defender, 40.0);
   EXPECT_EQ(defender.at().state, AttemptState::kRunning);
@@ -192,10 +192,10 @@ TEST(Attempt, NoPassWithoutHavingBeenBehindOrAsDefender) {
 TEST(Attempt, TheOtherHalfOfTheLapIsNoPass) {
   Race race;
   race.show(kWaving, seconds(1));
-  race.stated.gap_ahead_m = kLap_m / 2 - 10.0;
+  race.sample.gap_ahead_m = kLap_m / 2 - 10.0;
   race.drive(seconds(1));
-  race.stated.gap_ahead_m = kUnset;
-  race.stated.gap_behind_m = kLap_m / 2 - 10.0;
+  race.sample.gap_ahead_m = kUnset;
+  race.sample.gap_behind_m = kLap_m / 2 - 10.0;
   race.drive(seconds(1));
   EXPECT_EQ(race.at().state, AttemptState::kRunning);
 }
@@ -203,9 +203,9 @@ TEST(Attempt, TheOtherHalfOfTheLapIsNoPass) {
 TEST(Attempt, AnOpponentThatIsNotSeenAnyMoreIsNotPassed) {
   Race race;
   race.show(kWaving, seconds(1));
-  race.stated.gap_ahead_m = 20.0;
+  race.sample.gap_ahead_m = 20.0;
   race.drive(seconds(1));
-  race.stated.gap_ahead_m = kUnset;
+  race.sample.gap_ahead_m = kUnset;
   race.drive(seconds(5));
   EXPECT_EQ(race.at().state, AttemptState::kRunning);
 }

@@ -42,6 +42,29 @@ TEST(Lockstep, AFlyingLapOfLasVegasHoldsEveryExpectationAndLosesNothing) {
   EXPECT_NEAR(static_cast<double>(traffic.car_received), static_cast<double>(traffic.to_car), 32.0);
 }
 
+TEST(Lockstep, TheEventLogNamesModesCausesAndAContact) {
+  struct LogTexts {
+    const char* scenario;
+    std::vector<const char*> texts;
+  };
+  for (const auto& [name, texts] :
+       {LogTexts{"gnss_both_out", {"\"standby\"", "\"controlled stop, IMU: both units lost\""}},
+        LogTexts{"computer_and_guardian_killed",
+                 {"\"driving\"", "\"the car hit the wall on the "}}}) {
+    auto loaded = load(kRoot + "/hil/scenarios/" + name + ".yaml", kRoot);
+    ASSERT_TRUE(loaded) << to_string(loaded.error());
+    std::string log;
+    const auto run = run_lockstep(loaded->scenario, loaded->setup,
+                                  {.log = [&log](std::span<const std::uint8_t> bytes) {
+                                    log.append(bytes.begin(), bytes.end());
+                                    return true;
+                                  }});
+    ASSERT_TRUE(run) << to_string(run.error());
+    for (const char* text : texts)
+      EXPECT_NE(log.find(std::string{"\"text\":"} + text), std::string::npos) << name << text;
+  }
+}
+
 TEST(Lockstep, TheSameScenarioGivesTheSameBytes) {
   scenario::Scenario part = lap().scenario;
   part.duration = seconds(20);

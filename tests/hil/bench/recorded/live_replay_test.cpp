@@ -25,7 +25,7 @@ TEST(LiveReplay, ARecordingWithNothingToPlayIsRefusedBeforeAnythingStarts) {
   const auto played = play_to_car(std::move(recording), {}, plan);
   ASSERT_FALSE(played);
   EXPECT_EQ(to_string(played.error()),
-            "recording: error: no frame and no byte of a receiver came to the car");
+            "recording: error: holds no input of the car: neither frames nor bytes of receivers");
   EXPECT_FALSE(play_to_car({}, {}, plan));
 }
 

@@ -112,8 +112,8 @@ TEST(RecordedRun, NamesTheTickOfWhichSomethingIsMissing) {
   EXPECT_EQ(lacking("/car/tick", 100), "tick 100 is not recorded, the next is 101");
   EXPECT_EQ(lacking("/car/tick", 0), "tick 0 is not recorded, the next is 1");
   EXPECT_NE(lacking("/gnss/0", 1).find("bytes of receivers are recorded"), std::string::npos);
-  EXPECT_NE(lacking("/can/in", 5).find("frames heard are recorded"), std::string::npos);
-  EXPECT_NE(lacking("/can/out", 5).find("frames said are recorded"), std::string::npos);
+  EXPECT_NE(lacking("/can/in", 5).find("received frames are recorded"), std::string::npos);
+  EXPECT_NE(lacking("/can/out", 5).find("sent frames are recorded"), std::string::npos);
 }
 
 TEST(RecordedRun, EndsWhereACarThatWasStartedAgainBeginsAnotherRun) {

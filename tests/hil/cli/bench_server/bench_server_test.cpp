@@ -88,7 +88,7 @@ TEST(BenchServer, OneRunAtATime) {
   EXPECT_EQ(start.file, "f/good.yaml");
   EXPECT_TRUE(table.server.running());
   EXPECT_EQ(table.run().text("state"), "running");
-  EXPECT_EQ(table.refused(kStart), "start: run 1 (good) goes on; stop it first");
+  EXPECT_EQ(table.refused(kStart), "start: run 1 (good) is still running; stop it first");
   table.server.ended({.code = 2});
   const Answer again = table.server.receive(
       R"({"do": "start", "scenario": "good", "mode": "lockstep", "seed": 99})");
@@ -109,7 +109,7 @@ TEST(BenchServer, WhatCannotBeStartedIsRefusedWithItsReason) {
             "mode: this scenario needs the lockstep bench");
   EXPECT_EQ(table.refused(R"({"do": "start", "scenario": "live", "mode": "lockstep"})"),
             "mode: this scenario needs the live bench");
-  EXPECT_EQ(table.refused(R"({"do": "stop"})"), "stop: nothing runs");
+  EXPECT_EQ(table.refused(R"({"do": "stop"})"), "stop: no run is in progress");
   EXPECT_NE(table.refused("nonsense").find("line"), std::string::npos);
   EXPECT_EQ(table.server.counters().refused, 7U);
   EXPECT_FALSE(table.server.running());

@@ -85,9 +85,9 @@ TEST_F(PlotVerb, WhatCannotBeDrawnIsRefused) {
   expect_refusal({"Driv.Speed", "--out", out}, "the nearest: Drive");
   expect_refusal({"Drive.Speed", "--out", path("a.png")}, ".svg or .html");
   expect_refusal({"Drive.Speed", "--out", out, "--from", "1", "--until", "1"},
-                 "nothing is between");
+                 "at least 1 ms after --from");
   expect_refusal({"Drive.Speed", "--out", out, "--from", "2", "--until", "1"},
-                 "nothing is between");
+                 "at least 1 ms after --from");
   expect_refusal({"Drive.Speed", "--out", out, "--from", "3"}, "ends at 2.000 s");
   expect_refusal({"Drive.Speed", "--out", out, "--from", "nan"}, "--from");
   expect_refusal({"Drive.Speed", "--out", out, "--channel", "can7"}, "it has can0");

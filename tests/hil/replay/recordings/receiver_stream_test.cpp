@@ -170,7 +170,8 @@ TEST(ReceiverStream, RefusesWhatHasNoMessageOrNoTime) {
   EXPECT_EQ(other.error().what, "holds no message of a NovAtel or VectorNav receiver");
   const auto timeless = read_receiver_stream(testing::novatel_position(0, 0), "a");
   ASSERT_FALSE(timeless);
-  EXPECT_EQ(timeless.error().what, "no message states a time: when to send them is not known");
+  EXPECT_EQ(timeless.error().what,
+            "holds no message with a time, so it is not known when to send them");
 }
 
 TEST(ReceiverStream, NoDamageIsSilent) {

@@ -13,7 +13,7 @@ TEST(CommandRecord, ReadsBackWhatItWroteAndTakesNothingForYounger) {
   std::mt19937_64 random(1);
   for (int i = 0; i < 100'000; ++i) {
     const auto type = static_cast<std::uint8_t>(random() % kCommandTypes);
-    const CommandRecord stated{
+    const CommandRecord sent{
         .number = static_cast<CommandId>(1 + random() % 0xFFFF'FFFE),
         .base_run = static_cast<std::uint32_t>(random()),
         .car_boot = static_cast<std::uint32_t>(random()),
@@ -21,23 +21,23 @@ TEST(CommandRecord, ReadsBackWhatItWroteAndTakesNothingForYounger) {
         .step = static_cast<std::uint16_t>(random() % kCommandTable[type].quantized().count()),
         .age = nanoseconds(static_cast<std::int64_t>(random() % 60'000'000'000)),
         .issuer = static_cast<HolderId>(random())};
-    const auto received = parse_command(to_bytes(stated));
+    const auto received = parse_command(to_bytes(sent));
     ASSERT_TRUE(received);
-    EXPECT_EQ(received->number, stated.number);
-    EXPECT_EQ(received->base_run, stated.base_run);
-    EXPECT_EQ(received->car_boot, stated.car_boot);
-    EXPECT_EQ(received->type, stated.type);
-    EXPECT_EQ(received->step, stated.step);
-    EXPECT_EQ(received->issuer, stated.issuer);
-    EXPECT_GE(received->age, stated.age);
-    EXPECT_LE(received->age, stated.age + microseconds(1'100));
+    EXPECT_EQ(received->number, sent.number);
+    EXPECT_EQ(received->base_run, sent.base_run);
+    EXPECT_EQ(received->car_boot, sent.car_boot);
+    EXPECT_EQ(received->type, sent.type);
+    EXPECT_EQ(received->step, sent.step);
+    EXPECT_EQ(received->issuer, sent.issuer);
+    EXPECT_GE(received->age, sent.age);
+    EXPECT_LE(received->age, sent.age + microseconds(1'100));
   }
 }
 
 TEST(CommandRecord, AnAgeBeyondItsFieldStaysBeyondEveryTimeToLive) {
-  CommandRecord stated{.number = 1};
-  stated.age = seconds(100'000'000);
-  const Duration received = parse_command(to_bytes(stated))->age;
+  CommandRecord sent{.number = 1};
+  sent.age = seconds(100'000'000);
+  const Duration received = parse_command(to_bytes(sent))->age;
   for (const CommandRow& row : kCommandTable) EXPECT_GT(received, row.time_to_live);
 }
 

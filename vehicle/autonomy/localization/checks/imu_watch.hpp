@@ -1,14 +1,15 @@
-// Two inertial units against each other, and which of them lies: the one whose turning does not
-// fit the turning of the course over ground, or whose force does not fit how the speed changes.
+// Comparison of the two inertial measurement units (IMUs), and which of them is wrong: the one
+// whose yaw rate contradicts the course over ground, or whose acceleration contradicts the change
+// of speed.
 //
 //     unit 0   ____/----      apart since here; the course turns as unit 1 says: unit 0 is blamed
 //     unit 1   _________      after imu_contradict_s, and free again after readmit_after_s together
 //
-//   in     samples of both units (Body, rad/s and m/s^2), velocities over ground, per tick what the
-//          car does by other senses
-//   out    which unit is blamed, whether they are apart; their lasting difference is learned
+//   in     samples of both units (Body, rad/s and m/s^2), courses over ground (rad), and at each
+//          tick what other sensors say of the motion
+//   out    the blamed unit, if any; whether the units differ; their constant difference is learned
 //   invariants
-//          without a witness nobody is blamed. Exchanging the units exchanges the result
+//          without another sensor no unit is blamed. Exchanging the units exchanges the result
 //   cost   O(1) per sample; no allocation
 // SPDX-License-Identifier: Apache-2.0
 #pragma once

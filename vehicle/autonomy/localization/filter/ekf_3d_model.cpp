@@ -20,7 +20,7 @@ Matrix3d attitude(const SpatialBelief& b) { return quaternion_of(b).toRotationMa
 Vector3d rate(const SpatialBelief& b) { return rate_of(b, b.now); }
 
 // Said by the sensor, or else what is assumed.
-double stated(double sigma, double otherwise) { return std::isfinite(sigma) ? sigma : otherwise; }
+double sigma_or(double sigma, double otherwise) { return std::isfinite(sigma) ? sigma : otherwise; }
 
 }  // namespace
 
@@ -33,10 +33,10 @@ Vector3d normal_of(const Road& road) {
 Observation antenna_position(const SpatialBelief& b, const SpatialParams& p, const Measurement& m) {
   CHECK(m.unit < world::kGnssUnits);
   const Vector3d arm = attitude(b) * as_vector(m.arm);
-  const double sigma_b = stated(m.sigma_b, stated(m.sigma_a, 0.0)),
-               sigma_a = stated(m.sigma_a, sigma_b);
+  const double sigma_b = sigma_or(m.sigma_b, sigma_or(m.sigma_a, 0.0)),
+               sigma_a = sigma_or(m.sigma_a, sigma_b);
   const Vector3d sigma(sigma_a, sigma_b,
-                       stated(m.sigma_c, kHeightOverPlane * std::max(sigma_a, sigma_b)));
+                       sigma_or(m.sigma_c, kHeightOverPlane * std::max(sigma_a, sigma_b)));
   const double share = p.position_wander_share;
   Observation o;
   o.size = std::isfinite(m.c) ? 3 : 2;
@@ -56,9 +56,9 @@ Observation antenna_velocity(const SpatialBelief& b, const SpatialParams& p, con
   Observation o;
   o.size = std::isfinite(m.c) ? 3 : 2;
   o.residual = Vector3d(m.a, m.b, m.c) - as_vector(b.velocity_mps) - round;
-  o.variance = {square(stated(m.sigma_a, p.velocity_sigma_mps)),
-                square(stated(m.sigma_b, p.velocity_sigma_mps)),
-                square(stated(m.sigma_c, p.vertical_velocity_sigma_mps))};
+  o.variance = {square(sigma_or(m.sigma_a, p.velocity_sigma_mps)),
+                square(sigma_or(m.sigma_b, p.velocity_sigma_mps)),
+                square(sigma_or(m.sigma_c, p.vertical_velocity_sigma_mps))};
   o.jacobian.middleCols<3>(kDv).setIdentity();
   o.jacobian.middleCols<3>(kPhi) = -cross(round);
   o.jacobian.middleCols<3>(kDbg) = r * cross(arm);
@@ -73,7 +73,7 @@ Observation baseline_heading(const SpatialBelief& b, const SpatialParams& p, con
   Observation o;
   o.size = 1;
   o.residual[0] = wrap_pi(m.a + m.direction_rad - std::atan2(d.y(), d.x()));
-  o.variance[0] = square(stated(m.sigma_a, 0.0)) + square(p.heading_sigma_floor_rad);
+  o.variance[0] = square(sigma_or(m.sigma_a, 0.0)) + square(p.heading_sigma_floor_rad);
   o.jacobian.block<1, 3>(0, kPhi) = Row3(-d.x() * d.z() / level2, -d.y() * d.z() / level2, 1.0);
   return o;
 }
@@ -83,8 +83,8 @@ Observation wheel_speed(const SpatialBelief& b, const SpatialParams& p, const Me
   Observation o;
   o.size = 1;
   o.residual[0] = m.a - ahead.dot(v);
-  o.variance[0] = square(stated(m.sigma_a, p.wheel_sigma_mps)) +
-                  square(stated(m.sigma_b, p.wheel_sigma_per_speed) * m.a);
+  o.variance[0] = square(sigma_or(m.sigma_a, p.wheel_sigma_mps)) +
+                  square(sigma_or(m.sigma_b, p.wheel_sigma_per_speed) * m.a);
   o.jacobian.block<1, 3>(0, kDv) = ahead.transpose();
   o.jacobian.block<1, 3>(0, kPhi) = ahead.cross(v).transpose();
   return o;
@@ -152,8 +152,8 @@ Observation receiver_attitude(const SpatialBelief& b, const SpatialParams& p,
   Observation o;
   o.size = has_yaw ? 3 : 2;
   o.residual = log_rotation(mean.conjugate() * rotation_of({yaw, m.b, m.a}));
-  o.variance = Vector3d(square(stated(m.sigma_a, 0.0)), square(stated(m.sigma_b, 0.0)),
-                        square(stated(m.sigma_c, 0.0)));
+  o.variance = Vector3d(square(sigma_or(m.sigma_a, 0.0)), square(sigma_or(m.sigma_b, 0.0)),
+                        square(sigma_or(m.sigma_c, 0.0)));
   o.variance.array() += floor2;
   o.jacobian.middleCols<3>(kPhi) = r.transpose();
   return o;

@@ -106,7 +106,7 @@ double larger_axis(double xx, double yy, double xy) {
   return root(0.5 * (xx + yy + std::hypot(xx - yy, 2.0 * xy)));
 }
 
-Estimate stated_by(const PlanarBelief& planar) {
+Estimate estimate_of(const PlanarBelief& planar) {
   const Belief& b = planar.belief;
   const auto& p = b.covariance;
   Estimate e;
@@ -151,7 +151,7 @@ void set_sigmas(const SpatialBelief& b, const Matrix3d& r, Estimate& e) {
   e.pitch_sigma_rad = root(tilt(1, 1));
 }
 
-Estimate stated_by(const SpatialBelief& b) {
+Estimate estimate_of(const SpatialBelief& b) {
   const Matrix3d r = quaternion_of(b).toRotationMatrix();
   const Angles angles = angles_of(r);
   Estimate e;
@@ -200,12 +200,12 @@ Estimate estimate_at(FilterState& state, const FilterParams& params, Instant now
     settle<PlanarModel>(state.entries, state.planar, params.planar);
     PlanarBelief b = state.planar.tip;
     if (now > b.belief.at) advance(b.belief, params.planar.noise, now);
-    return stated_by(b);
+    return estimate_of(b);
   }
   settle<SpatialModel>(state.entries, state.spatial, params.spatial);
   SpatialBelief b = state.spatial.tip;
   advance(b, params.spatial, now, nullptr);
-  return stated_by(b);
+  return estimate_of(b);
 }
 
 Estimate publish(FilterState& state, const FilterParams& params, Instant now) {
@@ -214,7 +214,7 @@ Estimate publish(FilterState& state, const FilterParams& params, Instant now) {
   const Vector3d believed = as_vector(e.position_m);
   const Vector3d velocity =
       rotation_of({e.yaw_rad, e.pitch_rad, e.roll_rad}) * as_vector(e.velocity_mps);
-  Vector3d stated = believed;
+  Vector3d output = believed;
   Published& last = state.published;
   if (last.ever && now > last.at) {
     const double since_s = (now - last.at).seconds();
@@ -222,12 +222,12 @@ Estimate publish(FilterState& state, const FilterParams& params, Instant now) {
         as_vector(last.position_m) + 0.5 * since_s * (as_vector(last.velocity_mps) + velocity);
     const Vector3d jump = believed - expected;
     const double most_m = params.reentry_mps * since_s;
-    if (jump.norm() > most_m) stated = expected + (most_m / jump.norm()) * jump;
+    if (jump.norm() > most_m) output = expected + (most_m / jump.norm()) * jump;
   }
-  last = {.ever = true, .at = now, .position_m = array(stated), .velocity_mps = array(velocity)};
-  e.correction_left_m = (believed - stated).norm();
+  last = {.ever = true, .at = now, .position_m = array(output), .velocity_mps = array(velocity)};
+  e.correction_left_m = (believed - output).norm();
   e.position_sigma_m = std::hypot(e.position_sigma_m, e.correction_left_m);
-  e.position_m = array(stated);
+  e.position_m = array(output);
   return e;
 }
 

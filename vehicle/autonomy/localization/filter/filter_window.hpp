@@ -1,17 +1,18 @@
-// The measurements of the last fraction of a second in the order in which they were true, and what
-// a filter believed at some of them: enough to put a late one in its place and do the rest again.
+// Window of the newest measurements in order of their own time, with snapshots of the filter
+// between them: a late measurement is inserted at its place, and only what follows it is computed
+// again.
 //
-//     entries  0  1  2 ... 7  8  9 ... 15 16 17 18 19 20      0 is where everything begins
-//     beliefs  every[0]       every[1]    every[2]   tip      after the entries up to `folded`
+//     entries  0  1  2 ... 7  8  9 ... 15 16 17 18 19 20      entry 0 is the initial belief
+//     beliefs  every[0]       every[1]    every[2]   tip      the tip is after entry `folded`
 //
-// What nobody asks for yet is not done yet: an insertion folds up to its own entry, settle() the
-// rest. A filter may look ahead to the next kImu, to interpolate: a new one makes all entries since
-// the one before it stale, and they are done again, too.
+// Work is put off until a result is needed: an insertion computes up to its own entry, settle() the
+// rest. To interpolate, a filter sees the next kImu entry beside each measurement; so a new kImu
+// entry also invalidates all entries since the kImu before it.
 //   in     Model: struct with Belief, Params, and
 //            static Innovation fold(Belief&, const Params&, const Measurement&,
 //                                   const Measurement* next_imu)
-//          which takes a measurement in at its instant
-//   errors insert_into() gives nothing for what is older than the first entry
+//          which updates the belief by one measurement at that measurement's time
+//   errors insert_into() gives nothing for a measurement before the first entry
 //   cost   insert_into() and settle(): O(entries since the oldest insertion that is not folded yet
 //          + kMemoStride) folds; no allocation
 // SPDX-License-Identifier: Apache-2.0

@@ -40,10 +40,10 @@ TEST(KeyFile, EveryMistakeIsNamedWithItsPlaceAndShowsNoSecret) {
       {"", "k", "has no line role:"},
       {changed("role: base", "role: pit"), "k:2", "role: car or base"},
       {changed("role: base", "role: base\nrole: base"), "k:3", "role: occurs twice"},
-      {changed("peer", "friend"), "k:5", "not one of role:, public:, secret:, peer:, use:"},
-      {changed("secret: ", "secret: 0"), "k:4", "a key is 64 hexadecimal digits"},
+      {changed("peer", "friend"), "k:5", "expected one of: role:, public:, secret:, peer:, use:"},
+      {changed("secret: ", "secret: 0"), "k:4", "expected 64 hexadecimal digits"},
       {changed("secret: " + secret.substr(0, 1), "secret: x"), "k:4",
-       "a key is 64 hexadecimal digits"},
+       "expected 64 hexadecimal digits"},
       {changed(text_of(pair.base.own.public_key), text_of(pair.car.own.public_key)), "k:3",
        "does not belong to secret:"},
       {changed("role: base", "role: car"), "k:2",
@@ -51,7 +51,7 @@ TEST(KeyFile, EveryMistakeIsNamedWithItsPlaceAndShowsNoSecret) {
       {changed(text_of(pair.base.peer), text_of(pair.base.own.public_key)), "k:5",
        "is the own key, expected the public: of the other end's file: make both with "
        "`pitwall-base keygen`"},
-      {good + "something else\n", "k:6", "not one of role:, public:, secret:, peer:, use:"},
+      {good + "something else\n", "k:6", "expected one of: role:, public:, secret:, peer:, use:"},
       {good + "use: race\n", "k:6", "use: bench, or no such line"},
   };
   for (const auto& c : cases) {
