@@ -30,9 +30,9 @@ std::string text_of(std::string_view data, const std::string& ours) {
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   static const std::string kOurs = safety_text();
   const std::string text = text_of({reinterpret_cast<const char*>(data), size}, kOurs);
-  const std::string text = difference(kOurs, text);
-  CHECK(text.empty() == (text == kOurs));
-  const auto lines = std::count(text.begin(), text.end(), '\n');
+  const std::string said = difference(kOurs, text);
+  CHECK(said.empty() == (text == kOurs));
+  const auto lines = std::count(said.begin(), said.end(), '\n');
   CHECK(static_cast<std::size_t>(lines) <= kDifferencesMax + 1);
   CHECK(difference(text, text).empty());
   return 0;
