@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <ranges>
 
 #include "basestation/command/value_text.hpp"
 #include "basestation/state/value_text.hpp"
@@ -53,13 +52,12 @@ std::string refusing_gates(CommandType type, double argument, const GateParams& 
 // How the newest command of this kind since then ended, where the car or a gate refused it.
 std::string refusal_since(const CommandQueue& queue, CommandType type,
                           std::optional<Instant> since) {
-  for (const Ticket& ticket : queue.tickets() | std::views::reverse) {
-    if (ticket.command.type != type) continue;
-    if (since && *ticket.at.front() < *since) return {};
-    const bool failed = ticket.step == Step::kRefused || ticket.step == Step::kExpired;
-    return failed ? "last try: " + ticket.text : std::string{};
-  }
-  return {};
+  const auto& tickets = queue.tickets();
+  const auto newest = std::find_if(tickets.rbegin(), tickets.rend(),
+                                   [&](const Ticket& t) { return t.command.type == type; });
+  if (newest == tickets.rend() || (since && *newest->at.front() < *since)) return {};
+  const bool failed = newest->step == Step::kRefused || newest->step == Step::kExpired;
+  return failed ? "last try: " + newest->text : std::string{};
 }
 
 // Faults that the car reports now, by name; some of them bar arming.
@@ -125,8 +123,8 @@ void StopEpisode::explain(const Inputs& in) {
   if (const double cause = value_of(gates, field("mode.first_stop_cause")); cause > 0.0) {
     stopped_->cause = label(telemetry::kStopCauses, cause);
     const auto number = static_cast<std::size_t>(cause);
-    for (const telemetry::Event& event : in.events | std::views::reverse) {
-      const auto content = telemetry::content_of(event);
+    for (auto event = in.events.rbegin(); event != in.events.rend(); ++event) {
+      const auto content = telemetry::content_of(*event);
       const auto* const fault = content ? std::get_if<telemetry::FaultEvent>(&*content) : nullptr;
       if (fault == nullptr || !fault->begins || fault->cause != number) continue;
       const std::string_view unit = telemetry::label_at(telemetry::kStopCauseUnits, number);

@@ -14,6 +14,7 @@
 #include "hil/replay/player.hpp"
 #include "hil/replay/socket_rim.hpp"
 #include "hil/replay/timeline.hpp"
+#include "protocol/transport/bench_clock/clock_waits.hpp"
 #include "protocol/transport/realtime.hpp"
 
 namespace pitwall::replay {

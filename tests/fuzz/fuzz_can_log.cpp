@@ -93,7 +93,7 @@ void check(const Result<CanLog, Problem>& log) {
   check_round_trip(*log);
   play(*log, {}, LatePolicy::kCatchUp);
   play(*log, {.speed = 1e-3, .interface = "v", .longest_gap = seconds(5)}, LatePolicy::kDrop);
-  play(*log, {.speed = 1e6, .interface = "v", .start = milliseconds(1)}, LatePolicy::kAbort);
+  play(*log, {.speed = 1e6, .interface = "v", .from = milliseconds(1)}, LatePolicy::kAbort);
 }
 
 void check_as_packed_by_gzip(std::string_view bytes, const Result<CanLog, Problem>& plain) {

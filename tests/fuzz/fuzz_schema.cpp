@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Any text that another end may send as its registry is read, and told apart from ours: nothing
-// breaks, what is said stays short, and only our own text has no difference.
+// breaks, what is listing stays short, and only our own text has no difference.
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
@@ -30,9 +30,9 @@ std::string text_of(std::string_view data, const std::string& ours) {
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   static const std::string kOurs = safety_text();
   const std::string text = text_of({reinterpret_cast<const char*>(data), size}, kOurs);
-  const std::string text = difference(kOurs, text);
-  CHECK(text.empty() == (text == kOurs));
-  const auto lines = std::count(text.begin(), text.end(), '\n');
+  const std::string listing = difference(kOurs, text);
+  CHECK(listing.empty() == (text == kOurs));
+  const auto lines = std::count(listing.begin(), listing.end(), '\n');
   CHECK(static_cast<std::size_t>(lines) <= kDifferencesMax + 1);
   CHECK(difference(text, text).empty());
   return 0;

@@ -80,7 +80,7 @@ void ClientRegistry::subscribe(ClientId client, const Subscribe& ask) {
       refuse(client, "subscribe", "there is no " + named());
       continue;
     }
-    const bool taken = std::ranges::any_of(subscribers_, [&](const auto& subscribers) {
+    const bool taken = std::ranges::any_of(subscribers_, [&, id = id](const auto& subscribers) {
       const auto found = subscribers.find(client);
       return found != subscribers.end() && found->second == id;
     });

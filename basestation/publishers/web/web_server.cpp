@@ -4,10 +4,8 @@
 #include <sys/eventfd.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <boost/asio/post.hpp>
 #include <exception>
-#include <ranges>
 
 #include "basestation/publishers/web/admission/memory_reserve.hpp"
 #include "basestation/publishers/web/admission/room_left.hpp"
@@ -191,8 +189,10 @@ ClientId WebServer::Engine::free_number(Role role) {
   const auto is_free = [&](ClientId client) {
     return sockets[client] == nullptr && !leaving.test(client);
   };
-  const auto places = std::views::iota(kFirstClient, static_cast<ClientId>(kLastClient + 1));
-  const auto free = static_cast<std::size_t>(std::ranges::count_if(places, is_free));
+  std::size_t free = 0;
+  for (std::size_t client = kFirstClient; client <= kLastClient; ++client) {
+    if (is_free(static_cast<ClientId>(client))) ++free;
+  }
   if (free <= (role == Role::kOperator ? 0 : kReserved)) return 0;
   do {
     newest = newest >= kLastClient ? kFirstClient : static_cast<ClientId>(newest + 1);

@@ -57,9 +57,10 @@ std::optional<UtcTime> time_of(const CaptureInterface& source, std::uint64_t tic
   }
   constexpr std::int64_t kMost_s = 9'000'000'000;
   if (whole_s > static_cast<std::uint64_t>(kMost_s)) return std::nullopt;
-  const std::int64_t s = static_cast<std::int64_t>(whole_s) + source.offset_s;
-  if (s < 0 || s > kMost_s) return std::nullopt;
-  return UtcTime{s * kNanosecondsPerSecond + static_cast<std::int64_t>(rest_ns)};
+  const auto s = static_cast<std::int64_t>(whole_s);
+  if (source.offset_s < -s || source.offset_s > kMost_s - s) return std::nullopt;
+  return UtcTime{(s + source.offset_s) * kNanosecondsPerSecond +
+                 static_cast<std::int64_t>(rest_ns)};
 }
 
 class PcapngReader {

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <fstream>
+
 #include "hil/replay/writers/log_writer.hpp"
 #include "tests/hil/replay/formats/log_oracle.hpp"
 #include "tests/hil/replay/formats/made_log.hpp"

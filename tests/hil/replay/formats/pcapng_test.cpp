@@ -70,6 +70,26 @@ TEST(Pcapng, ResolutionsOffsetsAndNamesOfInterfacesAreFollowed) {
   EXPECT_EQ(log.counters.bad_records, 1U) << "an interface that is not described";
 }
 
+TEST(Pcapng, APacketWhoseOffsetLeavesTheRangeOfTimeIsLeftOut) {
+  const auto log_of = [](std::int64_t offset_s) {
+    std::string option = "\x0E\0\x08\0"s;
+    append_little(option, static_cast<std::uint64_t>(offset_s));
+    return parse_pcapng(kSection + described(227, "") + described(227, option) +
+                        packet(0, 1'000'000) + packet(1, 2'500'000));
+  };
+  for (const std::int64_t offset_s :
+       {std::int64_t{-2}, std::int64_t{0}, std::int64_t{8'000'000'000}}) {
+    const auto log = log_of(offset_s);
+    ASSERT_EQ(log.frames.size(), 2U) << offset_s;
+    EXPECT_EQ(log.frames[1].at.ns, (2 + offset_s) * 1'000'000'000 + 500'000'000);
+  }
+  for (const std::int64_t offset_s : {INT64_MIN, std::int64_t{-3}, INT64_MAX - 1, INT64_MAX}) {
+    const auto log = log_of(offset_s);
+    EXPECT_EQ(log.frames.size(), 1U) << offset_s;
+    EXPECT_EQ(log.counters.bad_records, 1U) << offset_s;
+  }
+}
+
 TEST(Pcapng, AFileOfEditcapIsReadAsTsharkReadsIt) {
   const auto folder = transport::TemporaryFolder::create("pitwall-pcapng-");
   ASSERT_TRUE(folder);
