@@ -5,7 +5,7 @@
 //          which the steady-state angle of the road stays within a share of it
 //   invariants
 //          speeds of the rows rise, angles do not
-//          with the doubt D of learned_steering.hpp and a = v^2 k - g sin(bank), k = |kappa| cos(bank),
+//          with the doubt D of learned_steering.hpp, k and a of road_load.hpp as of a left turn,
 //            L k + K a + d' + D(a) <= share * angle_max(v)
 //            D(a) v^2 <= stray: what is not known costs no more than a distance from the line
 //   errors none: a road that no speed can follow has the speed zero

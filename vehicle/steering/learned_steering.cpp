@@ -11,6 +11,8 @@ constexpr double kLearnFrom_mps = 15.0;  // below, a yaw rate over a speed says 
 constexpr double kCorrelation_s = 0.5;   // of the residual
 constexpr double kLagDoubt_s = 0.1;  // a lag is not all that there is between angle and yaw rate
 constexpr double kSurely = 2.0;      // deviations
+// No further than cars corner: a cubic that falls has no inverse.
+constexpr double kBendsTo_mps2 = 18.0;
 // Beyond, it is no car.
 constexpr double kLateralMost_mps2 = 60.0, kTurningMost_rad_per_s = 10.0;
 
@@ -19,10 +21,13 @@ using Numbers = std::array<double, kLearnedNumbers>;
 // How far a car changes within a minute: tyres that warm and wear, fuel that burns.
 constexpr double kDriftOver_s = 60.0;
 constexpr Numbers kDrift{0.0005, 0.0001, 4e-7, 0.01};
-constexpr Numbers kLeast{-0.01, -0.0008, -1e-5, -0.12}, kMost{0.01, 0.003, 1e-5, 0.12};
+constexpr Numbers kLeast{-0.01, -0.0008, -1e-6, -0.12}, kMost{0.01, 0.003, 1e-5, 0.12};
 constexpr double kLagMost_s = 0.1;  // beside that of the parameters, until it is known
 
 double square(double x) { return x * x; }
+double bends(double lateral_mps2) {
+  return square(std::min(std::abs(lateral_mps2), kBendsTo_mps2));
+}
 
 double tick_s(Duration dt) { return std::clamp(dt.seconds(), 0.0, kTickMax_s); }
 
@@ -82,7 +87,7 @@ double lateral_mps2(const Turning& at) {
 
 double understeer_at(const Bicycle& car, const Learned& learned, double lateral_mps2) {
   return car.understeer_rad_per_mps2 + learned.understeer_rad_per_mps2 +
-         learned.bend_rad_s6_per_m3 * lateral_mps2 * lateral_mps2;
+         learned.bend_rad_s6_per_m3 * bends(lateral_mps2);
 }
 
 double angle_rad(const Bicycle& car, const Learned& learned, double curvature_per_m,
@@ -93,7 +98,7 @@ double angle_rad(const Bicycle& car, const Learned& learned, double curvature_pe
 
 double doubt_rad(const LearningParams& params, const Bicycle& car, const Learned& learned,
                  double lateral_mps2) {
-  const Numbers h{0.0, lateral_mps2, lateral_mps2 * lateral_mps2 * lateral_mps2, 0.0};
+  const Numbers h{0.0, lateral_mps2, lateral_mps2 * bends(lateral_mps2), 0.0};
   const Covariance& p = is_begun(learned) ? learned.covariance : unknown(params, car);
   return kSurely * std::sqrt(std::max(product(h, product(p, h)), 0.0));
 }
@@ -104,12 +109,11 @@ double angle_rad(const Bicycle& car, const Learned& learned, const RoadLoad& at)
 
 double yaw_rate_rad_per_s(const Bicycle& car, const Learned& learned, double angle_rad,
                           double speed_mps, double bank_rad) {
-  constexpr double kTightest_per_m = 0.2;
+  constexpr double kTightest_per_m = 0.2, kFarthest_mps2 = 500.0;
   constexpr int kRounds = 45;
   if (!std::isfinite(angle_rad) || !std::isfinite(speed_mps)) return kUnset;
   const double fall_mps2 = kGravity_mps2 * std::sin(bank_rad);
-  const double tightest_per_m =
-      std::min(kTightest_per_m, kLateralMost_mps2 / (speed_mps * speed_mps));
+  const double tightest_per_m = std::min(kTightest_per_m, kFarthest_mps2 / (speed_mps * speed_mps));
   double low_per_m = -tightest_per_m, high_per_m = tightest_per_m;
   for (int i = 0; i < kRounds; ++i) {
     const double middle_per_m = 0.5 * (low_per_m + high_per_m);
@@ -144,7 +148,7 @@ void learn(const LearningParams& params, const Bicycle& car, Learned& learned, c
   const double turning = learned.turning_rad_per_s;
   const double variance =
       (square(params.residual_sigma_rad) + square(kLagDoubt_s * turning)) * kCorrelation_s / dt_s;
-  correct(learned, {1.0, a_mps2, a_mps2 * a_mps2 * a_mps2, turning},
+  correct(learned, {1.0, a_mps2, a_mps2 * bends(a_mps2), turning},
           residual_rad - learned.lag_s * turning, variance);
 }
 

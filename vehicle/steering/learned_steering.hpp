@@ -88,13 +88,18 @@ double angle_rad(const Bicycle& car, const Learned& learned, double curvature_pe
                  double lateral_mps2);
 double angle_rad(const Bicycle& car, const Learned& learned, const RoadLoad& at);
 
-// The gradient from the origin to a lateral acceleration.
+// The gradient from the origin to a lateral acceleration. It bends no further than to 18 m/s2.
 double understeer_at(const Bicycle& car, const Learned& learned, double lateral_mps2);
 
 // How much more angle the car may need at a lateral acceleration than what was learned says: twice
 // the deviation of K' a + C' a^3. It grows beyond the accelerations from which it was learned.
 double doubt_rad(const LearningParams& params, const Bicycle& car, const Learned& learned,
                  double lateral_mps2);
+
+// The angle that the car has turned by so far: the commanded one behind the lag that was learned.
+inline double turned_rad(const Learned& learned) {
+  return learned.commanded_rad - learned.lag_s * learned.turning_rad_per_s;
+}
 
 // The yaw rate of an angle, in steady state: for whoever has no gyroscope.
 double yaw_rate_rad_per_s(const Bicycle& car, const Learned& learned, double angle_rad,

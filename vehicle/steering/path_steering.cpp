@@ -25,7 +25,7 @@ void observe(const Params& p, const Learned& learned, State& s, const Turning& a
   double seen_rad = 0.0;
   if (at.speed_mps > kObserveFrom_mps && std::isfinite(at.yaw_rate_rad_per_s))
     seen_rad =
-        learned.commanded_rad - learned.lag_s * learned.turning_rad_per_s -
+        turned_rad(learned) -
         angle_rad(p.bicycle, learned, at.yaw_rate_rad_per_s / at.speed_mps, lateral_mps2(at));
   if (!std::isfinite(seen_rad)) return;
   seen_rad = std::clamp(p.observer_share * seen_rad, -p.correction_max_rad, p.correction_max_rad);

@@ -43,7 +43,7 @@ struct Params {
   double correction_max_rad = 0.03;   // of d and of trim, each
   double gain_speed_least_mps = 8.0;  // the feedback is no steeper below
   double hold_speed_mps = 0.5;
-  double stray_max_m = 1.0;  // off the line by a gradient that is not yet known
+  double stray_max_m = 1.5;  // off the line by a gradient that is not yet known
 };
 
 inline constexpr auto kRanges = std::to_array<world::NamedRange<Params>>({
@@ -87,8 +87,8 @@ struct SteeringInputs {
   double angle_max_rad = kUnset;  // what may be asked for at this speed
 };
 
-// An angle d that the law does not know of leaves the car (1 - observer_share) d v^2 / (L w^2) off its
-// path; with that at stray_max_m, d v^2 is this.
+// An angle d that the law does not know of leaves the car (1 - observer_share) d v^2 / (L w^2) off
+// its path; with that at stray_max_m, d v^2 is this.
 double stray_m_rad_per_s2(const Params& params);
 
 // How far ahead of the car the path is that is steered for.

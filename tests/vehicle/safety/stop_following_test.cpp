@@ -351,7 +351,10 @@ TEST(StopFollowing, LeftAndRightAreMirrorImages) {
     for (const StopKind kind : {StopKind::kControlled, StopKind::kEmergency}) {
       Bicycle left = at_start(1.5, 0.02, 60.0), right = at_start(-1.5, -0.02, 60.0);
       left.kind = right.kind = kind;
-      left.state.learned = {0.01, 0.003, 0.0008}, right.state.learned = {-0.01, -0.003, 0.0008};
+      left.state.learned.commanded_rad = 0.01, right.state.learned.commanded_rad = -0.01;
+      left.state.learned.offset_rad = 0.003, right.state.learned.offset_rad = -0.003;
+      left.state.learned.understeer_rad_per_mps2 = 0.0008;
+      right.state.learned.understeer_rad_per_mps2 = 0.0008;
       left.state.command.road_wheel_rad = 0.011, right.state.command.road_wheel_rad = -0.011;
       const auto left_path = arc(k, 60.0, 0.1), right_path = arc(-k, 60.0, -0.1);
       for (int i = 0; i < 1500; ++i) {

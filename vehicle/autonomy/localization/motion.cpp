@@ -9,6 +9,7 @@ namespace pitwall::localization {
 namespace {
 
 constexpr double kWheelAccelLag_s = 0.15, kWheelAccelMax_mps2 = 30.0;
+constexpr double kTyreLag_s = 0.08;  // from the angle of the wheels to the yaw rate
 
 using world::Excludable;
 using world::Monitor;
@@ -49,9 +50,11 @@ void use_steering_model(const Intake& in, const world::VehicleSignals& car, Inst
   if (!car.steering_motor_rad.fresh(at, from_seconds(in.params.imu_timeout_s))) return;
   const Params& p = in.params;
   const double speed = in.state.wheels.speed_mps;
-  const double rate = steering::yaw_rate_rad_per_s(p.bicycle, in.around.learned,
-                                                   car.steering_motor_rad.value / p.steering_ratio,
-                                                   speed, in.bank_rad());
+  // The car turns a moment after its wheels.
+  const double turned_rad = car.steering_motor_rad.value / p.steering_ratio -
+                            kTyreLag_s * in.around.learned.turning_rad_per_s;
+  const double rate =
+      steering::yaw_rate_rad_per_s(p.bicycle, in.around.learned, turned_rad, speed, in.bank_rad());
   Measurement m{.kind = Kind::kImu, .at = at};
   m.imu.rate_rad_per_s[2] = rate;
   m.imu.force_mps2[0] = in.state.wheels.accel_mps2;

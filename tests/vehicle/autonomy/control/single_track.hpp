@@ -233,11 +233,11 @@ inline Params recommended() {
                     .hold_speed_mps = 0.5,
                     .hold_brake_kpa = 800.0};
   p.steering = {.bicycle = {.wheelbase_m = 2.971, .understeer_rad_per_mps2 = 0.0002},
-                .learning = {.lag_s = 0.2},
+                .learning = {},
                 .bandwidth_rad_per_s = 1.2,
                 .damping = 1.0,
                 .lead_s = 0.3,
-                .preview_s = 0.0,
+                .preview_s = 0.06,
                 .gain_share = 0.3,
                 .observer_s = 0.5,
                 .observer_share = 0.5,
