@@ -46,7 +46,7 @@ TEST(RecordingReader, SaysWhatIsRead) {
   const auto text = read_recording(std::string{"(1.0) can0 123#00\n"}, "a.log");
   ASSERT_FALSE(text);
   EXPECT_EQ(to_string(text.error()),
-            "a.log: error: is no recording that is read: expected MCAP, a bag of ROS 2 (.mcap, "
+            "a.log: error: is not a recording: expected MCAP, a bag of ROS 2 (.mcap, "
             ".db3), an event log of LCM, or the bytes of a NovAtel or VectorNav receiver");
   const std::string whole = packed(testing::black_box(2));
   const auto cut = read_recording(whole.substr(0, whole.size() / 2), "a.mcap.zstd");
