@@ -107,6 +107,11 @@ double angle_rad(const Bicycle& car, const Learned& learned, const RoadLoad& at)
   return angle_rad(car, learned, turn_per_m(at), lateral_demand_mps2(at));
 }
 
+double residual_rad(const Bicycle& car, const Learned& learned, const Turning& at) {
+  return turned_rad(learned) -
+         angle_rad(car, learned, at.yaw_rate_rad_per_s / at.speed_mps, lateral_mps2(at));
+}
+
 double yaw_rate_rad_per_s(const Bicycle& car, const Learned& learned, double angle_rad,
                           double speed_mps, double bank_rad) {
   constexpr double kTightest_per_m = 0.2, kFarthest_mps2 = 500.0;
@@ -137,9 +142,8 @@ void learn(const LearningParams& params, const Bicycle& car, Learned& learned, c
   const double dt_s = tick_s(dt);
   if (!(at.speed_mps > kLearnFrom_mps && dt_s > 0.0)) return;
   const double a_mps2 = lateral_mps2(at);
-  const double residual_rad =
-      learned.commanded_rad - angle_rad(car, learned, at.yaw_rate_rad_per_s / at.speed_mps, a_mps2);
-  if (!std::isfinite(residual_rad) || !(std::abs(a_mps2) < kLateralMost_mps2) ||
+  const double missing_rad = residual_rad(car, learned, at);
+  if (!std::isfinite(missing_rad) || !(std::abs(a_mps2) < kLateralMost_mps2) ||
       !(std::abs(learned.turning_rad_per_s) < kTurningMost_rad_per_s))
     return;
   if (!is_begun(learned)) learned.covariance = unknown(params, car);
@@ -148,8 +152,7 @@ void learn(const LearningParams& params, const Bicycle& car, Learned& learned, c
   const double turning = learned.turning_rad_per_s;
   const double variance =
       (square(params.residual_sigma_rad) + square(kLagDoubt_s * turning)) * kCorrelation_s / dt_s;
-  correct(learned, {1.0, a_mps2, a_mps2 * bends(a_mps2), turning},
-          residual_rad - learned.lag_s * turning, variance);
+  correct(learned, {1.0, a_mps2, a_mps2 * bends(a_mps2), turning}, missing_rad, variance);
 }
 
 }  // namespace pitwall::steering

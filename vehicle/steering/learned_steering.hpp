@@ -101,6 +101,9 @@ inline double turned_rad(const Learned& learned) {
   return learned.commanded_rad - learned.lag_s * learned.turning_rad_per_s;
 }
 
+// What that angle has beyond what the car's turning needs by what was learned.
+double residual_rad(const Bicycle& car, const Learned& learned, const Turning& at);
+
 // The yaw rate of an angle, in steady state: for whoever has no gyroscope.
 double yaw_rate_rad_per_s(const Bicycle& car, const Learned& learned, double angle_rad,
                           double speed_mps, double bank_rad);

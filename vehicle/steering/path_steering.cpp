@@ -24,9 +24,7 @@ double angle_per_curvature_m(const Params& p, const Learned& learned, double spe
 void observe(const Params& p, const Learned& learned, State& s, const Turning& at, double dt_s) {
   double seen_rad = 0.0;
   if (at.speed_mps > kObserveFrom_mps && std::isfinite(at.yaw_rate_rad_per_s))
-    seen_rad =
-        turned_rad(learned) -
-        angle_rad(p.bicycle, learned, at.yaw_rate_rad_per_s / at.speed_mps, lateral_mps2(at));
+    seen_rad = residual_rad(p.bicycle, learned, at);
   if (!std::isfinite(seen_rad)) return;
   seen_rad = std::clamp(p.observer_share * seen_rad, -p.correction_max_rad, p.correction_max_rad);
   s.unknown_rad += share_of(dt_s, p.observer_s) * (seen_rad - s.unknown_rad);
@@ -56,7 +54,7 @@ double steer(const Params& p, const Learned& learned, State& s, const SteeringIn
   const double excess_rad_per_s = std::isfinite(in.yaw_rate_rad_per_s)
                                       ? in.yaw_rate_rad_per_s / std::cos(at.bank_rad) - path_rate
                                       : 0.0;
-  const double w = p.bandwidth_rad_per_s,
+  const double w = in.bandwidth_share * p.bandwidth_rad_per_s,
                per_curvature_m = angle_per_curvature_m(
                    p, learned, v_mps,
                    lateral_demand_mps2({v_mps, at.curvature_per_m, at.bank_rad}));

@@ -85,6 +85,7 @@ struct SteeringInputs {
   double speed_mps = kUnset, yaw_rate_rad_per_s = kUnset;  // without a yaw rate: that of the path
   double last_angle_rad = 0.0;
   double angle_max_rad = kUnset;  // what may be asked for at this speed
+  double bandwidth_share = 1.0;   // of the parameter
 };
 
 // An angle d that the law does not know of leaves the car (1 - observer_share) d v^2 / (L w^2) off

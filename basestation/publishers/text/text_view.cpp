@@ -146,8 +146,8 @@ TextLine bench_line(const transport::BenchPause& pause) {
 // Whether the car's CAN bus is that of its database; nothing until the car has said so.
 std::optional<TextLine> bus_line(const state::VehicleState& vehicle, Instant now) {
   const auto value = [&](telemetry::FieldIndex field) {
-    const double fields = vehicle.view(field, now).value;
-    return std::isnan(fields) ? 0.0 : fields;
+    const double reported = vehicle.view(field, now).value;
+    return std::isnan(reported) ? 0.0 : reported;
   };
   const state::FieldView identity = vehicle.view(telemetry::field("bus.identity"), now);
   if (identity.quality == Quality::kNever) return std::nullopt;

@@ -76,7 +76,7 @@ struct LateralDiagnostics {
 // without a stabilising gain; the place names the bracket.
 Result<LateralGains, Problem> design(const LateralParams& params, const BicycleParams& car);
 
-// Of the tick.
+// The angle of the last tick, and the largest that may be asked for in this one.
 struct Angles {
   double last_rad = 0.0;
   double max_rad = kUnset;  // unset: that of the parameters, which it never exceeds
