@@ -1,24 +1,26 @@
-// Life cycle of one alarm, after ISA-18.2.
+// Life cycle of one alarm, as a state machine after ISA-18.2.
 //
-//             comes              ack              goes
+//          becomes active        ack         becomes inactive
 //   NORMAL ----------> UNACK ----------> ACKED ----------> NORMAL
-//                        | goes                 (latched: LATCHED ---- reset ----> NORMAL)
+//                        | inactive           (latched: LATCHED ---- reset ----> NORMAL)
 //                        v        ack
 //                    RTN_UNACK ----------> NORMAL (latched: LATCHED)
 //
-//   any state --- shelve ---> SHELVED: time over -> UNACK, by hand -> ACKED (gone meanwhile: as if
-//                             it had gone in that state)
-//   any state --- situation, overruled ---> SUPPRESSED; comes back as it was, unseen stays unseen
+//   any state --- shelve ---> SHELVED. After the time -> UNACK; by an operator -> ACKED. If the
+//                             alarm is inactive by then: the state that follows from that
+//   any state --- situation, overruled ---> SUPPRESSED. Afterwards the state from before; an
+//                             unacknowledged alarm stays unacknowledged
 //
-//   in     whether its bound is broken, time, acts of operators
+//   in     whether the limit is violated, time, actions of operators
 //   out    state, since when, how often
 //   invariants
-//          only ack() and unshelve() of an operator make an unseen alarm seen. A value that is
-//          stale changes nothing: no alarm comes or goes by it
-//          delays count from the moment at which the bound was crossed; deadband on the way back
-//          chatter: from the third coming within 10 s on it is folded: counted, not announced anew,
-//          and it goes only after 10 s of quiet
-//   errors acts that the state does not allow: false, nothing changes
+//          only ack() and unshelve() by an operator acknowledge an alarm. A stale value changes
+//          nothing: no alarm becomes active or inactive because of it
+//          delays count from the moment at which the limit was crossed; the deadband applies on the
+//          way back
+//          chatter: from the third activation within 10 s on the alarm is folded: further ones are
+//          counted but not announced, and it becomes inactive only after 10 s of quiet
+//   errors an action that the state does not allow returns false and changes nothing
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -41,13 +43,13 @@ enum class State : std::uint8_t {
   kShelved,
   kSuppressed
 };
-std::string_view text_of(State state);  // "unack", "rtn_unack", ... as the console has them
+std::string_view text_of(State state);  // "unack", "rtn_unack", ... as consoles show them
 
 inline constexpr Duration kShelveMax = seconds(600);
 inline constexpr Duration kChatterWindow = seconds(10);
 inline constexpr std::size_t kChatterCount = 3;
 
-// What its field says now.
+// Present value of the field that the alarm watches.
 struct Reading {
   double value = kUnset;
   bool usable = false;  // fresh or late; a stale value changes nothing
@@ -55,13 +57,13 @@ struct Reading {
 
 class Alarm {
  public:
-  // True: it came (or came again), to be announced.
+  // Returns true if the alarm became active (or active again) and must be announced.
   bool update(const AlarmRow& row, const AlarmSetting& setting, const Reading& reading,
               bool suppressed, Instant now);
 
   bool acknowledge();
   bool shelve(Instant until);
-  bool unshelve();  // by hand
+  bool unshelve();  // by an operator
   bool reset();
 
   State state() const;
@@ -70,8 +72,8 @@ class Alarm {
   bool folded() const { return folded_; }
   std::optional<Instant> shelved_until() const { return shelved_until_; }
   Instant since() const { return since_; }
-  std::uint32_t count() const { return count_; }  // comings since it was last normal
-  double value() const { return value_; }         // at its newest usable reading
+  std::uint32_t count() const { return count_; }  // activations since it was last normal
+  double value() const { return value_; }         // at the newest usable reading
 
  private:
   bool broken(const AlarmRow& row, const AlarmSetting& setting, double value) const;
@@ -80,8 +82,8 @@ class Alarm {
   void settle();
 
   bool active_ = false, unseen_ = false, held_ = false, folded_ = false, suppressed_ = false;
-  bool raw_ = false;      // the bound is broken, before delays
-  bool counted_ = false;  // this breaking of it has been counted
+  bool raw_ = false;      // the limit is violated, before the delays
+  bool counted_ = false;  // the present violation has been counted
   Instant raw_since_{}, since_{};
   std::optional<Instant> shelved_until_;
   std::uint32_t count_ = 0;

@@ -1,9 +1,9 @@
 // Table of all alarms of the base station: watched field, priority, response.
 //   invariants
-//          ISA-18.2: an alarm demands an act; one without a response text does not compile. Each is
-//          a bound on one field (of the car's registry or of the base's own), with deadband, delays
-//          and the states of the car in which it means nothing
-//          one that is overruled by another is not heard while that one is there
+//          ISA-18.2: an alarm demands an action; one without a response text does not compile. Each
+//          alarm is a limit on one field (of the car's registry or of the base's own fields), with
+//          deadband, delays and the situations of the car in which it is suppressed
+//          an alarm that another one overrules is suppressed while the other one is active
 //   units  limit and deadband in the unit of the field
 //   source Saba et al. (incidents), ISA-18.2, EEMUA 191; limits are defaults, settings change them
 // SPDX-License-Identifier: Apache-2.0
@@ -28,14 +28,14 @@ std::string_view text_of(Priority priority);
 
 enum class Side : std::uint8_t { kAbove, kBelow };
 
-// States of the car in which an alarm means nothing.
+// Situations of the car in which an alarm has no meaning.
 enum class Situation : std::uint8_t {
-  kLinkLost,   // nothing is known: the link's own alarm stands for all
-  kDisarmed,   // nobody drives
-  kEngineOff,  // pressures and temperatures of an engine that does not run
-  kStanding,
-  kReceiverExcluded,  // by an operator
-  kInPit              // off every line, on tyres that people change
+  kLinkLost,          // no value is known; the alarm of the link replaces all others
+  kDisarmed,          // no driver, human or software, is in control
+  kEngineOff,         // pressures and temperatures of a stopped engine have no meaning
+  kStanding,          // the car stands still
+  kReceiverExcluded,  // an operator has excluded the receiver
+  kInPit              // the car is off every racing line, and tyres may be changed
 };
 inline constexpr std::size_t kSituations = 6;
 struct Situations {
@@ -52,7 +52,7 @@ struct Situations {
 using AlarmIndex = std::size_t;  // place in kAlarmTable
 
 struct AlarmRow {
-  std::string_view key;   // stands in recordings and settings; never used for another
+  std::string_view key;   // identifies the alarm in recordings and settings; never reused
   std::string_view text;  // what is wrong
   std::string_view response;
   Priority priority;
@@ -60,13 +60,13 @@ struct AlarmRow {
   Side side;
   double limit, deadband;
   Duration on_delay, off_delay;
-  bool latched;  // stays until it was acknowledged and reset
+  bool latched;  // stays until it is acknowledged and reset
   Situations silent_in;
   std::string_view overruled_by = {};
-  bool always_shown = false;  // never shelved
+  bool always_shown = false;  // cannot be shelved
 };
 
-// The table in force may differ from the default in these.
+// Values of an alarm that settings can change from the defaults of the table.
 struct AlarmSetting {
   Priority priority = Priority::kLow;
   double limit = 0.0, deadband = 0.0;
@@ -85,17 +85,17 @@ const AlarmRow& alarm_row(AlarmIndex index);
 std::optional<AlarmIndex> find_alarm(std::string_view key);
 AlarmSetting default_setting(AlarmIndex index);
 
-// The settings in force, with who changed them.
+// Settings in force, and the edits with their authors.
 class AlarmSettings {
  public:
-  AlarmSettings();  // the table
+  AlarmSettings();  // the defaults of the table
 
   const AlarmSetting& of(AlarmIndex index) const { return settings_[index]; }
-  // Problem with the key as place: no such alarm, no numbers, a negative deadband or delay, a delay
-  // beyond 10 min, nobody's name, a high alarm that shall be less.
+  // Problem with the key as place: no such alarm, a value that is not a number, a negative deadband
+  // or delay, a delay beyond 10 min, no author, a lower priority for a high alarm.
   Result<bool, Problem> edit(const AlarmEdit& edit);
   const std::vector<AlarmEdit>& edits() const { return edits_; }
-  // Of everything that decides the list: the same version, the same inputs, the same list.
+  // Fingerprint of table and settings: with the same version, the same inputs give the same list.
   std::uint64_t version() const;
   std::string version_text() const;  // 16 hexadecimal digits
 

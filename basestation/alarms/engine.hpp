@@ -1,20 +1,20 @@
 // Alarm list: state of every alarm of the table, updated together.
-//   in     readings of the fields, the situation of the car, acts of operators, time; the caller
+//   in     readings of the fields, the situation of the car, actions of operators, time; the caller
 //          steps it at whole multiples of the grid (evaluator.hpp), so that the rate of polling has
 //          no effect
 //   out    the list, its history, and its alarm rate against the rate that operators can handle
 //   invariants
 //          the same inputs in the same order give the same list and history
-//          no act and no order of events loses an alarm that nobody has seen: it stays in the list,
-//          shelved or suppressed, until somebody acknowledges this very occurrence
+//          no action and no order of events loses an unacknowledged alarm: it stays in the list,
+//          shelved or suppressed, until an operator acknowledges this very occurrence
 //          a lost link raises exactly one alarm, and suppresses every alarm on values of the car
 //          except those of a stop; a stop is never shelved
 //          flood: from more than 10 new alarms in 10 min until 5 or fewer. During a flood the list
 //          shows the first alarm of each episode and the high ones. An episode lasts while any
 //          alarm is in the list
-//   ids    one per occurrence. An act with the id of an earlier occurrence is refused, because the
-//          operator meant that one
-//   errors acts: Problem with the id as place
+//   ids    one per occurrence. An action with the id of an earlier occurrence is refused, because
+//          the operator meant that one
+//   errors actions: Problem with the id as place
 //   cost   no allocation in step() while nothing changes
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
@@ -49,7 +49,7 @@ struct ListedAlarm {
   bool first_up = false, folded = false;
   bool flooded = false;  // not shown while the list is flooded
   std::optional<Instant> shelved_until;
-  std::string by, reason;  // of the newest act on it
+  std::string by, reason;  // of the newest action on it
 };
 
 struct AlarmEvent {
@@ -58,18 +58,18 @@ struct AlarmEvent {
   AlarmId id = 0;
   std::string_view key;
   State from = State::kNormal, to = State::kNormal;
-  std::string by, reason;  // empty: by itself
+  std::string by, reason;  // empty: no operator caused it
 
   bool operator==(const AlarmEvent&) const = default;
 };
 
 class Engine {
  public:
-  static constexpr std::size_t kHistory = 1'000;  // kept; all are counted
+  static constexpr std::size_t kHistory = 1'000;  // events kept; all are counted
 
   explicit Engine(AlarmSettings settings = {});
 
-  // `readings`: one for each row of the table.
+  // `readings`: one per row of the table.
   void step(const std::vector<Reading>& readings, Situations situations, Instant now);
 
   Result<bool, Problem> acknowledge(AlarmId id, std::string_view by, Instant now);
@@ -79,8 +79,8 @@ class Engine {
   Result<bool, Problem> reset(AlarmId id, std::string_view by, Instant now);
   Result<bool, Problem> edit(const AlarmEdit& edit);
 
-  // High first, then in the order of their coming. All but the values in it changes only when
-  // revision() does.
+  // High alarms first, then in order of activation. Between two changes of revision() only the
+  // values change.
   std::vector<ListedAlarm> active() const;
   std::vector<ListedAlarm> shelved() const;
   std::vector<ListedAlarm> suppressed() const;
@@ -120,7 +120,7 @@ class Engine {
   AlarmSettings settings_;
   std::vector<Entry> entries_;
   std::vector<std::optional<AlarmIndex>> overruled_by_;
-  std::vector<AlarmIndex> came_;  // in this step
+  std::vector<AlarmIndex> came_;  // became active in this step
   std::deque<AlarmEvent> history_;
   AlarmRate rate_;
   std::uint64_t revision_ = 0, events_ = 0;

@@ -1,16 +1,17 @@
-// Alarm evaluator: derived fields, alarms and notices of one car. Stepped with time and given each
-// change; it has no clock of its own.
-//   in     the vehicle state, figures of link and base, expectations, operators' acts
+// Alarm evaluator: derived fields, alarms and notices of one car. The caller gives the time and
+// each change; the evaluator has no clock of its own.
+//   in     the vehicle state, figures of link and base, expectations, operator actions
 //   out    views of every field with a judgement, the list of alarms, drafts for race control
 //   invariants
 //          advance(t) makes a step at every multiple of kGrid up to t, with what was known until
 //          then. So the same changes at the same times give the same alarms, however often
 //          advance() is called: live, in replay, in a test. Before a change the caller calls
 //          advance() with the time of the change
-//   errors acts as Engine has them
-//   cost   a step is some microseconds and allocates nothing while no alarm comes or goes
+//   errors operator actions: as Engine
+//   cost   a step takes some microseconds, and allocates nothing while no alarm changes state
 //
-//   watch.advance(picture, received);  picture.update(snapshot, groups);  watch.link(figures);
+//   evaluator.advance(vehicle, received);  vehicle.update(snapshot, groups);
+//   evaluator.link(figures);
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -43,22 +44,22 @@ class Evaluator {
  public:
   explicit Evaluator(EvaluatorConfig config = {});
 
-  // Every step of the grid in (newest step, now]; at most kStepsAtOnce, older ones are left out and
-  // counted: a base that slept for an hour does not judge that hour.
+  // Makes every step of the grid in (newest step, now], at most kStepsAtOnce. Older steps are left
+  // out and counted: a base that was suspended for an hour does not evaluate that hour.
   static constexpr std::int64_t kStepsAtOnce = 60'000;
   void advance(const state::VehicleState& vehicle, Instant now);
   std::uint64_t steps_left_out() const { return left_out_; }
 
-  // After advance() to the time of the change, which is then that of the input.
+  // Call it after advance() to the time of the change, which becomes the time of the input.
   Result<bool, Problem> take(const EvaluatorInput& input);
   void link(const state::LinkFigures& figures) { static_cast<void>(take(figures)); }
   void base(const state::BaseFigures& figures) { static_cast<void>(take(figures)); }
   void expect(const state::Expectations& expected) { static_cast<void>(take(expected)); }
   Result<bool, Problem> edit(const LimitEdit& edit) { return take(edit); }
   Result<bool, Problem> edit(const AlarmEdit& edit) { return take(edit); }
-  // A packet with states came; the figures of the link say it, too, but seldom.
+  // Notes the time of a packet with states. The figures of the link have it too, but come seldom.
   void receive(Instant at) { known_.link.received = at; }
-  // Who is told every input when it was taken: a recording.
+  // Sets the receiver of every input with its time: the recording.
   void tell_inputs(std::function<void(const EvaluatorInput&, Instant)> reported) {
     reported_ = std::move(reported);
   }
@@ -71,10 +72,10 @@ class Evaluator {
   state::LinkState link_state() const { return monitors_.link.state(); }
   Instant link_since() const { return monitors_.link.since(); }
   state::FuelLeft fuel() const { return monitors_.fuel_left(params_.fuel); }
-  const state::DeriveParams& params() const { return params_; }  // as the file has them
+  const state::DeriveParams& params() const { return params_; }  // as in the file
   const state::TyreGate& tyre_gate() const { return params_.tyres; }
 
-  // Of any field, the car's at `now`, the base's own as of the newest step.
+  // View of any field: one of the car at `now`, one of the base as of the newest step.
   state::FieldView view(const state::VehicleState& vehicle, state::FieldId field,
                         Instant now) const;
   Judgement judge(state::FieldId field, const state::FieldView& view) const {

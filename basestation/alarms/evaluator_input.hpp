@@ -1,6 +1,6 @@
-// Inputs of the alarm evaluator beside the vehicle state, as values: a recording keeps them, and a
-// replay that gives the same at the same times judges the same.
-//   units  as the structs have them
+// Inputs of the alarm evaluator beside the vehicle state, as values. A recording keeps them; a
+// replay that gives the same inputs at the same times gets the same alarms.
+//   units  as in the structs
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -14,26 +14,26 @@
 
 namespace pitwall::alarms {
 
-// A packet that told nothing new came.
+// A packet without new states has arrived.
 struct PacketReceived {
   Instant at{};
 };
 
-// What a person does with an alarm of the list.
+// Action of an operator on an alarm of the list.
 struct AlarmAction {
   enum class Kind : std::uint8_t { kAcknowledge, kShelve, kUnshelve, kReset };
   Kind kind = Kind::kAcknowledge;
   AlarmId alarm = 0;
-  Duration length{};  // shelved for so long
+  Duration length{};  // of shelving
   std::string by{}, reason{};
 
   bool operator==(const AlarmAction&) const = default;
 };
 
-// And with a draft for race control.
+// Decision of an operator on a draft for race control.
 struct NoticeAction {
   std::uint32_t notice = 0;
-  bool reported = false;  // to race control; else it need not be
+  bool reported = false;  // to race control; false: not needed
   std::string by{};
 
   bool operator==(const NoticeAction&) const = default;

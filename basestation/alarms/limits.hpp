@@ -1,11 +1,11 @@
-// Limits that rate a value as good, warning or bad; people can change them.
+// Limits that rate a value as good, warning or bad; operators can change them.
 //   in     a field's value and quality; limits by field, defaults from kDefaultLimits
-//   out    kNone where there is no limit, no value, or the value is stale: an old value has no
-//          colour
+//   out    the judgement; kNone without a limit, without a value or for a stale value, so that an
+//          old value has no colour
 //   invariants
-//          a value at a limit is still on its good side. Bits and enumerations have sets of values
-//          instead of bounds
-//   errors edit(): Problem for an unknown field, bounds that are no numbers or out of order
+//          a value at a limit is still on the good side of it. Bits and enumerations have sets of
+//          values instead of bounds
+//   errors edit(): Problem for an unknown field, bounds that are not numbers or are out of order
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -24,7 +24,7 @@ namespace pitwall::alarms {
 enum class Judgement : std::uint8_t { kNone, kGood, kWarning, kBad };
 std::string_view text_of(Judgement judgement);
 
-// Bounds that are unset do not count. Sets: bit k is the value k.
+// Unset bounds are not checked. In the sets, bit k stands for the value k.
 struct Limit {
   double warning_low = kUnset, warning_high = kUnset;
   double bad_low = kUnset, bad_high = kUnset;
@@ -49,7 +49,7 @@ class Limits {
   const Limit& of(state::FieldId field) const;
   Judgement judge(state::FieldId field, const state::FieldView& view) const;
   Result<bool, Problem> edit(const LimitEdit& edit);
-  // Newest last; they make the file anew.
+  // Newest last; the settings file is written from them.
   const std::vector<LimitEdit>& edits() const { return edits_; }
 
  private:

@@ -1,10 +1,11 @@
-// Messages to race control about the radio, drafted: what is, since when, by which figures. Race
-// control must not slow a rival for a mere delay, and must hear when it is over.
-//   in     the link's state and figures, what the car does
-//   out    drafts; one "degraded" and one "restored" for each time that the link was not good
+// Drafts of messages to race control about the radio link: its state, since when, with which
+// figures. They keep race control from slowing a rival because of a mere delay, and report when the
+// link is good again.
+//   in     state and figures of the link, mode of the car
+//   out    drafts; one "degraded" and one "restored" for each episode in which the link is not good
 //   invariants
 //          an episode begins when the link leaves "good" and ends when it is good again for
-//          kSteadyFor; what happens between is in the draft's evidence, not another message
+//          kSteadyFor; changes in between go into the evidence of the draft, not into a new message
 //   bound  the newest kKept
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
@@ -41,7 +42,7 @@ struct LinkEvidence {
   state::LinkState state = state::LinkState::kNone;
   Duration silence{};
   double loss = kUnset, round_trip_ms = kUnset;
-  std::string_view car_mode;  // as it was last heard
+  std::string_view car_mode;  // as last received
 };
 
 class Notices {
@@ -50,7 +51,7 @@ class Notices {
   static constexpr Duration kSteadyFor = seconds(2);
 
   void step(const LinkEvidence& link, Instant now);
-  // Race control was told by a person, or need not be: nothing is sent from here.
+  // Notes that a person has told race control, or that it is not needed; nothing is sent from here.
   Result<bool, Problem> decide(std::uint32_t id, NoticeFate fate, std::string_view by);
 
   const std::deque<Notice>& all() const { return notices_; }

@@ -1,10 +1,10 @@
 // Alarm rate of the last minutes against the rate that an operator can handle.
-//   in     the time of each coming
-//   out    comings in the last 10 min; whether the list is flooded
+//   in     the time of each activation
+//   out    activations in the last 10 min; whether the list is flooded
 //   invariants
-//          flood begins above kFloodAbove in 10 min, and is over at kFloodOver or fewer
-//   bound  the newest kKept comings are known; more in 10 min count as kKept
-//   source EEMUA 191, ISA-18.2: about one in 10 min can be borne, more than 10 is a flood
+//          a flood begins above kFloodAbove in 10 min, and ends at kFloodOver or fewer
+//   bound  the newest kKept activations are stored; more in 10 min count as kKept
+//   source EEMUA 191, ISA-18.2: about one alarm in 10 min is acceptable, more than 10 is a flood
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -24,7 +24,7 @@ class AlarmRate {
   static constexpr std::size_t kKept = 256;
 
   void came(Instant at);
-  // True: flood began or ended.
+  // Returns true if a flood began or ended.
   bool advance(Instant now);
   std::size_t per_10_min() const { return count_; }
   bool flood() const { return flood_; }

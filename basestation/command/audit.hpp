@@ -1,5 +1,5 @@
-// Audit log: operator, action, time and outcome. Every action leaves a line, a refused one too.
-//   bound  the newest kKept are kept, all are counted; the recorder has them all
+// Audit log: operator, action, time and outcome, also of refused actions.
+//   bound  the newest kKept lines are kept, all are counted; the recorder keeps them all
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

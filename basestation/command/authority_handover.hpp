@@ -1,12 +1,13 @@
-// Handover of the authority between consoles: request, grant, refusal.
-//   in     acts of consoles, time
-//   out    the holder, a request that waits; lines for the audit log
+// Handover of the command authority between consoles: request, grant, refusal.
+//   in     actions of consoles, time
+//   out    the holder, the waiting request; lines for the audit log
 //   invariants
-//          a free authority is taken at once. A held one is asked for: its holder has kAnswer to
-//          refuse; who says nothing has granted. One request waits at a time; the holder's expiry
-//          grants it at once, his renewals do not refuse it
-//          renewing, dropping and expiry are telemetry::AuthorityRegister's
-//   errors Problem with the console as place: somebody else holds it, nobody asked, not the holder
+//          a free authority is taken at once. A held one must be requested: the holder has kAnswer
+//          to refuse; no answer grants the request. One request waits at a time; expiry of the
+//          holder grants it at once, a renewal by the holder does not refuse it
+//          renewal, drop and expiry follow telemetry::AuthorityRegister
+//   errors Problem with the console as place: another console holds it, no request waits, not the
+//          holder
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -22,7 +23,7 @@ namespace pitwall::command {
 
 struct AuthorityRequest {
   Person by;
-  Instant until{};  // granted then
+  Instant until{};  // it is granted at this time
 };
 
 class AuthorityHandover {
@@ -33,25 +34,25 @@ class AuthorityHandover {
       : authority_(&authority), audit_(&audit) {}
 
   Result<bool, Problem> take(const Person& who, Instant now);
-  Result<bool, Problem> renew(const Person& who, Instant now);  // leaves no line
+  Result<bool, Problem> renew(const Person& who, Instant now);  // leaves no audit line
   Result<bool, Problem> drop(const Person& who, Instant now);
   Result<bool, Problem> request(const Person& who, Instant now);
   Result<bool, Problem> grant(const Person& who, Instant now);
   Result<bool, Problem> refuse(const Person& who, Instant now);
-  // The console is gone: its request falls, its authority expires as anybody's.
+  // The console has disconnected: its request is withdrawn, its authority expires as usual.
   void left(const Person& who, Instant now);
-  void advance(Instant now);  // before anything is shown
+  void advance(Instant now);  // call it before anything is shown
 
   telemetry::HolderId holder(Instant now) const { return authority_->holder(now); }
   const Person& holder_person() const { return person_; }  // of the newest holder
   const std::optional<AuthorityRequest>& waiting() const { return waiting_; }
-  // It expired, and nobody has taken, dropped or handed it over since.
+  // The authority has expired, and no console has taken, dropped or handed it over since.
   bool lost() const { return lost_; }
   // Rises with every change of holder or request.
   std::uint64_t revision() const { return revision_; }
 
  private:
-  // `why_not`: nullptr where it was done.
+  // `why_not`: the reason of a refusal; nullptr if the action was done.
   Result<bool, Problem> say(const Person& who, const char* what, const char* why_not, Instant now);
   const char* why_not_answer(const Person& who, Instant now);
   void hold(const Person& who);

@@ -1,13 +1,13 @@
 // Checklist before a run: each item with its value, its age, and go or no-go.
-//   in     the vehicle state, the base's own fields, alarms; who holds the authority; how the
-//          settings are kept; what the joystick does
+//   in     the vehicle state, the base's own fields, alarms; the holder of the authority; how the
+//          settings are stored; the state of the joystick
 //   out    one check for each item, always all of them and in this order
 //   invariants
-//          what is stale or was never heard is no-go. Nothing here sends anything or holds anything
-//          back: people decide, and gates stand before each command
-//   units  ages since the value was true where it was measured
+//          a value that is stale or was never received is no-go. The checklist sends nothing and
+//          blocks nothing: people decide, and gates check each command
+//   units  ages since the value was measured
 //   source Saba et al.: the RTK login that two teams used, cold tyres, the round that was begun
-//          without the fuel for it
+//          without enough fuel
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -22,18 +22,18 @@
 namespace pitwall::command {
 
 enum class CheckKind : std::uint8_t {
-  kLink,         // packets come, and few are lost
-  kSoftware,     // both ends read each other's packets alike
+  kLink,         // packets arrive, and few are lost
+  kSoftware,     // car and base use the same packet schema
   kClocks,       // the base's clock is near UTC
-  kDisk,         // it records, and has room
+  kDisk,         // the recorder runs, and the disk has room
   kSettings,     // limits and alarms are those of the file
-  kAuthority,    // somebody can command the car
-  kJoystick,     // nobody's hand is on it
-  kCorrections,  // they come, by a login that nobody else uses
-  kTyres,        // with air; their temperatures are known
-  kFuel,         // an attempt and the way home
-  kStop,         // none is latched
-  kAlarms        // no high one
+  kAuthority,    // a console holds the authority
+  kJoystick,     // nobody uses it
+  kCorrections,  // they arrive, through a login that nobody else uses
+  kTyres,        // inflated; their temperatures are known
+  kFuel,         // enough for an attempt and the lap into the pits
+  kStop,         // no stop is latched
+  kAlarms        // no high alarm
 };
 inline constexpr std::size_t kChecks = 12;
 std::string_view text_of(CheckKind kind);
@@ -41,16 +41,16 @@ std::string_view text_of(CheckKind kind);
 struct Check {
   CheckKind kind = CheckKind::kLink;
   bool go = false;
-  bool known = false;  // heard, and not stale
+  bool known = false;  // received, and not stale
   Duration age{};
   std::string text;  // "14.9 laps, 6 attempts"
 };
 
-// Of the file of limits and alarms.
+// State of the file of limits and alarms.
 struct SettingsState {
   std::string version;   // as consoles show it
-  bool kept = false;     // there is a file for changes
-  bool readable = true;  // and it was understood
+  bool kept = false;     // a file stores changes
+  bool readable = true;  // the file was read without error
 };
 enum class JoystickState : std::uint8_t { kNone, kReleased, kInUse, kLost };
 

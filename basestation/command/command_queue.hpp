@@ -2,9 +2,9 @@
 //
 //   staged -> gated -> sent -> received -> applied
 //                |       |         `-> refused | expired | superseded
-//                `-------`-> refused (gates, or cancelled), expired (nobody sent it)
+//                `-------`-> refused (gates, or cancelled), expired (not sent in time)
 //
-//   in     what operators stage, send and cancel; what the vehicle state says; what the car answers
+//   in     what operators stage, send and cancel; the vehicle state; answers of the car
 //   out    tickets with every step and its time; commands given to the radio's transmitter; audit
 //          lines
 //   invariants
@@ -13,7 +13,7 @@
 //          person, and never past a gate that cannot be overridden
 //          a stop needs no ticket, no gate and no authority; it is sent at once, and repeated
 //          a ticket is sent once; nothing waits for the link to come back
-//   errors Problem with the ticket or the command as place; the audit log has the refusal too
+//   errors Problem with the ticket or the command as place; a refusal is in the audit log too
 //   bound  kKept tickets; staged ones expire after kStagedFor
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
@@ -56,7 +56,7 @@ struct StopPress {
   Instant at{};
 };
 
-// A reason, and the second person who agrees. Who that is the caller has found out by the token.
+// Override of gates: a reason, and the second person, whom the caller has identified by a token.
 struct Override {
   std::string reason;
   Person second;
@@ -71,10 +71,10 @@ struct Ticket {
   std::vector<Gate> gates;
   std::optional<Override> overridden;
   std::optional<telemetry::CommandId> number;          // on the radio
-  std::optional<telemetry::CommandProgress> progress;  // there, as known last
-  std::string text;                                    // why it ended as it did
-  bool echoed = false;                                 // the car's state shows it
-  std::uint64_t revision = 0;                          // of the queue, when it changed last
+  std::optional<telemetry::CommandProgress> progress;  // on the radio, as last known
+  std::string text;                                    // why it ended in this step
+  bool echoed = false;                                 // the car's state shows its effect
+  std::uint64_t revision = 0;                          // of the queue, at the ticket's last change
 };
 
 class CommandQueue {
@@ -82,7 +82,8 @@ class CommandQueue {
   static constexpr std::size_t kKept = 200;
   static constexpr Duration kStagedFor = seconds(30);
 
-  // Where operators are known by tokens an override takes a second person, else a reason.
+  // `second_person`: operators have tokens, so that an override needs a second person and a reason;
+  // otherwise a reason is enough.
   CommandQueue(const GateParams& params, bool second_person, Audit& audit)
       : params_(params), second_person_(second_person), audit_(&audit) {}
 
@@ -91,7 +92,7 @@ class CommandQueue {
   Result<bool, Problem> send(TicketId id, const Person& by,
                              const std::optional<Override>& overriding, const GateInputs& inputs,
                              telemetry::StationEndpoint& radio);
-  // Staged and sent at once; where a gate holds it back it has ended.
+  // Stages and sends at once; if a gate refuses, the ticket ends as refused.
   Result<bool, Problem> issue(const Person& by, telemetry::CommandType type, double argument,
                               const std::optional<Override>& overriding, const GateInputs& inputs,
                               telemetry::StationEndpoint& radio);
@@ -99,11 +100,11 @@ class CommandQueue {
   void stop(telemetry::StopLevel level, telemetry::StopReason reason, const Person& by, Instant now,
             telemetry::StationEndpoint& radio);
 
-  // The newest stop that was pressed here.
+  // The newest stop that an operator pressed at this base.
   const std::optional<StopPress>& pressed() const { return pressed_; }
 
-  // How far the car got; what is staged too long expires. After every packet, and before the
-  // tickets are shown.
+  // Takes over the progress that the car reports; staged tickets expire after kStagedFor. Call it
+  // after every packet, and before the tickets are shown.
   void follow(const state::VehicleState& vehicle, const telemetry::StationEndpoint& radio,
               Instant now);
 

@@ -1,6 +1,6 @@
-// Requests of operators: all that a console, the command socket or a script can ask of one car's
-// service. Who sends one is a Person beside it.
-//   invariants  whoever parses the text has checked the ranges and resolved the names
+// Operator requests: all that a console, the command socket or a script can request of one car's
+// service. The sender is given beside it, as a Person.
+//   invariants  the parser of the text has checked the ranges and resolved the names
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -19,7 +19,7 @@
 
 namespace pitwall::command {
 
-// Needs no authority and passes no gate.
+// Needs no authority and no gate.
 struct Stop {
   telemetry::StopLevel level = telemetry::StopLevel::kControlled;
 };
@@ -27,10 +27,10 @@ struct ReleaseStop {
   std::optional<Override> overriding{};
 };
 
-// A step back to driving after a stop.
+// One step of the recovery from a stop.
 struct Recover {
   RecoveryStep step = RecoveryStep::kRelease;
-  // Of a release: the latch that who asks has seen; none: whichever there is.
+  // Of a release: the challenge of the latch that the operator saw; nullopt: of the present latch.
   std::optional<double> challenge{};
 };
 
@@ -50,13 +50,13 @@ struct SendTicket {
 struct CancelTicket {
   TicketId ticket = 0;
 };
-// Staged and sent at once.
+// Stages and sends at once.
 struct IssueCommand {
   telemetry::CommandType type = telemetry::CommandType::kArm;
   double argument = 0.0;
   std::optional<Override> overriding{};
 };
-// Added to or taken from the set that was ordered last or that the car reports.
+// Changes the set that was ordered last, or else the set that the car reports.
 struct ExcludeSensor {
   std::uint32_t bit = 0;  // of CommandType::kSensorsExcluded
   bool exclude = true;
@@ -64,8 +64,8 @@ struct ExcludeSensor {
 
 struct AcknowledgeAlarms {
   std::vector<alarms::AlarmId> alarms{};
-  std::string key{};  // or the alarm of this key
-  bool all = false;   // or whatever is active and not acknowledged
+  std::string key{};  // or the alarm with this key
+  bool all = false;   // or every active alarm that is not acknowledged
 };
 struct ShelveAlarm {
   alarms::AlarmId alarm = 0;
@@ -77,14 +77,14 @@ struct UnshelveAlarm {
 };
 struct ResetAlarm {
   alarms::AlarmId alarm = 0;
-  std::string key{};  // where it is given: the alarm of this key
+  std::string key{};  // if not empty: the alarm with this key
 };
 struct AnswerNotice {
   std::uint32_t notice = 0;
-  bool reported = false;  // race control was told; else it need not be
+  bool reported = false;  // to race control; false: not needed
 };
 
-// The round speed that race control announced; none: it was taken back.
+// The round speed that race control announced; nullopt: race control has withdrawn it.
 struct ExpectRoundSpeed {
   std::optional<double> speed_mps{};
 };
@@ -97,7 +97,7 @@ struct EditAlarm {
 };
 struct EditLimit {
   alarms::LimitEdit edit{};                                     // bounds only
-  std::optional<std::uint64_t> warning_values{}, bad_values{};  // none: as they are
+  std::optional<std::uint64_t> warning_values{}, bad_values{};  // nullopt: unchanged
   std::string reason{};
 };
 struct EditBudget {

@@ -1,12 +1,13 @@
-// The one path of operators' requests to the car and to the base's judgement: console, command
-// socket, script and bench all end here.
-//   in     requests, who sends them, the time
-//   out    stops, authority and commands at the radio's endpoint; alarms and settings changed;
+// Executor of operator requests to the car and to the base: console, command socket, script and
+// bench all send theirs here.
+//   in     requests, their senders, the time
+//   out    stops, authority and commands at the radio's endpoint; changed alarms and settings;
 //          tickets, the audit log, what operators have entered
-//   invariants  a stop needs nothing. Whoever sends a command, the same gates judge it, and the
-//          authority has to be held by its sender; every act and every refusal leaves an audit line
-//          settings and entries are changed only by who holds the authority
-//   errors Problem with the request as place; audited
+//   invariants  a stop needs no authority and no gate. The same gates check a command from any
+//          sender, which must hold the authority. Actions and refusals leave an audit line; but
+//          renewals of the authority leave none, and actions on alarms are in the alarm history
+//          only the holder of the authority changes settings and entries
+//   errors Problem with the request as place
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -21,7 +22,7 @@
 
 namespace pitwall::command {
 
-// What operators entered that no field of the car says, and who did.
+// Operator entries: facts that no field of the car has, and who entered them.
 struct OperatorEntries {
   state::Expectations expected{};
   std::string round_speed_by{}, fuel_by{};
@@ -31,7 +32,7 @@ struct OperatorEntries {
 
 struct ExecutorConfig {
   GateParams gates{};
-  bool second_person = false;  // of an override
+  bool second_person = false;  // an override needs one
   std::uint64_t revision = 0;  // of the settings
   UpBudget budget{};
   SettingsEditor::Save save{};
@@ -39,29 +40,29 @@ struct ExecutorConfig {
 
 class RequestExecutor {
  public:
-  // All of them outlive it.
+  // All arguments taken by reference outlive it.
   RequestExecutor(ExecutorConfig config, telemetry::StationEndpoint& radio,
                   const state::VehicleState& vehicle, alarms::Evaluator& evaluator);
   RequestExecutor(const RequestExecutor&) = delete;
   RequestExecutor& operator=(const RequestExecutor&) = delete;
 
   Result<bool, Problem> execute(const Request& request, const Person& by, Instant now);
-  // A sample of the joystick. Its first one and its end leave an audit line, those between none.
+  // One joystick sample. The first and the last sample of a use leave an audit line.
   void steer(const telemetry::JoystickSample& sample, const Person& by, Instant now);
-  // The console is gone.
+  // The console has disconnected.
   void left(const Person& by, Instant now) { authority_.left(by, now); }
-  // Expiries, and how far the car came with its commands; before anything is published.
+  // Handles expiries and takes over the progress of commands; call it before publishing.
   void advance(Instant now);
 
-  // Those of a base before this one, in force again.
+  // Restores the entries of an earlier run of the base.
   void restore(const OperatorEntries& entries);
-  // The flag that the car has taken from this base.
+  // Notes the flag that the car has taken over from this base.
   void relay_flag(double flag);
   void note(const Person& by, std::string what, std::string result, Instant now) {
     audit_.add(now, by.name, std::move(what), std::move(result));
   }
 
-  // What was not understood, or may not be asked there.
+  // Audits and counts a request that was not understood or is not allowed at its source.
   void refuse(const Person& by, std::string what, const std::string& why, Instant now);
 
   const Audit& audit() const { return audit_; }

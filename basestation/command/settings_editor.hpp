@@ -1,9 +1,9 @@
 // Editor of limits, alarms and the radio budget during a race.
-//   in     a change with its reason, by somebody at a console; whether he holds the authority
-//   out    the change in force; a revision that counts up; lines for the audit log, refusals too
+//   in     a change with its reason and its author; whether the author holds the authority
+//   out    the change in force; a revision that counts up; audit lines, also of refusals
 //   invariants
-//          written first, then in force: what the disk does not take is refused and not done.
-//          Nobody changes anything without the authority or without a reason
+//          a change is stored first and then takes effect; if the disk refuses it, it is not made.
+//          Every change needs the authority and a reason
 //          the budget is never more than the base was started with
 //   errors Problem with the alarm, the field or the budget as place
 // SPDX-License-Identifier: Apache-2.0
@@ -21,7 +21,7 @@
 
 namespace pitwall::command {
 
-// kbit/s up each radio.
+// kbit/s up each radio path.
 struct UpBudget {
   double least = 64.0, most = kUnset;
   double now = kUnset;
@@ -36,7 +36,7 @@ class SettingsEditor {
     std::uint64_t revision;
     double up_kbit_s;
   };
-  // Keeps it for the next start. Empty: nothing is kept, and consoles are told so.
+  // Stores the settings for the next start. Empty: nothing is stored, and consoles show that.
   using Save = std::function<Result<bool, Problem>(const Wanted&)>;
   struct Origin {
     Person by;
@@ -53,7 +53,7 @@ class SettingsEditor {
         budget_(budget),
         save_(std::move(save)) {}
 
-  // The watch is at the time of the change: see Evaluator::advance().
+  // The evaluator must be at the time of the change: see Evaluator::advance().
   Result<bool, Problem> change(const Origin& origin, alarms::AlarmEdit edit);
   Result<bool, Problem> change(const Origin& origin, alarms::LimitEdit edit);
   Result<bool, Problem> change_budget(const Origin& origin, double up_kbit_s);

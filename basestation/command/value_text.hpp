@@ -1,5 +1,5 @@
 // Text of a field's value in gates and checklist.
-//   in     a value, NaN where it is not known; its unit, or the labels of its field
+//   in     a value, NaN if it is not known; its unit, or the labels of its field
 //   out    "12.3 m/s"; a label; "no data"
 // SPDX-License-Identifier: Apache-2.0
 #pragma once

@@ -1,8 +1,8 @@
 // Script of text commands with their times, for tests and the bench.
-//   in     lines "AT_SECONDS WORDS", times not falling; "#" and blank lines are comments. Seconds
-//          count from the first packet of the car
-//   out    the words that are due
-//   errors Problem with file and line, before anything is said
+//   in     lines "AT_SECONDS WORDS", times in ascending order; "#" and blank lines are comments.
+//          Seconds count from the first packet of the car
+//   out    the text commands that are due
+//   errors Problem with file and line, before any command is given out
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -22,9 +22,9 @@ class CommandScript {
   CommandScript() = default;
   static Result<CommandScript, Problem> parse(std::string_view text, const std::string& place);
 
-  // The next line that is due, each once.
+  // Returns the next line that is due; each line once.
   std::optional<std::string_view> next(Duration since_start);
-  std::optional<Duration> due() const;  // of the next line; none: all were said
+  std::optional<Duration> due() const;  // of the next line; nullopt after the last one
 
  private:
   struct Line {

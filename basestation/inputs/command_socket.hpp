@@ -1,9 +1,10 @@
-// The command socket of one car: text commands by a Unix socket file that only its owner may use.
-//   in     lines of text commands, of up to kClients at a time
-//   out    for each line, in order: "done", or "refused: " and why
-//   invariants  each client is an operator of its own; all share the console number until they take
-//               another one. A client of another user is hung up on
-//   errors open(): Problem with the path. Clients above kClients are hung up on, counted
+// Command socket of one car: text commands through a Unix socket that only its owner may use.
+//   in     lines of text commands, from up to kClients clients at a time
+//   out    for each line, in order: "done", or "refused: " and the reason
+//   invariants  each client is an operator of its own; all share one console number until they take
+//               another one
+//   errors open(): Problem with the path. Clients beyond kClients, and those of other users, are
+//          disconnected and counted
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -23,7 +24,7 @@ class CommandSocket {
   static Result<CommandSocket, Problem> open(const std::string& path);
 
   void serve(command::RequestExecutor& executor, Instant now);
-  int fd() const { return ready_.get(); }  // readable when one of all is
+  int fd() const { return ready_.get(); }  // readable when the listener or any client is
 
   std::size_t clients() const { return clients_.size(); }
   std::uint64_t turned_away() const { return turned_away_; }

@@ -1,10 +1,10 @@
-// The joystick of the operator as part of the base's loop: its reports become samples for the car.
+// Joystick of the operator in the event loop of the base: its reports become samples for the car.
 //   in     an input device (/dev/input/event*), or any descriptor that yields struct input_event
 //   out    samples, each with the time at which it was read
 //   invariants
-//          a device that is gone gives nothing: the car's own dead man ends what it said. It is
-//          opened again each second, and then nothing of before counts: the key is pressed anew
-//   errors open(): Problem where there is no such device at the start; later it is waited for
+//          a lost device gives no samples, so that the car's dead-man timeout ends its last one. It
+//          is opened again each second, with a new state: the enabling key must be pressed again
+//   errors open(): Problem if there is no such device at the start; later it is waited for
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -26,16 +26,16 @@ class JoystickDevice {
 
   static Result<JoystickDevice, Problem> open(const std::string& path,
                                               const JoystickMapping& mapping);
-  // A descriptor that is open already, for example a pipe; it is not opened again.
+  // For a descriptor that is open already, such as a pipe; it is not opened again.
   static JoystickDevice of(transport::FileDescriptor device, const JoystickMapping& mapping);
 
-  // What it reports now; a device that is gone is looked for.
+  // Reads the reports that wait; tries to open a lost device again.
   void read(Instant now, const Sink& sink);
   Instant due() const;
   int fd() const { return device_.get(); }
 
   bool present() const { return present_; }
-  // The device is gone, or its key is held and it says nothing: the car has let go of it.
+  // The device is gone, or its key is held and no report comes: the car no longer follows it.
   bool lost(Instant now) const {
     return !present_ ||
            (reports_.enabled() && sampled_ && now - *sampled_ > telemetry::kJoystickDead);
@@ -49,7 +49,8 @@ class JoystickDevice {
   void look_again(Instant now);
 
   std::string path_;
-  // The same number for ever, for who waits on it: while there is no device, nothing comes of it.
+  // Keeps its number, so that others can poll it; without a device it is an eventfd that stays
+  // silent.
   transport::FileDescriptor device_;
   JoystickReports reports_;
   bool present_ = true;

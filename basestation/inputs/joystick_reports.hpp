@@ -1,13 +1,13 @@
 // Decoder of joystick reports of the kernel (evdev): axes and keys become joystick samples.
 //   in     bytes of struct input_event, in pieces of any size; which axis and key mean what
-//   out    one sample for each report of the device while the enabling key is held, never one
-//          without a report: a hand that does not speak is no hand, and dies at the sender and in
-//          the car after 100 and 200 ms
+//   out    one sample for each report of the device while the enabling key is held, and none
+//          without a report: without samples the sender lets go after 100 ms and the car after
+//          200 ms
 //   invariants
-//          no sample before both axes have been heard, after events were lost until both are heard
-//          again, without the key, or with a value that is none of the calibrated range
+//          no sample before both axes were reported, nor after lost events until both are reported
+//          again, nor without the key, nor with a value outside the calibrated range
 //   units  axes in steps of the device; a sample 0 .. 1
-//   errors counted by their reason; parse(): Problem with the entry
+//   errors counted by reason; parse(): Problem with the entry
 //   source Linux: Documentation/input/input.rst, event-codes.rst
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
@@ -29,11 +29,11 @@ struct JoystickAxis {
 };
 
 struct JoystickMapping {
-  JoystickAxis lift{.code = 2};    // ABS_Z, the left trigger: 1 lets no throttle through
+  JoystickAxis lift{.code = 2};    // ABS_Z, the left trigger; at 1 no throttle passes
   JoystickAxis brake{.code = 5};   // ABS_RZ, the right trigger
   std::uint16_t enable_key = 310;  // BTN_TL, held
 
-  // "lift=2:0:255,brake=5:0:255,enable=310"; what is not named keeps its default.
+  // "lift=2:0:255,brake=5:0:255,enable=310"; an entry that is missing keeps its default.
   static Result<JoystickMapping, Problem> parse(std::string_view text);
 };
 
@@ -47,9 +47,9 @@ class JoystickReports {
  public:
   explicit JoystickReports(const JoystickMapping& mapping) : mapping_(mapping) {}
 
-  // The newest sample that these bytes give, none where they give none.
+  // Returns the newest sample of these bytes, or nullopt.
   std::optional<telemetry::JoystickSample> feed(std::span<const std::uint8_t> bytes);
-  // The device is gone: nothing of it is known any more.
+  // Clears the state of a lost device.
   void forget();
   bool enabled() const { return enabled_; }
   const JoystickCounters& counters() const { return counters_; }

@@ -1,9 +1,10 @@
 // Source of text commands: a script, a client of the command socket, the stop port.
 //   in     one line; the request executor of the car
-//   out    the request executed in this operator's name; what is answered to it
-//   invariants  a request that was refused by a gate, the authority or the executor is refused here
-//               with the same words
-//   errors Problem: what was not understood, or was refused; both are in the audit log
+//   out    the request, executed in this operator's name; the result as answer
+//   invariants  a refusal by a gate, the authority or the executor is returned here with the same
+//               text
+//   errors Problem: the text was not understood or the request was refused; both are in the audit
+//          log
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -15,7 +16,7 @@
 
 namespace pitwall::inputs {
 
-// Consoles of a browser have numbers from 16 on.
+// Consoles in a browser have numbers from 16 on.
 inline constexpr telemetry::HolderId kTextConsoles = 15;
 struct TextPerson {
   telemetry::HolderId console;

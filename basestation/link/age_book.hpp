@@ -1,10 +1,10 @@
-// Age statistics over a run, as sampled each millisecond: each group on its own, and a class as a
-// look at any of its groups.
+// Age statistics over a run, weighted by time: for each group, and for each class over all its
+// groups.
 //   in     the state after each packet that changed it
 //   out    quantiles by class and by group
 //   invariants
-//          counting begins with a group's first sample; a group that the car stops sampling grows
-//          old like any other
+//          counting begins with a group's first sample; the age of a group that the car no longer
+//          samples keeps growing
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -18,7 +18,7 @@ namespace pitwall::link {
 
 class AgeBook {
  public:
-  // Counts up to now with what was shown until now; then this is shown.
+  // advance() counts up to now with the samples shown so far; show() then takes the new ones.
   void advance(Instant now);
   void show(const telemetry::Snapshot& state, Instant now);
 

@@ -1,6 +1,6 @@
-// Histogram of the age of the newest value, weighted by time: between two packets the age grows
-// evenly, so each interval is spread over the buckets that it crosses.
-//   in     stretches of time during which the age grew from `from`
+// Histogram of the age of the newest value, weighted by time. Between two packets the age grows
+// evenly, so that each interval is spread over the buckets that it crosses.
+//   in     intervals of time, and the age at the beginning of each
 //   out    quantiles, to one millisecond, and the largest age
 //   bound  ages beyond kBuckets milliseconds share the last bucket
 // SPDX-License-Identifier: Apache-2.0
@@ -19,9 +19,9 @@ class AgeHistogram {
   static constexpr Duration kBucket = milliseconds(1);
 
   void add(Duration from, Duration length);
-  bool empty() const { return total_ns_ == 0; }  // nothing was there to look at
+  bool empty() const { return total_ns_ == 0; }
 
-  // The age that was not exceeded for this fraction of the time; zero if there was none.
+  // The age that was not exceeded for this fraction of the time; zero if empty.
   Duration quantile(double fraction) const;
   Duration largest() const { return largest_; }
 

@@ -1,7 +1,8 @@
 // Key log file of a base on the bench, for Wireshark.
-//   in     path, readable by its owner only; the keys that the base was given
-//   out    what appends each session's lines to it
-//   errors Problem with the option: keys that are not for the bench; with a file that is not ours
+//   in     path, readable by its owner only; the keys of the base
+//   out    a function that appends the lines of each session to the file
+//   errors Problem with the option for keys that are not bench keys; Problem with the path for a
+//          file that is not private to this user
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

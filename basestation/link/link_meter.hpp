@@ -1,10 +1,11 @@
 // Radio figures over the last 1, 5 and 30 s, from counters that only rise.
 //   in     the link's counters, ten times a second; packets with their groups
-//   out    loss, rate, copies, late ones and round trip of a window; what each group takes of the
-//          link; what the car may send down it, reckoned from what comes and how much it calls that
+//   out    loss, rate, duplicates, late packets and round trip of a window; the rate of each group;
+//          the limit of the car's sending rate, computed from the received rate and the use of that
+//          limit that the car reports
 //   invariants
-//          loss of a window is what was missing of what was sent in it; with nothing sent it is
-//          not known. A session that begins anew begins the windows anew
+//          loss of a window is the share of packets sent in it that are missing; NaN if none was
+//          sent. A new session starts the windows again
 //   units  shares 0 .. 1, kbit/s
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
@@ -25,7 +26,7 @@ struct PathCount {
   std::uint64_t received = 0, lost = 0, duplicates = 0, late = 0, up_bytes = 0;
 };
 struct LinkCount {
-  std::uint64_t packets = 0, missing = 0;  // of all paths: numbers that came, that did not
+  std::uint64_t packets = 0, missing = 0;  // of all paths: numbers received, numbers missing
   std::array<PathCount, telemetry::kPaths> paths{};
 };
 LinkCount count_of(const telemetry::LinkReport& report, std::uint64_t packets,
@@ -42,11 +43,11 @@ class LinkMeter {
   void note(const LinkCount& count, Instant now, double round_trip_ms = kUnset);
   void packet(telemetry::GroupSet groups, Instant now);
 
-  // So much came by the path, which the car calls this share of what it may send by it.
+  // The rate received by the path, and the share of its limit that the car says it uses.
   void note_use(std::size_t path, double received_kbit_s, double use);
 
   double loss(Duration window) const;
-  double round_trip_ms(Duration window) const;  // the longest
+  double round_trip_ms(Duration window) const;  // the longest in the window
   double down_cap_kbit_s(std::size_t path) const { return caps_kbit_s_[path]; }
   PathWindow path(std::size_t path, Duration window) const;
   double group_kbit_s(telemetry::Group group) const;  // of the last whole second

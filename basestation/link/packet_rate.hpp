@@ -1,5 +1,5 @@
 // Rate of the car's packets, and time of the last one.
-//   units  Hz over the last second; over the run
+//   units  Hz, over the last second and over the run
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -12,7 +12,7 @@ namespace pitwall::link {
 
 class PacketRate {
  public:
-  static constexpr Duration kLostAfter = seconds(1);  // 50 packets
+  static constexpr Duration kLostAfter = seconds(1);  // 50 packet periods
 
   void note(Instant at);
 
@@ -22,11 +22,11 @@ class PacketRate {
   Instant first() const { return first_; }
   Duration since_last(Instant now) const { return now - last_; }
   bool ever() const { return packets_ > 0; }
-  // A car that was heard and is no longer.
+  // True if packets came before but none within kLostAfter.
   bool lost(Instant now) const { return ever() && since_last(now) > kLostAfter; }
 
  private:
-  static constexpr std::size_t kRing = 512;  // more packets a second than any sender makes
+  static constexpr std::size_t kRing = 512;  // more packets a second than any car sends
   static constexpr Duration kWindow = seconds(1);
 
   std::array<Instant, kRing> received_{};

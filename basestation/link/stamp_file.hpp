@@ -1,15 +1,15 @@
-// File of the newest stamp that the car's openings had: a base station that is started again knows
-// by it which openings of the key exchange are replays (protocol/telemetry/session/stamp.hpp).
-//   in     path; keys of another base are another file. The newest stamp, as often as one likes
-//   out    the stamp for AssociationConfig::newest_stamp; one line "stamp: NANOSECONDS", for its
-//          owner only
+// File of the newest stamp in the car's key-exchange openings. With it a restarted base station
+// recognizes openings that are replays (protocol/telemetry/session/stamp.hpp).
+//   in     path, a different one for other keys of the base; the newest stamp, at any rate
+//   out    the stamp for AssociationConfig::newest_stamp; a file of one line "stamp: NANOSECONDS",
+//          readable by its owner only
 //   units  nanoseconds since 1970-01-01 UTC by the car's clock, below 2^63
 //   invariants
-//          keep() waits for no disk: a thread writes, at most once a period and at the end; who
-//          reads has the file of before or the new one, whole
-//   errors read_stamp(): Problem with the line or the path. A base without this memory is harmless:
-//          the stamps of its car are newer, and replays reach as far as a pending session
-//          a write that fails: take_problem(), once; later stamps are tried again
+//          keep() does not wait for the disk: a thread writes, at most once a period and at the
+//          end; a reader gets the old file or the new one, never a part
+//   errors read_stamp(): Problem with the line or the path. A base without the file stays safe: its
+//          car sends newer stamps, and a replay gets no further than a pending session
+//          take_problem(): the first failed write, once; later stamps are written again
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -26,10 +26,10 @@
 
 namespace pitwall::link {
 
-// keys/base.keys: keys/base.stamp
+// Path of the stamp file beside a key file: keys/base.stamp for keys/base.keys.
 std::string stamp_file_of(const std::string& key_file);
 
-// 0: there is no such file.
+// Returns 0 if there is no such file.
 Result<telemetry::Stamp, Problem> read_stamp(const std::string& path);
 Result<telemetry::Stamp, Problem> parse_stamp(std::string_view text, const std::string& path);
 std::string stamp_text(telemetry::Stamp stamp);
@@ -38,7 +38,7 @@ class StampFile {
  public:
   static constexpr Duration kPeriod = seconds(1);
 
-  // `known`: what the file has.
+  // `known`: the stamp in the file.
   StampFile(std::string path, telemetry::Stamp known, Duration period = kPeriod);
   ~StampFile();
   StampFile(const StampFile&) = delete;
@@ -52,7 +52,7 @@ class StampFile {
 
   std::string path_;
   Duration period_;
-  telemetry::Stamp reported_;  // of keep() only
+  telemetry::Stamp reported_;  // used by keep() only
   std::mutex mutex_;
   std::condition_variable changed_;
   telemetry::Stamp newest_, tried_;

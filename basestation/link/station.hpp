@@ -1,5 +1,5 @@
-// The base's end of the radio with its figures: ages, rates, losses, events as they come. The same
-// in the program, the bench and the tests.
+// Base end of the radio link with its figures: ages, rates, losses, events. The program, the bench
+// and the tests use the same one.
 //   in     datagrams with path, sender and time
 //   out    datagrams that are due; the newest state, at endpoint().state(); figures, events
 //   errors counted by the endpoint
@@ -30,24 +30,24 @@ struct BulkTally {
 class Station {
  public:
   static constexpr std::size_t kLogged = 1'000;
-  // Loss by place is told by sections of this length from the start line.
+  // Loss by place is counted in track sections of this length, from the start line.
   static constexpr double kSection_m = 200.0;
 
   Station(const telemetry::LinkEndpointConfig& config, telemetry::Randomness& randomness)
       : endpoint_(config, randomness), paths_(config.association.paths) {}
 
-  // True: an authentic packet of the car that was not had before.
+  // Returns true for an authentic packet of the car that was not received before.
   bool take(std::span<const std::uint8_t> datagram, telemetry::PathId path, telemetry::Address from,
             Instant received);
-  // What the datagram brought that was taken last; none before.
+  // Content of the last datagram that take() accepted; nullopt before the first one.
   const std::optional<telemetry::Arrival>& arrival() const { return arrival_; }
   std::optional<telemetry::Outgoing> poll(Instant now);
   Instant due() const { return endpoint_.due(); }
-  // Gets every datagram, as it came (also what is refused) or went. `down`: from the car.
+  // Receives every datagram as it came (also a refused one) or went. `down`: from the car.
   using Observer = std::function<void(bool down, telemetry::PathId path, telemetry::Address other,
                                       Instant at, std::span<const std::uint8_t> bytes)>;
   void observe(Observer observer) { observer_ = std::move(observer); }
-  // Lets the figures grow older; before they are read.
+  // Brings the ages up to `now`; call it before the figures are read.
   void advance(Instant now) { ages_.advance(now); }
 
   enum class Source : std::uint8_t { kNone, kSimulation, kCar };
@@ -59,11 +59,11 @@ class Station {
   const telemetry::StationEndpoint& endpoint() const { return endpoint_; }
   telemetry::StationEndpoint& endpoint() { return endpoint_; }
 
-  // Of the car, and the attacks and key errors that the base itself sees.
+  // Events of the car, and the attacks and key errors that the base itself detects.
   const std::deque<telemetry::Event>& events() const { return events_; }
   std::uint64_t events_received() const { return events_received_; }
   const std::array<BulkTally, telemetry::kBulkKinds>& bulk() const { return bulk_; }
-  // Numbers of packets that came by no path, of all sessions.
+  // Packet numbers that arrived by no path, over all sessions.
   std::uint64_t lost_packets() const;
   double loss() const;  // of those that were sent, 0 .. 1
 
@@ -81,7 +81,7 @@ class Station {
   std::deque<telemetry::Event> events_;
   std::uint64_t events_received_ = 0;
   std::array<BulkTally, telemetry::kBulkKinds> bulk_{};
-  std::uint64_t numbers_before_ = 0, newest_ = 0, session_ = 0;  // of sessions that are over
+  std::uint64_t numbers_before_ = 0, newest_ = 0, session_ = 0;  // before: of ended sessions
 };
 
 }  // namespace pitwall::link

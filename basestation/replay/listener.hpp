@@ -1,4 +1,4 @@
-// Interface that a replay calls, with the calls of a live base.
+// Listener of a replay: receives the same calls as in a live base.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -13,11 +13,11 @@ namespace pitwall::replay {
 class Listener {
  public:
   virtual ~Listener() = default;
-  // What of the state is newer, as VehicleState::update() has it.
+  // `groups`: the groups of the state that are newer, as for VehicleState::update().
   virtual void state(const telemetry::Snapshot& state, telemetry::GroupSet groups,
                      Instant received) = 0;
   virtual void text(recorder::Topic topic, Instant at, std::string_view json) = 0;
-  // Time jumps: everything that was told is forgotten, and what was known then follows.
+  // Time jumps: drop all earlier data; the data known at the new time follows.
   virtual void restart(Instant to) = 0;
 };
 

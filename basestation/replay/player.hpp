@@ -1,15 +1,15 @@
-// Player of a recording as if it were live: the same picture, the same texts, at the pace that is
-// asked for.
+// Player of a recording as if it were live: the same states and texts, at a chosen speed.
 //   in     a folder of segments; how much time has passed; speed and jumps
 //   out    calls of a Listener; the time of the recording
-//   units  Instants on the clock of the base that recorded, as the first segment has it; speed is
-//          recorded seconds per second, from -20 to 20, slower than 0.1 either way is 0.1; 0: pause
+//   units  Instants on the clock of the base that recorded, as in the first segment; speed is
+//          recorded seconds per second, from -20 to 20; a magnitude below 0.1 counts as 0.1;
+//          0: pause
 //   invariants
-//          played forward, everything is told once and in order. After a jump the Listener knows
-//          what the live base knew at that time: backwards is a row of jumps
-//          nothing here can send anything: there is no uplink
-//   errors open(): Problem where there is no segment that can be read. Damaged segments are read as
-//          far as they go; problems() tells them
+//          played forward, every message is given once and in order. After a jump the Listener has
+//          what the live base had at that time; playing backwards is a series of jumps
+//          it cannot send anything: there is no uplink
+//   errors open(): Problem if no segment can be read. Damaged segments are read as far as possible;
+//          problems() lists them
 //   cost   holds one segment and the texts of the recording in memory
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
@@ -41,9 +41,9 @@ class Player {
   const recording::Metadata& run() const { return run_; }  // of the first segment
   const std::vector<std::string>& problems() const { return problems_; }
 
-  void set_speed(double speed);  // no number: as it was
+  void set_speed(double speed);  // NaN: unchanged
   void jump(Instant to, Listener& listener);
-  // So much time has passed where somebody watches.
+  // `passed`: elapsed time of the viewer.
   void advance(Duration passed, Listener& listener);
 
  private:
@@ -65,13 +65,13 @@ class Player {
   recorder::ClockMap clock_;
   recording::Metadata run_;
   std::vector<Segment> segments_;
-  std::vector<Text> texts_;  // but those that are told again and again
+  std::vector<Text> texts_;  // without the frequent ones, which a jump does not repeat
   std::vector<std::string> problems_;
   Instant begin_{}, end_{}, now_{};
   double speed_ = 1.0;
-  Duration behind_{};  // played backwards: not yet shown
+  Duration behind_{};  // played backwards: time not shown yet
   std::size_t current_ = 0;
-  // Stay where they are when the player is moved.
+  // On the heap, so that their addresses survive a move of the player.
   std::unique_ptr<std::string> file_ = std::make_unique<std::string>();
   std::unique_ptr<telemetry::Snapshot> known_ = std::make_unique<telemetry::Snapshot>();
   std::unique_ptr<SegmentReader> reader_;

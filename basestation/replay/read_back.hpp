@@ -1,12 +1,12 @@
-// Restored state of a base station that was killed: the last of its recording, told again when it
-// starts, so that it goes on with the same race and its history.
-//   in     the folder that it recorded to; its clock; how far back
-//   out    calls of a Listener, oldest first, with times on the clock of now: before the start of
-//          the process, and before zero where the machine was started anew
+// Restore of the state of a base station that was killed: at its start it reads the end of its
+// recording, so that it goes on with the same race and its history.
+//   in     the folder of its recordings; its clock; how far back
+//   out    calls of a Listener, oldest first, with times on the present clock: before the start of
+//          the process, and negative after a reboot of the machine
 //   invariants
-//          of another boot of the machine times are compared by UTC. What lies behind the present
-//          is left out
-//   errors counted; a folder without a recording tells nothing
+//          times of another boot of the machine are converted through UTC. Messages after `now` are
+//          left out
+//   errors counted; a folder without a recording gives no calls
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

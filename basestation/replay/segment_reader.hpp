@@ -1,10 +1,10 @@
-// One segment of a recording as the calls of a Listener, from front to back.
-//   in     the bytes of a file, which must outlive the reader; the clock on which it tells times
-//   out    step(): one message each; where the file has a picture, restore() tells all of it
+// Reader of one segment of a recording, as calls of a Listener, from front to back.
+//   in     the bytes of a file, which must outlive the reader; the clock for the times
+//   out    step(): one message each; restore(): a whole state, if the file has such a record
 //   invariants
-//          values, groups and times are those that the live base had, to the bit
-//   errors a file that is cut or damaged tells what can be read of it; messages that are no sample
-//          of their channel, and texts of no known type, are counted
+//          values, groups and times are those of the live base, to the bit
+//   errors a truncated or damaged file gives all that can be read of it; messages that are not a
+//          sample of their channel, and texts of an unknown type, are counted
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -21,23 +21,23 @@ namespace pitwall::replay {
 
 class SegmentReader {
  public:
-  // `known`: what the segments before have told, and goes on here.
+  // `known`: the state from earlier segments, which goes on here.
   SegmentReader(std::span<const std::uint8_t> file, const recorder::ClockMap& clock,
                 telemetry::Snapshot& known);
 
-  // When the next message was received; none at the end of the file.
+  // Receive time of the next message; nullopt at the end of the file.
   std::optional<Instant> due();
-  // Tells it, and goes on.
+  // Gives the next message to the listener.
   void step(Listener& listener);
-  // Goes to the last picture that is not newer and tells it; then all up to that time is told with
-  // step(). False: the file has none, and stands where it stood.
+  // Finds the last record of a whole state that is not newer than `at` and gives it; step() then
+  // gives the messages after it. Returns false, at the start of the file, if there is none.
   bool restore(Instant at, Listener& listener);
-  // Goes on to the first message that is not older.
+  // Skips to the first message that is not older than `at`.
   void skip_to(Instant at);
   std::uint64_t unreadable() const { return unreadable_; }
 
  private:
-  // A channel of the file: its sample fields, or the type of its texts; or of no interest.
+  // A channel of the file: its sample fields, or the type of its texts; both empty if unused.
   struct Place {
     std::optional<recorder::ChannelFields> fields;
     std::optional<recorder::Topic> topic;

@@ -1,15 +1,15 @@
-// One car's service at the base: the radio, the vehicle state with all that is derived from it,
-// alarms, and the one path of commands. Runs without any publisher, sockets or clock of its own.
+// Service of one car at the base: the radio, the vehicle state with all that is derived from it,
+// alarms, and the only path of commands. It needs no publisher, and has no sockets and no clock.
 //
 //   datagrams -> radio -> vehicle state -> derived signals -> alarms -> messages -> publishers
 //   stops, commands <- gates, authority, audit <- requests <- console, command socket, script
 //
 //   in     datagrams and requests with their time; the time, at each turn of the loop
-//   out    datagrams; snapshots of all that is known; messages about what changed
-//   invariants  judges, records and publishes alike with any set of publishers
+//   out    datagrams; snapshots of all values; messages about changes
+//   invariants  it evaluates, records and sends the same with any set of publishers
 //               a request is executed, and a stop given to the radio, before anything is published
-//   cost   advance(): some microseconds each 10 ms of time that passed, about 50 with a measurement
-//   errors execute(): Problem, which the audit log has too
+//   cost   advance(): some microseconds per 10 ms of elapsed time, about 50 with a measurement
+//   errors execute(): Problem; audited as request_executor.hpp describes
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -37,17 +37,17 @@ struct ServiceConfig {
   int car = 0;
   std::string name{};
   double up_cap_kbit_s = kUnset;         // of each path
-  double up_kbit_s = kUnset;             // as operators have lowered it; unset: the cap
+  double up_kbit_s = kUnset;             // as lowered by operators; unset: the cap
   std::uint64_t revision = 0;            // of the settings
-  std::shared_ptr<LimitsStore> store{};  // nullptr: changes are not kept
+  std::shared_ptr<LimitsStore> store{};  // nullptr: changes are not stored
   alarms::EvaluatorConfig evaluator{};
   command::GateParams gates{};
-  bool second_person = false;  // of an override
-  // How far the machine's clock is from UTC; none: not known.
+  bool second_person = false;  // an override needs one
+  // Error of the machine's clock against UTC; nullopt: not known.
   std::function<std::optional<Duration>()> utc_error{};
 };
 
-// The settings of the file, and where changes go. The course is not in it and comes afterwards.
+// Takes the settings of the file, and stores changes in it. It has no course; set that afterwards.
 void use_limits(ServiceConfig& config, std::shared_ptr<LimitsStore> store, double up_cap_kbit_s);
 
 // "NONE", "HIL" for a simulation, "REAL".
@@ -60,11 +60,11 @@ class CarService {
   CarService(const CarService&) = delete;
   CarService& operator=(const CarService&) = delete;
 
-  // True: an authentic packet of the car that was not had before, at link().arrival().
+  // Returns true for a new authentic packet of the car, which is then at link().arrival().
   bool receive(std::span<const std::uint8_t> datagram, telemetry::PathId path,
                telemetry::Address from, Instant at);
   std::optional<telemetry::Outgoing> poll(Instant now) { return station_.poll(now); }
-  // Up to now; once in each turn of the loop, after requests and before publishers.
+  // Brings all up to `now`; once per turn of the loop, after requests and before publishers.
   void advance(Instant now);
   Instant due() const { return std::min(station_.due(), measured_ + kMeasureEvery); }
 
@@ -73,22 +73,22 @@ class CarService {
     return requests_.execute(request, by, now);
   }
   command::RequestExecutor& requests() { return requests_; }
-  // A line of the log of the race.
+  // Adds a line to the log of the race.
   void mark(const std::string& text, const command::Person& by, Instant now);
 
-  // Known before this process began: state and trends, no alarms.
+  // Restores state and trends from before this process; no alarms.
   void restore(const telemetry::Snapshot& state, telemetry::GroupSet groups);
-  // What operators had entered then, in force again; judged from `now` on. The rest is burnt.
+  // Restores operator entries, in force from `now` on. `fuel_left_l`: what is left of their fuel.
   void restore(const command::OperatorEntries& entries, double fuel_left_l, Instant now);
 
-  // How the recorder does; called ten times a second.
+  // Source of the recorder's figures; called ten times a second.
   void watch_recorder(std::function<void(state::BaseFigures&, Instant)> fill) {
     recorder_figures_ = std::move(fill);
   }
   void watch_joystick(std::function<command::JoystickState(Instant)> state) {
     joystick_ = std::move(state);
   }
-  // Who gets every input of the evaluator: a recording.
+  // Sets the receiver of every input of the evaluator: the recording.
   void observe_inputs(std::function<void(const alarms::EvaluatorInput&, Instant)> observer) {
     evaluator_.tell_inputs(std::move(observer));
   }
@@ -102,12 +102,12 @@ class CarService {
   MessageLog& messages() { return messages_; }
   const MessageLog& messages() const { return messages_; }
   CarIdentity identity() const;
-  // None: it is not stopped.
+  // nullopt: the car is not stopped.
   const std::optional<command::StoppedCar>& stopped() const { return stop_.now(); }
   std::optional<Problem> settings_problem() const;
   std::vector<command::Check> checks(Instant now) const;
 
-  // A field of the car or of the base, and what was known of it.
+  // A field of the car or of the base, and its history.
   state::FieldView view(state::FieldId field, Instant now) const {
     return evaluator_.view(vehicle_, field, now);
   }

@@ -1,12 +1,12 @@
-// The file of limits and alarms over the life of a base: read once, written after each change.
-//   in     its path; what people changed, by the settings editor
-//   out    the settings to begin with; a line for a person where they are not the file's
+// File of limits and alarms during the life of a base: read once, written after each change.
+//   in     its path; changes by operators, from the settings editor
+//   out    the settings at the start; a line for the log if they are not from the file
 //   invariants
-//          a file that cannot be read stops no base: limits and alarms hold as they came, and the
-//          file stays as it is until somebody changes a setting. Then the broken one is kept as
-//          FILE.broken (FILE.broken.2 and so on where that is there), and the new one takes its
-//          place. A file that is not there is made with the first change
-//   errors save(): Problem with the path; the file is then as it was
+//          a file that cannot be read does not stop the base: the built-in limits and alarms hold,
+//          and the file stays as it is until an operator changes a setting. Then the broken file is
+//          kept as FILE.broken (or FILE.broken.2 and so on), and the new one takes its place. A
+//          missing file is created with the first change
+//   errors save(): Problem with the path; the file is then unchanged
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -24,8 +24,8 @@ class LimitsStore {
   explicit LimitsStore(std::string path);
 
   const settings::Judgement& judgement() const { return judgement_; }
-  const std::string& remark() const { return remark_; }  // empty: the settings are the file's
-  // The file is there and is none; until it was replaced.
+  const std::string& remark() const { return remark_; }  // empty: the settings are from the file
+  // The error of a file that cannot be read, until it is replaced.
   const std::optional<Problem>& unreadable() const { return unreadable_; }
   Result<bool, Problem> save(const command::SettingsEditor::Wanted& wanted);
 
@@ -36,7 +36,7 @@ class LimitsStore {
   settings::Judgement judgement_;
   std::string remark_;
   std::optional<Problem> unreadable_;
-  bool kept_ = false;  // the broken one
+  bool kept_ = false;  // the broken file has been copied
 };
 
 }  // namespace pitwall::service

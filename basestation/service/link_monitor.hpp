@@ -1,5 +1,5 @@
-// The radio of one car as the base judges it: losses, delays and rates over windows, measured ten
-// times a second.
+// Monitor of the radio link of one car: losses, delays and rates over windows, measured ten times a
+// second.
 //   in     packets as they come; the radio's figures and the vehicle state, at each measurement
 //   out    LinkFigures for derived signals and alarms; the meter with all its windows
 //   units  shares 0 .. 1, kbit/s, ms

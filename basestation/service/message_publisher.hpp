@@ -1,10 +1,10 @@
-// Messages about what has changed in one car's service: alarms, tickets, audit, authority, events,
-// settings, the radio.
+// Publisher of messages about changes in one car's service: alarms, tickets, audit, authority,
+// events, settings, the radio.
 //   in     the service after each advance()
 //   out    messages in its MessageLog
-//   invariants  what did not change is not published again, but: the authority each second while it
-//          is held, the radio twice a second, the checklist once, the entries each minute, so that
-//          the newest part of a recording has them
+//   invariants  only changes are published. Exceptions: the authority each second while it is held,
+//          the radio twice a second, the checklist once a second, and the entries each minute, so
+//          that the newest part of a recording has them
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -26,7 +26,7 @@ class MessageLog;
 class MessagePublisher {
  public:
   void publish(const CarService& car, MessageLog& to, Instant now);
-  // Due with a new state of the link, else twice a second.
+  // Publishes on a change of the link state, otherwise twice a second.
   void publish_link(const CarService& car, MessageLog& to, Instant now);
 
  private:
@@ -53,7 +53,8 @@ class MessagePublisher {
 
   bool begun_ = false;
   Shown shown_;
-  std::uint64_t alarms_ = 0, alarm_events_ = 0, notice_revision_ = 0;  // as published last
+  // Revisions and counts at the last publication.
+  std::uint64_t alarms_ = 0, alarm_events_ = 0, notice_revision_ = 0;
   std::uint64_t tickets_ = 0, audit_ = 0, authority_ = 0, events_ = 0, entries_ = 0, settings_ = 0;
   std::vector<alarms::Notice> notices_;
   std::string fuel_, stop_;

@@ -1,9 +1,9 @@
-// One car's session at the base: its service with what it needs of the machine (sockets, files,
-// devices) and its publishers, put together from a Plan. Several share the loop and the web server,
-// and nothing else.
-//   in     a Plan; the web server, where there are consoles
+// Session of one car at the base: its service with its resources of the machine (sockets, files,
+// devices) and its publishers, built from a Plan. Several sessions share the loop and the web
+// server, and nothing else.
+//   in     a Plan; the web server, if there are consoles
 //   out    what the event loop serves
-//   invariants  sockets are open before anything is said or written; what is used outlives its user
+//   invariants  sockets are open before anything is logged or written; a member outlives its users
 //   errors open(), begin(): Problem with the socket, folder or device
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
@@ -27,19 +27,19 @@ namespace pitwall::session {
 
 class CarSession {
  public:
-  // With its sockets, and a service that has received nothing.
+  // With open sockets, and a service that has received nothing.
   static Result<std::unique_ptr<CarSession>, Problem> open(Plan plan);
   std::string title() const;  // "CAR 7 Blue"
   // "listening at ADDRESS and ADDRESS"
   std::string listening() const;
 
-  // Consoles, where there is a server for them, recording, joystick.
+  // Starts consoles (if there is a server), recording, joystick.
   Result<bool, Problem> begin(publishers::web::WebServer* server, const Say& say);
-  // Something else that shows or keeps what this car says; served after all that is there already.
+  // Adds a publisher, which is served after those that are there already.
   void attach(std::unique_ptr<service::Publisher> publisher);
 
   service::CarLoop loop();
-  // Where it was asked for: what was received and sent.
+  // Writes the summary of the run, if the arguments name a file for it.
   Result<bool, Problem> write_summary();
 
   CarStatus status() const;
@@ -58,7 +58,7 @@ class CarSession {
   std::vector<transport::UdpSocket> radio_;
   std::optional<transport::UdpSocket> stop_port_;
   std::optional<inputs::CommandSocket> commands_;
-  std::unique_ptr<recorder::Recorder> recording_;  // outlives who tells it
+  std::unique_ptr<recorder::Recorder> recording_;  // outlives all that write to it
   std::unique_ptr<service::CarService> service_;
   std::vector<std::unique_ptr<service::Publisher>> owned_;
   std::vector<service::Publisher*> publishers_;

@@ -1,9 +1,9 @@
-// Plan of one car's session, checked from the command line before it begins.
-//   in     command lines; the files that they name; `say`: lines for a person
-//   out    a Plan for each car; the web server's part of them all
-//   errors Problem with the option as place; two cars that have the same keys: what one of them
-//          says would be taken for the other; or the same stamp file
-//          a stamp file that cannot be read is told: the car is served without it
+// Plan of one car's session, checked from the command line before the session begins.
+//   in     command lines; the files that they name; `say`: writes a line for the log
+//   out    a Plan for each car; the configuration of their common web server
+//   errors Problem with the option as place; also for two cars with the same keys, whose packets
+//          could not be told apart, or with the same stamp file
+//          a stamp file that cannot be read is only logged: the car is served without it
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -31,8 +31,8 @@ struct Plan {
   std::vector<transport::UdpAddress> listen{};
   inputs::CommandScript script{};
   telemetry::LinkEndpointConfig config{};
-  std::string stamp_file{};            // empty: none
-  publishers::web::HttpConfig http{};  // documents: those of this car
+  std::string stamp_file{};            // empty: no file
+  publishers::web::HttpConfig http{};  // documents: of this car
   service::ServiceConfig service{};
   publishers::console::ConsoleConfig console{};
   inputs::JoystickMapping joystick{};
@@ -41,16 +41,16 @@ struct Plan {
 Result<Plan, Problem> plan_of(const settings::Arguments& arguments, const Say& say);
 Result<std::vector<Plan>, Problem> plans_of(std::span<const settings::Arguments> cars,
                                             const Say& say);
-// Of a replay: no radio, no keys.
+// Plan of a replay: no radio, no keys.
 Result<Plan, Problem> plan_of_replay(const settings::Arguments& arguments, const Say& say);
 
-// Of a file of tokens; without one nothing changes.
+// Reads the file of tokens; an empty name changes nothing.
 Result<bool, Problem> use_tokens(const std::string& file, publishers::web::AccessRules& access);
-// Of --web-certificate and --web-key; without them none.
+// TLS from --web-certificate and --web-key; nullptr without them.
 Result<std::shared_ptr<ssl_ctx_st>, Problem> tls_of(const settings::Arguments& arguments,
                                                     const Say& say);
 
-// One server for all of them; each has its documents under its number.
+// Configuration of one web server for all cars; each has its documents under its number.
 publishers::web::HttpConfig served(std::span<Plan> plans);
 
 }  // namespace pitwall::session

@@ -1,10 +1,10 @@
-// List of the cars that this base serves: the document /api/cars, from which a console learns what
-// to ask for.
+// List of the cars that this base serves: the document /api/cars, from which a console gets the
+// numbers of the cars.
 //   in     number, name, mode and link of each car
 //   out    {"cars": [{"number", "name", "mode", "link"}]}, in the order of their tabs; link is null
-//          where there is none to speak of
+//          if it is empty
 //   invariants
-//          told anew when one of them changes
+//          published again when one of them changes
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -27,7 +27,7 @@ struct CarStatus {
 
 std::string roster_text(const std::vector<CarStatus>& cars);
 
-// Looks twice a second.
+// Checks for changes twice a second.
 class Roster : public service::LoopTask {
  public:
   using Look = std::function<std::vector<CarStatus>()>;

@@ -1,9 +1,9 @@
-// Publishers that other tools attach to: LCM, Foxglove, Prometheus; for each car its own.
-//   in     a stand that has begun; the board of /metrics, where there is a web server
-//   out    publishers of the stand; lines for a person, by `say`
+// Publishers for other tools: LCM, Foxglove, ROS 2, Prometheus; each car has its own.
+//   in     a session that has begun; the board of /metrics, if there is a web server
+//   out    publishers of the session; lines for the log, by `say`
 //   invariants
-//          of several cars each has its own space, /carN, and the next port. Nothing that a tool
-//          says reaches a car: no publisher here has a way to the uplink
+//          with several cars, each has its own namespace, /carN, and the next port. No message of a
+//          tool reaches a car: no publisher here has access to the uplink
 //   errors Problem with the option as place
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
@@ -20,23 +20,23 @@
 namespace pitwall::session {
 
 struct ToolPlace {
-  std::size_t car = 0, cars = 1;  // which of how many
+  std::size_t car = 0, cars = 1;  // place of this car, number of cars
   publishers::metrics::Board* board = nullptr;
-  const publishers::web::WebServer* server = nullptr;  // of consoles
+  const publishers::web::WebServer* server = nullptr;  // of the consoles
 };
 
 inline constexpr const char* kMetricsPath = "/metrics";
 
 Result<bool, Problem> attach_tools(CarSession& session, const ToolPlace& place, const Say& say);
 
-// Of a replay; none where it is not asked for.
+// For a replay; nullptr if the arguments do not request it.
 Result<std::unique_ptr<publishers::foxglove::FoxgloveReplay>, Problem> foxglove_of_replay(
     const settings::Arguments& arguments, const replay::Player& player, const Say& say);
 
-// What ROS 2 tools see of a car: its space, its track.
+// Configuration of the ROS 2 view of a car: its namespace, its track.
 Result<publishers::ros_view::ViewConfig, Problem> view_of(const settings::Arguments& arguments,
                                                           std::size_t cars);
-// What the base finds, for whoever publishes it to tools; the service outlives it.
+// Function that reads values and alarms of the base for publishers; the service outlives it.
 std::function<void(publishers::ros_view::BaseStatus&, Instant)> look_of(
     const service::CarService& car);
 

@@ -1,6 +1,6 @@
-// The command line of pitwall-base.
-//   in     its words
-//   out    what is asked for; what needs no file and no socket to be found wrong is found here
+// Command line of pitwall-base.
+//   in     its arguments
+//   out    the options; all that can be checked without files and sockets is checked here
 //   errors an exit code and a line for the terminal
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
@@ -31,8 +31,8 @@ struct Arguments {
   std::string ros_distribution = "jazzy", ros_interface = "127.0.0.1";
   std::vector<std::string> ros_peers;
   std::string clock = "wall";
-  std::string key_log;     // of a base on the bench
-  std::string stamp_file;  // empty: beside the keys
+  std::string key_log;     // only for a base on the bench
+  std::string stamp_file;  // empty: beside the keys; kNoStampFile: no file
   std::string console_folder, track, tokens_file, default_role, layouts_folder, judgement_file;
   std::string bench;  // socket of a bench server
   std::vector<std::string> web_names;
@@ -47,10 +47,10 @@ struct Arguments {
 inline constexpr const char* kNoStampFile = "none";
 inline constexpr double kMinBudget_kbit = 64.0, kMaxBudget_kbit = 100'000.0;
 
-// "json, msg, ...": of `export`.
+// "json, msg, ...": the kinds of `export`.
 std::string export_kinds();
 
-// To end with this exit code; what is to be said, if anything.
+// Request to exit with this code, after printing the message, if any.
 struct Leave {
   int code = 0;
   std::string message;

@@ -1,17 +1,17 @@
-// The cars that one base serves: one, as the command line describes it, or those of a file.
+// Cars that one base serves: one from the command line, or those of a file.
 //   in     YAML, a mapping for each car
 //   out    the command line of each car: that of the whole base with the options of
 //          this car added
 //   invariants
-//          cars have nothing in common: number, keys, radio, recording and every other file or
-//          device is of one car only
+//          cars share nothing: number, keys, radio, recording and every other file or device
+//          belong to one car only
 //   errors Problem with file, line and column: no car or more than kCarsMax, unknown keys, numbers
-//          out of range, what two cars would share
+//          out of range, a resource that two cars would share
 //
 //   cars:
 //     - number: 7                     0..255, shown everywhere
-//       name: Blue                    what people call it (optional, as all that follows keys)
-//       keys: keys/7/base.keys        files are beside this one, unless they start with /
+//       name: Blue                    shown name (optional, like all that follows keys)
+//       keys: keys/7/base.keys        files are relative to this one, unless they start with /
 //       stamp_file: state/7.stamp     as --stamp-file, or none
 //       listen: [0.0.0.0:23431]       one or two radios
 //       track: lvms                   name, or file with a / in it
@@ -40,9 +40,9 @@ namespace pitwall::settings {
 
 inline constexpr std::size_t kCarsMax = 4;
 
-// In the order in which they are shown. Without --cars: the command line itself.
+// In the order in which consoles show them. Without --cars: the command line itself.
 Result<std::vector<Arguments>, Problem> cars_of(const Arguments& arguments);
-// `folder`: where its files are.
+// `folder`: base of relative file names.
 Result<std::vector<Arguments>, Problem> read_cars_text(std::string_view text,
                                                        const std::string& name,
                                                        const std::string& folder,

@@ -1,9 +1,10 @@
-// The file of limits and alarms that people changed: read at the start, written after each change.
-//   in     YAML: version, fuel and tyre gate where they differ, a list of alarms, a list of limits,
+// File of the limits and alarms that operators have changed: read at the start, written after each
+// change.
+//   in     YAML: version, changed values of fuel and tyre gate, a list of alarms, a list of limits,
 //          each with its author and reason
 //   out    settings in force; the same as text
 //   errors Problem with file, line and column: unknown keys, alarms or fields, numbers out of
-//          range, a missing author. A file with one mistake changes nothing
+//          range, a missing author. A file with one error changes nothing
 //
 //   version: 1
 //   alarms:
@@ -13,7 +14,7 @@
 //     - {field: tyres.pressure_rear_left, warning_low: 150, author: A. Saba, reason: new tyres}
 //   fuel: {attempt_laps: 2, home_laps: 1, reserve_l: 2, guess_l_per_lap: 2.2}
 //   revision: 12                      counts the changes
-//   radio: {up_kbit_s: 128}           as the operators have lowered it
+//   radio: {up_kbit_s: 128}           as lowered by operators
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -27,7 +28,7 @@
 
 namespace pitwall::settings {
 
-// The course is not in it.
+// Settings of the file; it has no course.
 struct Judgement : alarms::EvaluatorConfig {
   std::uint64_t revision = 0;
   double up_kbit_s = kUnset;

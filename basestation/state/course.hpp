@@ -1,8 +1,10 @@
-// The track as the base needs it: where a station is, where the corners are.
+// Track as the base needs it: positions along the line, corners, pit lane.
 //   in     points along the reference line, stations rising from 0; the line is closed
-//   out    pose at a station; corner windows; the place of the next one; who is in the pit lane
-//   frames Map, as the car tells its position; offset left positive
-//   errors make(): Problem for fewer than 4 points, stations that do not rise, no numbers
+//   out    pose at a station; corner windows; distance to the next one; whether a car is in the pit
+//          lane
+//   frames Map, as the car's position; offset left positive
+//   errors make(): Problem for fewer than 4 points, stations that do not rise, values that are not
+//          numbers
 //   invariants
 //          a corner window is a stretch whose curvature is at least kCornerCurvature; gaps shorter
 //          than kCornerGap_m belong to it
@@ -23,19 +25,19 @@ struct CoursePoint {
 struct CoursePose {
   double x_m = kUnset, y_m = kUnset, yaw_rad = kUnset;
 };
-// From, to: going forward; to < from where it lies across the start line.
+// From, to: in driving direction; to < from if the window crosses the start line.
 struct CornerWindow {
   double from_s_m = kUnset, to_s_m = kUnset;
 };
 
-// Beside the line, offset left positive; from, to as of a corner.
+// Pit lane beside the line, offset left positive; from, to as for a corner.
 struct PitLane {
   double from_s_m = kUnset, to_s_m = kUnset, offset_m = kUnset;
 };
 
 class Course {
  public:
-  static constexpr double kCornerCurvature = 1.0 / 500.0;  // an oval's turns: 150 .. 300 m
+  static constexpr double kCornerCurvature = 1.0 / 500.0;  // oval turns have radii of 150 .. 300 m
   static constexpr double kCornerGap_m = 50.0;
 
   static Result<Course, Problem> make(std::vector<CoursePoint> points, double length_m);
@@ -43,10 +45,10 @@ class Course {
   double length_m() const { return length_m_; }
   const std::vector<CornerWindow>& corners() const { return corners_; }
   void set_pit(const PitLane& pit) { pit_ = pit; }
-  // Between entry and exit, and nearer to the lane than to the line.
+  // True between entry and exit, if nearer to the lane than to the line.
   bool in_pit(double s_m, double offset_m) const;
   CoursePose at(double s_m, double offset_m) const;  // s is wrapped
-  // Going forward from s: 0 inside a corner; infinity where there is none.
+  // Distance in driving direction: 0 inside a corner; infinity without corners.
   double to_corner_m(double s_m) const;
 
  private:

@@ -1,4 +1,4 @@
-// Commands and events as people read them: one line each.
+// Commands and events as text for people: one line each.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

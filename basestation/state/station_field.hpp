@@ -1,9 +1,9 @@
-// The fields that the base makes itself: its link, what it derives from the car's fields, its own
-// health. They are seen like the car's: a value, an age, a quality, a judgement.
+// Fields that the base itself computes: its link, values derived from the car's fields, its own
+// health. Consoles show them like the car's: a value, an age, a quality, a judgement.
 //   ids    a field of the radio's registry has its place there as id; the base's own follow from
 //          kFirstBaseField on in the order of BaseField
-//   units  as each row has them; angles in radians
-//   errors a path that is in neither table does not compile; find_field() has none for it
+//   units  as in each row; angles in radians
+//   errors a path that is in neither table does not compile; find_field() returns nullopt for it
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -104,14 +104,14 @@ struct BaseRow {
   double min, max, resolution;
   std::string_view labels = {};
 };
-inline constexpr Duration kBasePeriod = milliseconds(100);  // they are made anew more often
+inline constexpr Duration kBasePeriod = milliseconds(100);  // longest time between two computations
 
 inline constexpr std::string_view kLinkStates = "none|good|degraded|lost";
 inline constexpr std::string_view kRecordingStates = "off|on|disk takes nothing";
 inline constexpr std::string_view kFuelStates = "unknown|enough|no attempt left|home now";
 
 inline constexpr std::string_view kAttemptStates = "none|running|laps used up|PASSED|ended";
-// Which end of the radio sees an attack or a key error.
+// Which end of the radio detects an attack or a key error.
 inline constexpr std::string_view kSeenBy = "no|by the base|by the car|by both";
 
 inline constexpr auto kBaseTable = [] {
@@ -133,17 +133,17 @@ inline constexpr auto kBaseTable = [] {
       {kLoss30s, "link", "loss_30s", "", 0, 1, 0.001},
       {kPacketRate, "link", "rate_hz", "Hz", 0, 1'000, 0.1},
       {kStaleGroups, "link", "stale_groups", "", 0, 64, 1},
-      {kStop, "derived", "stop", "", 0, 2, 1, telemetry::kStopLevels},  // latched or under way
+      {kStop, "derived", "stop", "", 0, 2, 1, telemetry::kStopLevels},  // latched or in progress
       {kWatchdogsLate, "derived", "watchdogs_late", "", 0, 64, 1},
       {kWatchdogsLost, "derived", "watchdogs_lost", "", 0, 64, 1},
-      {kGnssGood, "derived", "gnss_good", "", 0, 2, 1},  // receivers that can be driven by
-      {kCorrectionAge, "derived", "correction_age", "s", 0, 1'000, 0.5},  // the fresher unit's
+      {kGnssGood, "derived", "gnss_good", "", 0, 2, 1},  // receivers good enough for driving
+      {kCorrectionAge, "derived", "correction_age", "s", 0, 1'000, 0.5},  // of the fresher unit
       {kCorrectionConflict, "derived", "correction_conflict", "", 0, 1, 1, kNoYes},
       {kSlipRearFront, "derived", "slip_rear_front", "", -2, 2, 0.001},  // share of the speed
       {kSlipRearGnss, "derived", "slip_rear_gnss", "", -2, 2, 0.001},
-      {kSlip, "derived", "slip", "", -2, 2, 0.001},  // the larger; 0 below the speed of the rule
+      {kSlip, "derived", "slip", "", -2, 2, 0.001},  // the larger one; 0 below kSlipSpeed_mps
       {kTyreMin, "derived", "tyre_min", "degC", -40, 214, 1},
-      {kTyreGate, "derived", "tyre_gate", "degC", -40, 214, 1},  // needed for the speed asked
+      {kTyreGate, "derived", "tyre_gate", "degC", -40, 214, 1},  // needed for the requested speed
       {kTyreMargin, "derived", "tyre_margin", "degC", -260, 260, 1},
       {kTyrePressureMin, "derived", "tyre_pressure_min", "kPa", 0, 408, 0.8},
       {kCrossTrack, "derived", "cross_track", "m", 0, 10, 0.02},
@@ -155,14 +155,14 @@ inline constexpr auto kBaseTable = [] {
       {kRaceControlSpeed, "derived", "race_control_speed", "m/s", 0, 102, 0.1},
       {kFuelPerLap, "derived", "fuel_per_lap", "l", 0, 102, 0.01},
       {kFuelLaps, "derived", "fuel_laps", "", 0, 1'000, 0.1},
-      {kFuelAttempts, "derived", "fuel_attempts", "", 0, 500, 1},  // and home after them
+      {kFuelAttempts, "derived", "fuel_attempts", "", 0, 500, 1},  // with the lap into the pits
       {kFuelState, "derived", "fuel_state", "", 0, 3, 1, kFuelStates},
       {kCornerIn, "derived", "corner_in_s", "s", 0, 1'000, 0.1},  // 0: in one
       {kGhostX, "derived", "ghost_x", "m", -kMetres, kMetres, 0.1},
       {kGhostY, "derived", "ghost_y", "m", -kMetres, kMetres, 0.1},
       {kGhostYaw, "derived", "ghost_yaw", "rad", -3.1416, 3.1416, 0.001},
       {kGhostRadius, "derived", "ghost_radius", "m", 0, kMetres, 0.1},
-      {kFuelLevel, "derived", "fuel_level", "l", 0, 200, 0.1},  // measured, else reckoned
+      {kFuelLevel, "derived", "fuel_level", "l", 0, 200, 0.1},  // measured, otherwise estimated
       {kFuelEstimated, "derived", "fuel_estimated", "", 0, 1, 1, kNoYes},
       {kRoundSpeedExpected, "derived", "round_speed_expected", "m/s", 0, 102, 0.1},  // announced
       {kInPit, "derived", "in_pit", "", 0, 1, 1, kNoYes},
@@ -175,8 +175,9 @@ inline constexpr auto kBaseTable = [] {
       {kAuthorityLost, "base", "authority_lost", "", 0, 1, 1, kNoYes},
       {kSchemaDiffers, "base", "schema_differs", "", 0, 1, 1, kNoYes},
       {kSettingsUnreadable, "base", "settings_unreadable", "", 0, 1, 1, kNoYes},
-      {kFlagRelayed, "derived", "flag_relayed", "", 0, 7, 1, telemetry::kTrackFlags},  // by us
-      {kRole, "derived", "role", "", 0, 2, 1, telemetry::kRoles},  // as race control shows it
+      // Track flag that the base relays.
+      {kFlagRelayed, "derived", "flag_relayed", "", 0, 7, 1, telemetry::kTrackFlags},
+      {kRole, "derived", "role", "", 0, 2, 1, telemetry::kRoles},  // from race control
       {kRoleConflict, "derived", "role_conflict", "", 0, 1, 1, kNoYes},
       {kAttempt, "derived", "attempt", "", 0, 1'000, 1},  // number; of the passing competition
       {kAttemptState, "derived", "attempt_state", "", 0, 4, 1, kAttemptStates},
@@ -184,7 +185,7 @@ inline constexpr auto kBaseTable = [] {
       {kAttemptLapsLeft, "derived", "attempt_laps_left", "", 0, 100, 0.01},
       {kGapAhead, "derived", "gap_ahead", "m", 0, 13'000, 0.1},  // bumper to bumper
       {kGapBehind, "derived", "gap_behind", "m", 0, 13'000, 0.1},
-      {kGapClosing, "derived", "gap_closing", "m/s", -102, 102, 0.1},  // to the nearer of both
+      {kGapClosing, "derived", "gap_closing", "m/s", -102, 102, 0.1},  // to the nearer car
       // In the order of telemetry::Threat.
       {kWrongKey, "link", "wrong_key", "", 0, 3, 1, kSeenBy},
       {kModeMismatch, "link", "mode_mismatch", "", 0, 3, 1, kSeenBy},
@@ -229,10 +230,10 @@ constexpr std::optional<FieldId> find_field(std::string_view path) {
   return std::nullopt;
 }
 consteval FieldId field_id(std::string_view path) {
-  return find_field(path).value();  // throws, so does not compile, where there is none
+  return find_field(path).value();  // throws for an unknown path, which then does not compile
 }
 
-// What the path of a known id is; empty for another.
+// Path of an id; empty for an unknown one.
 inline std::string path_of(FieldId id) {
   if (!is_field(id)) return {};
   const std::string_view group = is_base(id) ? row_of(base_field(id)).group

@@ -11,7 +11,7 @@
 namespace pitwall::state {
 
 std::string value_text(const telemetry::FieldRow& row, double value);
-// Names of the first bits that are set, and how many more there are: a line of the screen holds it.
+// Names of the first set bits, and the number of further ones, short enough for a screen line.
 std::string bits_text(std::string_view labels, std::uint32_t bits);
 std::string path_of(const telemetry::FieldRow& row);  // "ego.x"
 

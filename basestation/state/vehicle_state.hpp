@@ -1,9 +1,9 @@
-// The latest value of every field and how old it is: what all publishers show.
-//   in     the state as the radio has it, and which groups of it are new
+// Latest value and age of every field: what all publishers show.
+//   in     the state as received by radio, and which of its groups are new
 //   out    value, age and quality of each field at any later time
-//   age    since the sample was taken in the car, the way to the base included: never younger than
-//          the truth while the clocks of car and base are compared
-//   unset  a field that the car no longer knows keeps its last value, grows old, and is marked so
+//   age    since the sample was taken in the car, transmission included: never below the true age
+//          while the clocks of car and base are being compared
+//   unset  a field that the car no longer knows keeps its last value, ages, and is marked so
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -19,8 +19,8 @@ namespace pitwall::state {
 
 enum class Quality : std::uint8_t {
   kFresh,  // up to one and a half times the field's target age
-  kLate,   // up to five times of it, but no longer than 2 s; of the slowest fields twice of it
-  kStale,  // it says nothing of now
+  kLate,   // up to five times that age, but at most 2 s, or twice that age for the slowest fields
+  kStale,  // too old to describe the present
   kNever
 };
 inline constexpr Duration kStaleAfter = seconds(2);
@@ -35,10 +35,10 @@ struct FieldView {
   double value = kUnset;
   Duration age{};
   Quality quality = Quality::kNever;
-  bool unset = false;  // the car says that it does not know: the value is the last known one
+  bool unset = false;  // the car reports it as unknown: the value is the last known one
 };
 
-// Old enough to be shown with its age, too young to be struck out.
+// Valid for use: fresh, or late and shown with its age.
 constexpr bool usable(const FieldView& view) {
   return view.quality == Quality::kFresh || view.quality == Quality::kLate;
 }
@@ -48,7 +48,7 @@ class VehicleState {
   void update(const telemetry::Snapshot& state, telemetry::GroupSet groups);
 
   FieldView view(telemetry::FieldIndex field, Instant now) const;
-  // Of the group's newest sample; kNever: it was never sampled.
+  // Age of the group's newest sample; kNever if it was never sampled.
   FieldView group(telemetry::Group group, Instant now) const;
   bool ever() const { return ever_; }
 

@@ -1,9 +1,9 @@
-// End of a run by a contact with a wall.
-//   in     the scenario, which may name a contact that it cannot avoid; a run's verdicts, one for
-//          each expectation of the scenario, and where the car went
-//   out    a verdict `contact` where there was one, or where the scenario names one: it fails
-//          unless the contact is named and not harder than the scenario says. What the run had not
-//          shown by then is no verdict but a remark
+// Verdict on a contact of the car with a wall, which ends a run.
+//   in     the scenario, which may name a contact that cannot be avoided; the run's verdicts, one
+//          for each expectation of the scenario, and its outcome
+//   out    a verdict `contact` if there was one, or if the scenario names one: it fails unless the
+//          contact is named and not harder than the scenario allows. Expectations that the run
+//          could not show before the contact become remarks instead of verdicts
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

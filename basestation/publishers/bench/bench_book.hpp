@@ -1,13 +1,13 @@
 // Newest state of a bench server for consoles: scenarios and current run, line by line. The
 // protocol: hil/cli/bench_server/PROTOCOL.md.
-//   in     lines of the server; that it came or went
+//   in     lines of the server; the start of a connection to it
 //   out    texts for consoles: states that replace each other, and a log of events
 //   invariants
-//          a line is taken whole or not at all. The server tells all it knows to who connects anew:
-//          an event that is known already is not told again
-//          without the server nobody knows how a run goes on: its newest lines stay, marked by the
-//          link that is down
-//   bound  kMaxScenarios and kListMax_bytes of them; kEventsMax of a run
+//          a line is taken whole or not at all. The server sends all its state to every new
+//          connection: events that are known already are not published again
+//          without the server the newest lines of a run stay, marked by the broken link, because
+//          its further course is not known
+//   bound  kMaxScenarios scenarios of kListMax_bytes in all; kEventsMax events of a run
 //   errors Problem with the member as place; counted
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
@@ -23,10 +23,10 @@
 
 namespace pitwall::publishers::bench {
 
-// One text for all consoles; its type is a member of it, too.
+// One text for all consoles; its type is also a member of the text.
 struct Reported {
   std::string type, text;
-  bool line = false;  // of a log; else a state
+  bool line = false;  // true: a line of a log; false: a state
 };
 
 struct BenchCounters {
@@ -40,13 +40,13 @@ class BenchBook {
 
   void connected();
   Result<bool, Problem> take(std::string_view line);
-  // What is new since it was asked last.
+  // Returns and removes the texts that are new since the last call.
   std::vector<Reported> news();
-  // What the server refused; once.
+  // Returns and removes the server's newest refusal.
   std::optional<Problem> refusal() { return std::exchange(refusal_, std::nullopt); }
 
   std::size_t scenarios() const { return scenarios_; }
-  bool complete() const { return complete_; }  // every scenario has been told
+  bool complete() const { return complete_; }  // all scenarios have been received
   const BenchCounters& counters() const { return counters_; }
 
  private:
@@ -57,12 +57,12 @@ class BenchBook {
   Result<bool, Problem> keep_event(const json::JsonValue& value, std::string_view line);
   void publish(const std::string& type, std::string_view of, bool line = false);
 
-  std::string server_;  // which one it is
-  double run_ = 0.0;    // its newest run
-  std::string list_;    // of scenarios, as JSON
+  std::string server_;  // its identity, from hello
+  double run_ = 0.0;    // number of its newest run
+  std::string list_;    // scenarios, as JSON
   std::size_t scenarios_ = 0, announced_ = 0;
   bool complete_ = false;
-  std::size_t events_ = 0, events_again_ = 0;  // of this run: known, told again
+  std::size_t events_ = 0, events_again_ = 0;  // of this run: known, repeated by the server
   std::vector<Reported> news_;
   std::optional<Problem> refusal_;
   BenchCounters counters_;

@@ -1,14 +1,14 @@
-// Client of a bench server: reconnects, forwards its messages to consoles and their starts and
-// stops to it.
+// Client of a bench server: reconnects, forwards the server's messages to consoles and the starts
+// and stops of consoles to the server.
 //   in     the path of the server's socket; requests of operators
 //   out    texts for consoles, published through BenchObserver; lines to the server
 //   invariants
-//          nothing is started while the connected car says that it is real. A stop is carried in
-//          any case: it only ends a simulation
-//          while there is no server a connection is tried each kRetry, and consoles show that
-//          there is none. Messages of the server within kTellEvery are forwarded together: a
-//          lockstep run is a hundred times faster than real time and must not flood consoles
-//   errors a malformed line is counted and shown, and the next one is read
+//          no run is started while the connected car reports that it is a real one. A stop is
+//          always forwarded: it only ends a simulation
+//          without a server a connection is tried each kRetry, and consoles show that there is
+//          none. Messages of the server within kTellEvery are forwarded together: a lockstep run
+//          is a hundred times faster than real time and must not flood consoles
+//   errors a malformed line is counted and shown; reading goes on with the next line
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -26,18 +26,18 @@
 namespace pitwall::publishers::bench {
 
 struct BenchRequest {
-  bool start = false;  // else stop
+  bool start = false;  // false: stop
   std::string scenario;
   std::optional<std::uint64_t> seed;
   bool live = false;
 };
 
-// One line of words for the audit log.
+// One line for the audit log.
 std::string text_of(const BenchRequest& run_request);
 
 struct BenchObserver {
   std::function<void(const Reported&, Instant)> publish;
-  // What the server answered to whoever asked last.
+  // Receives the server's refusal for the console that made the last request.
   std::function<void(std::uint8_t client, const Problem&, Instant)> refused;
 };
 
@@ -52,7 +52,7 @@ class BenchLink : public service::Publisher {
   void publish(const service::CarService& car, Instant now) override;
   Instant due() const override { return looked_ + kLook; }
 
-  // `client`: the console that asks, `by`: its operator.
+  // `client`: the console that sends the request; `by`: its operator.
   Result<bool, Problem> ask(const BenchRequest& run_request, std::uint8_t client,
                             const std::string& by);
   bool up() const { return socket_ && !socket_->closed(); }

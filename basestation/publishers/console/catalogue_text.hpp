@@ -1,4 +1,4 @@
-// Catalogue of fields and commands for the console: see PROTOCOL.md.
+// Catalogue of fields and commands for the console, as PROTOCOL.md describes it.
 //   in     the registry, the base's own fields, the limits in force, the laps of an attempt
 //   out    one JSON object, type "catalogue"
 // SPDX-License-Identifier: Apache-2.0

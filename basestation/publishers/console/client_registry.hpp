@@ -1,11 +1,11 @@
 // Registry of console clients, without sockets: clients, messages out, requests in.
-//   in     who joined, left and said what; snapshots and messages of the base; time
-//   out    messages with whom they are for; requests that somebody else executes
-//   invariants  who joins is told first who it is, then the catalogue, the newest of every state,
-//          the last lines of logs, and a full frame
-//          a text that is no request, or takes another role, is answered by an error; nothing else
-//          happens
-//   errors of what consoles say: told to them and counted
+//   in     clients that join and leave, and their texts; snapshots and messages of the base; time
+//   out    messages with their receivers; requests that the caller executes
+//   invariants  a new client gets first its identity, then the catalogue, the newest message of
+//          each state type, the last lines of each log, and a full frame
+//          a text that is not a request, or that needs another role, is answered by an error and
+//          has no other effect
+//   errors errors in texts of clients are sent back to them and counted
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -49,7 +49,7 @@ class ClientRegistry {
 
   void joined(ClientId client, const Identity& who, Instant now);
   void left(ClientId client);
-  // A request for somebody else to carry out; what the room does itself gives none.
+  // Returns a request that the caller must execute; nullopt if the registry has handled it.
   std::optional<Request> receive_text(ClientId client, std::string_view text,
                                       const StateSource& eyes, Instant now);
   void receive_binary(ClientId client);
@@ -57,7 +57,7 @@ class ClientRegistry {
   void tell_error(ClientId client, const Problem& problem);
   void tell_all(std::string text);
   void tell_catalogue(std::string catalogue);
-  // A replay has jumped: the next frame is a full one.
+  // Makes the next frame a full one, after a jump of a replay.
   void want_full() { snapshots_.want_full(); }
   void identify(const service::CarIdentity& identity, Instant now);
 
@@ -81,8 +81,8 @@ class ClientRegistry {
   };
 
   void send(const ClientSet& to, std::string text);
-  // Those who came since, together, so that a crowd shares the messages; before anything else is
-  // sent.
+  // Greets all clients that have joined since the last call together, so that they share messages;
+  // called before anything else is sent.
   void welcome();
   std::string hello(ClientId client, Instant now) const;
   void tell_history(ClientId client, const AskHistory& ask, const StateSource& eyes, Instant now);
@@ -93,7 +93,7 @@ class ClientRegistry {
   UtcTime utc_{};
   Instant utc_at_{};
   ClientSet present_;
-  std::vector<Newcomer> newcomers_;  // not yet welcome
+  std::vector<Newcomer> newcomers_;  // not greeted yet
   std::array<Identity, 256> who_{};
   Snapshots snapshots_;
   std::vector<Sending> out_;

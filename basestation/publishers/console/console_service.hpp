@@ -1,8 +1,9 @@
-// Console service of one car: messages to and requests from browsers, between the car's service and
-// the web server.
-//   in     messages and snapshots of the service; texts of consoles, by the server
+// Console service of one car: messages to browsers and requests from them, between the service of
+// the car and the web server.
+//   in     messages and snapshots of the service; texts of consoles, from the server
 //   out    messages to the server; requests to the service
-//   invariants  ages, qualities, judgements, alarms and gates are the service's: consoles show them
+//   invariants  the service computes ages, qualities, judgements, alarms and gates; consoles only
+//          show them
 //   cost   publish(): some tens of microseconds, a frame with all fields about 50
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
@@ -21,9 +22,9 @@
 namespace pitwall::publishers::console {
 
 struct ConsoleConfig {
-  std::size_t place = 0;  // among the cars of the server
+  std::size_t place = 0;  // of this car among the cars of the server
   std::shared_ptr<web::TokenBook> tokens =
-      std::make_shared<web::TokenBook>();  // of the second person of an override
+      std::make_shared<web::TokenBook>();  // identify the second person of an override
 };
 
 class ConsoleService : public service::Publisher, private StateSource {
@@ -39,7 +40,7 @@ class ConsoleService : public service::Publisher, private StateSource {
   Instant due() const override { return clients_.due(); }
   int fd() const override { return server_.fd(config_.place); }
 
-  // Whose scenarios and runs consoles see, and start; it lives as long as the consoles.
+  // Lets consoles show and start scenarios of this bench link, which must outlive the service.
   void attach(bench::BenchLink& bench);
 
   const ClientRegistry& clients() const { return clients_; }
@@ -60,7 +61,7 @@ class ConsoleService : public service::Publisher, private StateSource {
   ClientRegistry clients_;
   PauseReport pauses_;
   bench::BenchLink* bench_ = nullptr;
-  std::uint64_t catalogue_of_ = 0;  // the revision of the settings that it shows
+  std::uint64_t catalogue_of_ = 0;  // the revision of the settings in the catalogue
   state::LinkState link_shown_ = state::LinkState::kNone;
 };
 

@@ -1,14 +1,14 @@
-// Message about bench time: whether it stands, and for how long it has stood in all.
+// Message about pauses of bench time: whether bench time is paused, and the total of all pauses.
 //
-//   stands   0 .. 150 ms          nothing
+//   paused   0 .. 150 ms          no message
 //            from then on         every 100 ms of the wall clock
-//            is over              at once
-//   goes on                       the total, once a second where it has changed
+//            end of the pause     at once
+//   running                       the total, once a second if it has changed
 //
-//   in     how bench time stands, at each wake-up of the loop; bench time
-//   out    the text `bench_time`, where there is news; none by the wall clock
+//   in     the pause of bench time, at each wake-up of the loop; bench time
+//   out    the text `bench_time` if it is due; none in a base that runs by the wall clock
 //   invariants
-//          a base that is stopped tells nothing: to its consoles it does not answer
+//          a stopped base process sends nothing; to its consoles it is unreachable
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -30,7 +30,7 @@ class PauseReport {
  private:
   bool is_news(const transport::BenchPause& pause, Instant now) const;
 
-  std::optional<transport::BenchPause> reported_;  // none: nothing yet
+  std::optional<transport::BenchPause> reported_;  // nullopt: nothing yet
   Instant reported_at_{};
 };
 

@@ -1,14 +1,15 @@
 // List of the recordings in a folder.
 //   in     a folder that holds recordings, or is one
-//   out    for each, newest first: whose it is, when its segments begin, how large it is; the
-//          document /api/recordings of PROTOCOL.md
+//   out    for each, newest first: its car, when its segments begin, its size; the document
+//          /api/recordings of PROTOCOL.md
 //   invariants
-//          nothing is written, and no segment is read but the head of the first: a glance, whatever
-//          their size. Links are not followed
+//          nothing is written, and of the segments only the head of the first one is read, so that
+//          the cost does not depend on their size. Links are not followed
 //   bound  kRecordingsMax, of kSegmentsMax segments each; older recordings are counted
-//   errors a folder that cannot be read, or whose first segment is none of a base, says so in its
-//          line; the others are listed
-//   cost   some microseconds a segment: RecordingList looks on a thread of its own, again and again
+//   errors a recording whose folder cannot be read, or whose first segment is not one of a base,
+//          has the problem in its line; the others are listed
+//   cost   some microseconds a segment; RecordingList reads the folder on its own thread, each
+//          kEvery
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -32,11 +33,11 @@ inline constexpr std::size_t kRecordingsMax = 200, kSegmentsMax = 5'000;
 
 struct Recording {
   std::string name{}, folder{};
-  std::string car{}, car_name{};  // as the first segment has them
+  std::string car{}, car_name{};  // as in the first segment
   std::size_t segments = 0;
   std::uint64_t bytes = 0;
   std::optional<UtcTime> first{}, last{};  // when the first and the last segment begin
-  bool running = false;                    // somebody writes it
+  bool running = false;                    // a recorder is writing it
   std::string problem{};                   // why it cannot be played
 };
 
@@ -48,12 +49,12 @@ struct Recordings {
 };
 
 Recordings recordings_of(const std::string& folder);
-// `track`: of the base, for the command that plays one; may be empty.
+// `track`: the track file for the replay command; may be empty.
 std::string recordings_text(const Recordings& recordings, std::string_view track);
 
-// When the segment of this name begins: NAME_20261122T003000.250Z_00012.mcap.
+// Begin time in the name of a segment: NAME_20261122T003000.250Z_00012.mcap.
 std::optional<UtcTime> begin_of_segment(std::string_view name);
-// What plays it, typed in a shell.
+// Shell command that replays the recording.
 std::string replay_command(std::string_view folder, std::string_view track);
 
 class RecordingList {

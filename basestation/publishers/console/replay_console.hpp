@@ -1,9 +1,10 @@
-// The pit wall of a recording: consoles see it as they saw the race. There is no station and no
-// endpoint in it: nothing that a console says can leave it.
-//   in     a Player; what consoles say; how much time has passed
-//   out    messages to the server; the recorded texts as they were; the same to tools that attach
+// Console service of a replay: consoles show the recording as they showed the race. It has no radio
+// link, so that nothing from a console can reach a car.
+//   in     a Player; texts of consoles; the time that has passed
+//   out    messages to the server; the recorded texts as they were; the same to attached tools
 //   invariants
-//          every console sees the same moment; whoever may look may play, pause and jump
+//          every console shows the same moment; every client, also a viewer, may play, pause and
+//          jump
 //          ages, judgements and derived values are computed as of the recording's time
 //   errors commands, stops, authority and alarms are refused with a reason
 // SPDX-License-Identifier: Apache-2.0
@@ -27,7 +28,7 @@ class ReplayConsole : private StateSource, private replay::Listener {
   ReplayConsole(service::ServiceConfig config, replay::Player player, web::WebServer& server);
 
   void serve(Duration passed);
-  // Who is told what the consoles are told; who winds for a tool.
+  // Adds a listener for all that the consoles get. wind(): playback control by a tool.
   void tell_also(replay::Listener& listener) { others_.push_back(&listener); }
   void wind(double speed, std::optional<Instant> to);
   const replay::Player& player() const { return player_; }
@@ -59,15 +60,15 @@ class ReplayConsole : private StateSource, private replay::Listener {
   std::optional<alarms::Evaluator> evaluator_;
   service::MessageLog messages_;
   ClientRegistry clients_;
-  bool unsettled_ = true;  // since the jump nothing was judged
+  bool unsettled_ = true;  // no state has been received since the jump
   std::optional<Instant> received_;
   std::uint64_t jumps_ = 0;
-  Duration unreported_ = kTellEvery;  // since the playback was told
+  Duration unreported_ = kTellEvery;  // since the last playback message
   std::vector<replay::Listener*> others_;
 };
 
-// Serves it until the descriptor is readable or, where it is not zero, the duration is over. `also`
-// is done in every turn.
+// Serves the console until `stop` is readable or, if it is not zero, the duration is over. `also`
+// is called in every turn.
 void run_replay(ReplayConsole& wall, int server, int stop, Duration duration,
                 const std::function<void(Instant now)>& also = {});
 

@@ -1,7 +1,7 @@
-// Requests of a console, parsed from JSON: see PROTOCOL.md.
+// Requests of a console, parsed from JSON, as PROTOCOL.md describes them.
 //   in     one JSON text of a client
-//   out    the request with every number in its range; the role that it takes
-//   errors Problem with the member as place; nothing is guessed
+//   out    the request with every number in its range; the role that it needs
+//   errors Problem with the member as place; no value is guessed
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -26,7 +26,7 @@ inline constexpr std::size_t kPointsMax = 20'000;
 
 struct AskHistory {
   std::uint16_t field = 0;
-  double from_s = 0.0, to_s = 0.0;  // before now; from is further back
+  double from_s = 0.0, to_s = 0.0;  // seconds before now; from_s is the larger
   std::size_t points = kPointsMax;
 };
 struct AskSend {
@@ -43,9 +43,9 @@ struct AskPing {
 struct AskBench {
   bench::BenchRequest run_request;
 };
-// Of a replay only.
+// For a replay only.
 struct AskPlayback {
-  std::optional<double> speed;  // recorded seconds per second; 0: pause; backwards below
+  std::optional<double> speed;  // recorded seconds per second; 0: pause; negative: backwards
   std::optional<double> to_ms;  // on the clock of time_ns
 };
 

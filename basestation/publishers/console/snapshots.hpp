@@ -1,15 +1,16 @@
 // State snapshots for consoles: when one is made, and its content.
 //
 //   packet |    |    |    |  (50 a second)
-//   frame  |         |       made when a packet comes, so that what is told is new; kEvery apart
-//   none comes:      |            |      by itself after kAtLatest
+//   frame  |         |       made when a packet comes, so that its content is new; kEvery apart
+//   no packet:       |            |      made after kAtLatest
 //
 //   in     packets with their groups, views of all fields, time
-//   out    frames: every field each second and when asked for, else those whose entry changed
+//   out    frames: every field each second and on request, otherwise the fields whose entry changed
 //   invariants
-//          a safety value that changed (a mode, a flag, a stop) is told at once; its age is not
-//          what is told is what was told last to all: a client that lost frames is whole again with
-//          the next full picture
+//          a change of a safety value (a mode, a flag, a stop) is sent at once; a change of its age
+//          is not
+//          changes are relative to the last frame sent to all clients: a client that lost frames is
+//          complete again with the next full one
 //   cost   O(fields) a frame
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
@@ -26,7 +27,7 @@ namespace pitwall::publishers::console {
 using web::Entry;
 using web::Frame;
 
-// What consoles see: the live base or a replay.
+// Source of what consoles show: the live base or a replay.
 class StateSource {
  public:
   virtual ~StateSource() = default;
@@ -45,7 +46,7 @@ class Snapshots {
   Snapshots();
   void receive() { news_ = true; }  // a packet of the car
   void want_full() { full_wanted_ = true; }
-  // The next frame, where one is due.
+  // Returns the next frame if one is due.
   std::optional<Frame> make(const StateSource& eyes, Instant now);
   Instant due() const { return last_ + kAtLatest; }
 
@@ -59,7 +60,7 @@ class Snapshots {
   std::uint32_t sequence_ = 0;
 };
 
-// Every field that a console may ask for: those that come down the radio, and the base's own.
+// Every field that a console may show: those that the car sends, and the base's own.
 std::vector<state::FieldId> reported_fields();
 
 }  // namespace pitwall::publishers::console

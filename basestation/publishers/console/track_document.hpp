@@ -1,10 +1,9 @@
-// A track file as the base needs it: the drawing that consoles get, and the course that gates and
-// ghost use.
+// Track file as the base uses it: the drawing for consoles, and the course for gates and ghost.
 //   in     vehicle/config/tracks/*.yaml: stations with curvature and widths
-//   out    JSON as PROTOCOL.md has it; a Course
+//   out    JSON as PROTOCOL.md describes it; a Course
 //   frames Map, as ego.x and ego.y
 //   invariants
-//          the line is integrated from the knots and closed by spreading what is missing evenly: a
+//          the line is integrated from the knots, and its closing error is spread evenly: a
 //          drawing, within a metre of the car's own map
 //   errors Problem with file, line and column
 // SPDX-License-Identifier: Apache-2.0
@@ -19,7 +18,7 @@
 
 namespace pitwall::publishers::console {
 
-// Where Map has its origin: WGS 84, height above the ellipsoid.
+// Origin of Map: WGS 84, height above the ellipsoid.
 struct TrackDatum {
   double latitude_deg = kUnset, longitude_deg = kUnset, height_m = kUnset;
 };

@@ -1,13 +1,13 @@
-// ROS 2 over DDS: tools attach to the base as to any node, `ros2 topic echo /vehicle/odom`.
-//   in     packets as they come; ten times a second what the base finds, by `look`
+// ROS 2 publisher over DDS: tools attach to the base as to any node, for example with
+// `ros2 topic echo /vehicle/odom`.
+//   in     packets as they come; ten times a second the values and alarms of the base, by `look`
 //   out    the topics of ros_view::View; the node pitwall_base in `ros2 node list`
 //   invariants
-//          it only writes: no reader of anything, so that nothing from there can command a car
-//          the loop never waits: a copy of the state goes into a Feed, a thread encodes and writes.
-//          A reader that stops costs its own samples and nothing else
-//   errors start(): Problem with the option. Later: figures(): what the Feed dropped by group, what
-//          DDS did not take by topic, endpoints of others with another type, datagrams that are no
-//          RTPS
+//          it only writes and subscribes to nothing, so that no ROS node can command a car
+//          the loop never waits: a copy of the state goes into a Feed, and a thread encodes and
+//          writes. A reader that stops loses its own samples and affects nothing else
+//   errors start(): Problem with the option. Later: figures(): drops of the Feed by group, failed
+//          writes by topic, endpoints of other nodes with another type, datagrams that are not RTPS
 //   source ros2/rmw_fastrtps, ros2/rmw_dds_common
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
@@ -24,7 +24,7 @@
 
 namespace pitwall::publishers::dds {
 
-// How long the identities of endpoints are, and so who can read them.
+// ROS 2 distribution; it decides the length of endpoint identities, and so which nodes can read.
 enum class Distribution : std::uint8_t { kHumble, kJazzy };
 
 struct RosConfig {
@@ -32,11 +32,11 @@ struct RosConfig {
   Distribution distribution = Distribution::kJazzy;
   std::string node = "pitwall_base";
   ros_view::ViewConfig view{};
-  // Fills in values and alarms, in the loop; none: the base judges nothing.
+  // Fills in values and alarms, in the loop; empty: the base publishes none.
   std::function<void(ros_view::BaseStatus&, Instant)> look{};
 };
 
-// "humble" or "jazzy"; those between are as jazzy.
+// "humble" or "jazzy"; for releases in between use jazzy.
 Result<Distribution, Problem> distribution_named(const std::string& name);
 
 Result<std::unique_ptr<service::Publisher>, Problem> start(RosConfig config);

@@ -1,11 +1,11 @@
 // Queue from the event loop to a publisher with its own thread: states of the car, messages of the
 // service.
-//   in     samples, texts and what the base itself finds, by the loop
-//   out    all that waits, by the thread
+//   in     samples, texts and status of the base, from the loop
+//   out    all items that wait, for the thread
 //   invariants
-//          neither waits for the other: what is under the lock is a copy or a move. In order; of
-//          more than the bounds allow the oldest goes, and is counted for each channel that it was
-//          of, so that a slow publisher shows the newest and says what it lost
+//          neither side waits for the other: the lock is held only for a copy or a move. Items stay
+//          in order; beyond the bounds the oldest item is dropped and counted for each of its
+//          channels, so that a slow publisher has the newest items and a count of its losses
 //   bound  kItems, and kTextBytes of texts
 //   errors drops(), by the channels of protocol/recorder/channels.hpp, and kStatusChannel
 //   cost   sample(): one copy of the state, one allocation; a system call when the thread sleeps
@@ -33,7 +33,7 @@ namespace pitwall::publishers::feed {
 
 struct Sample {
   telemetry::Snapshot state{};
-  telemetry::GroupSet groups{};  // that are newer than before
+  telemetry::GroupSet groups{};  // newer than in the sample before
   Instant received{};
 };
 struct Reported {
@@ -47,12 +47,12 @@ using Item =
 
 inline constexpr std::size_t kStatusChannel = telemetry::kGroups + recorder::kTopics;
 inline constexpr std::size_t kFeedChannels = kStatusChannel + 1;
-std::vector<std::string> channel_names();  // of all, in their order
+std::vector<std::string> channel_names();  // all, in order
 using ChannelCounts = std::array<std::uint64_t, kFeedChannels>;
 
 class Feed {
  public:
-  static constexpr std::size_t kItems = 256;  // some five seconds
+  static constexpr std::size_t kItems = 256;  // about five seconds
   static constexpr std::size_t kTextBytes = 4 * 1'024 * 1'024;
 
   Feed();
@@ -60,9 +60,9 @@ class Feed {
   void sample(const telemetry::Snapshot& state, telemetry::GroupSet groups, Instant received);
   void text(recorder::Topic topic, Instant at, std::string_view json);
   void base_status(std::unique_ptr<const BaseStatus> base_status);
-  void close();  // the thread is to end
+  void close();  // asks the thread to end
 
-  int fd() const { return bell_.get(); }  // readable while something waits, or once it is closed
+  int fd() const { return bell_.get(); }  // readable while items wait, or once it is closed
   std::vector<Item> take();
   bool closed() const;
   ChannelCounts drops() const;
@@ -74,7 +74,7 @@ class Feed {
 
   transport::FileDescriptor bell_;
   mutable std::mutex lock_;
-  std::deque<Item> waiting_;  // these under the lock
+  std::deque<Item> waiting_;  // from here on under the lock
   std::size_t text_bytes_ = 0;
   ChannelCounts drops_{};
   bool closed_ = false;

@@ -1,14 +1,15 @@
 // Registry of Foxglove clients, without sockets: clients, subscriptions, requests.
-//   in     who joined, left and said what; messages of the channels; what clients lost; time;
-//          thresholds, which clients may read
-//   out    messages with whom they are for; what is asked of a recording's playback
+//   in     clients that join and leave, and their messages; messages of the channels; messages that
+//          clients lost; time; thresholds, which clients may read
+//   out    messages with their receivers; playback requests
 //   invariants
-//          read only: what would change anything is refused with a status that says why, and is
-//          counted; nothing that a client says reaches anybody else
-//          a client has one subscription of a channel; of a latched channel it is told the newest
-//          at once. Who loses messages because it does not read is told which topics, once a second
-//   bound  subscriptions: a client's are no more than there are channels
-//   errors of what clients say: told to them, and counted by their kind
+//          read only: a request that would change anything is refused with a status that gives the
+//          reason, and is counted; no message of a client reaches another client
+//          a client has one subscription per channel; for a latched channel it gets the newest
+//          message at once. A client that loses messages because it reads too slowly gets a list of
+//          the topics, once a second
+//   bound  subscriptions of a client: at most the number of channels
+//   errors errors of clients are sent back to them, and counted by kind
 //   cost   message(): a header for each subscriber, the body once
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
@@ -45,25 +46,25 @@ class ClientRegistry {
   std::optional<PlaybackControl> receive_bytes(web::ClientId client,
                                                std::span<const std::uint8_t> bytes);
 
-  bool wanted(std::size_t channel) const;  // by anybody, or kept for who comes
+  bool wanted(std::size_t channel) const;  // subscribed, or latched for later subscribers
   bool anybody() const { return present_.any(); }
   void message(std::size_t channel, UtcTime at, std::span<const std::uint8_t> body);
   void time(UtcTime at);
   void playback(const PlaybackState& state);
-  // In place of those before; who watches one that is another now is told.
+  // Replaces all parameters; sends the changed ones to the clients that watch them.
   void parameters(std::vector<Parameter> parameters);
   void publish(web::ClientId client, Level level, std::string_view message);
   void lost(std::span<const web::Drop> drops);
-  // A recording has jumped: what was latched holds no more.
+  // Drops the latched messages, which do not hold after a jump of a recording.
   void forget() { newest_.clear(); }
 
   std::vector<Sending> take() { return std::exchange(out_, {}); }
   const std::vector<ChannelRow>& channels() const { return channels_; }
-  // Clients, what was lost by topic, what was refused by kind; not what was sent.
+  // Number of clients, losses by topic, refusals by kind; not the number of sent messages.
   service::PublisherFigures figures() const;
 
  private:
-  static constexpr std::uint32_t kTimeTag = 1, kFirstTag = 2;  // of what clients may lose
+  static constexpr std::uint32_t kTimeTag = 1, kFirstTag = 2;  // of messages that may be dropped
   using Body = std::shared_ptr<const std::vector<std::uint8_t>>;
   struct Newest {
     UtcTime at{};
@@ -92,7 +93,7 @@ class ClientRegistry {
     web::ClientSet watchers;
   };
   std::map<std::string, Readable> parameters_;  // by name
-  web::ClientSet watch_all_;                    // parameters, those to come too
+  web::ClientSet watch_all_;                    // watch all parameters, also future ones
   std::map<std::string, std::uint64_t, std::less<>> refused_, lost_;
   std::vector<Sending> out_;
 };

@@ -1,10 +1,10 @@
 // Foxglove publisher of a live car: a FoxgloveServer on its own thread, for Foxglove, Lichtblick
 // and PlotJuggler.
-//   in     packets, the texts that consoles get, what the base itself finds
+//   in     packets, the texts that consoles get, values and alarms of the base
 //   out    messages to clients
 //   invariants
-//          behind a Feed: whatever this thread or a client does costs the loop nothing
-//   errors start(): as FoxgloveServer. figures(): what the feed or clients lost, what was refused
+//          a Feed decouples it: neither this thread nor a client can delay the loop
+//   errors start(): as FoxgloveServer. figures(): losses of the feed and of clients, refusals
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -23,7 +23,7 @@ namespace pitwall::publishers::foxglove {
 class FoxglovePublisher : public service::Publisher {
  public:
   static constexpr Duration kLookEvery = milliseconds(100);
-  // Fills in what the base itself finds.
+  // Fills in values and alarms of the base.
   using Look = std::function<void(ros_view::BaseStatus&, Instant)>;
 
   static Result<std::unique_ptr<FoxglovePublisher>, Problem> start(ServerConfig config,
@@ -44,7 +44,7 @@ class FoxglovePublisher : public service::Publisher {
   FoxglovePublisher(std::unique_ptr<FoxgloveServer> server, Look look);
   void run();
 
-  std::unique_ptr<FoxgloveServer> server_;  // the thread's own
+  std::unique_ptr<FoxgloveServer> server_;  // used by the thread only
   Look look_;
   Instant looked_{};
   feed::Feed feed_;

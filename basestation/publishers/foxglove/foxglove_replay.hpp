@@ -1,10 +1,10 @@
 // Foxglove publisher of a replay: a FoxgloveServer whose client controls the playback.
-//   in     what a recording says; how its playback stands
-//   out    messages to clients; asked(): speed and time that a client wants
+//   in     states and texts of a recording; the state of its playback
+//   out    messages to clients; through Wind, the speed and the time that a client requests
 //   invariants
-//          every client and every console sees the same moment
-//          a state of the playback is told when it changed, once a second, and as the answer to
-//          each request
+//          every client and every console shows the same moment
+//          the playback state is sent when it changed, once a second, and as the answer to each
+//          request
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -21,7 +21,7 @@ namespace pitwall::publishers::foxglove {
 
 class FoxgloveReplay : public replay::Listener {
  public:
-  // Speed, and the time to jump to, if any; does what it says before it returns.
+  // Sets the speed and jumps to the time, if one is given; takes effect before it returns.
   using Wind = std::function<void(double speed, std::optional<Instant> to)>;
 
   static Result<std::unique_ptr<FoxgloveReplay>, Problem> start(ServerConfig config,
@@ -45,7 +45,7 @@ class FoxgloveReplay : public replay::Listener {
   std::unique_ptr<FoxgloveServer> server_;
   Instant reported_{};
   std::optional<PlaybackStatus> status_;
-  double speed_ = 1.0;  // the newest that was no pause
+  double speed_ = 1.0;  // the newest that was not a pause
   bool jumped_ = false;
 };
 

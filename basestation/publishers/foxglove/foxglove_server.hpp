@@ -1,11 +1,13 @@
-// A Foxglove WebSocket server as one thread uses it: sockets, clients and sources together.
-//   in     what came from the car, what the base told; time
-//   out    messages to clients; what they ask of a recording's playback
+// Foxglove WebSocket server for use by one thread: sockets, clients and sources together.
+//   in     states and messages of the car and the base; time
+//   out    messages to clients; their playback requests
 //   invariants
-//          nothing waits: the sockets have a thread and bounded queues of their own. While nobody
-//          is there nothing is encoded but what who comes must be told
-//          a page of this machine may attach; one of elsewhere only where its origin was named
-//   bound  of a client that does not read kMessages messages and kMessageBytes wait, the oldest go
+//          no call waits: the sockets have a thread and bounded queues of their own. Without
+//          clients only latched messages and texts are encoded
+//          a page of this machine may attach; a page from elsewhere only if its origin is in the
+//          access rules
+//   bound  for a client that does not read, kMessages messages and kMessageBytes wait; beyond that
+//          the oldest are dropped
 //   errors start(): Problem with the address
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
@@ -23,7 +25,7 @@ namespace pitwall::publishers::foxglove {
 
 struct ServerConfig {
   transport::UdpAddress listen{};  // port 0: any that is free
-  web::AccessRules access{};       // who; its pages of this machine are let in besides
+  web::AccessRules access{};       // pages of this machine are admitted in any case
   std::shared_ptr<ssl_ctx_st> tls{};
   std::string name{};  // of the server, as clients show it
   std::optional<TimeRange> playback{};
@@ -39,13 +41,13 @@ class FoxgloveServer {
   static Result<std::unique_ptr<FoxgloveServer>, Problem> start(ServerConfig config);
 
   transport::UdpAddress local() const { return server_->local(); }
-  int fd() const { return server_->fd(); }  // readable while clients have said something
+  int fd() const { return server_->fd(); }  // readable while messages of clients wait
   std::vector<PlaybackControl> receive();
   void take(const feed::Item& item);
   void take(const feed::Sample& sample);
   void take(const feed::Reported& reported);
   void playback(const PlaybackState& state) { room_.playback(state); }
-  // A recording has jumped.
+  // Drops latched messages after a jump of the recording, and sends the static ones again.
   void forget(Instant now);
   // Sends what is due; `shown` is the time that clients are to show.
   void turn(Instant now, Instant shown);

@@ -2,10 +2,10 @@
 //   in     channels, times, states; texts and bytes of clients
 //   out    JSON texts and binary messages, little endian; requests
 //   invariants
-//          read only: what would change anything here is understood and named, so that it can be
-//          refused with a reason
+//          read only: requests that would change anything are decoded and named, so that they can
+//          be refused with a reason
 //   units  times in ns since 1970
-//   errors Problem with the place in the message: no JSON, no such op, wrong type, cut short
+//   errors Problem with the place in the message: not JSON, unknown op, wrong type, truncated
 //   source foxglove/ws-protocol docs/spec.md; foxglove/foxglove-sdk rust/foxglove/src/protocol:
 //          PlaybackState, PlaybackControlRequest, ServerInfo
 // SPDX-License-Identifier: Apache-2.0
@@ -26,17 +26,17 @@
 
 namespace pitwall::publishers::foxglove {
 
-// Two names of one thing; clients offer either or both.
+// Two names of the same subprotocol; a client offers one or both.
 inline constexpr std::array<std::string_view, 2> kSubprotocols{"foxglove.sdk.v1",
                                                                "foxglove.websocket.v1"};
 
 struct ChannelRow {
   std::uint32_t id = 0;
   std::string topic{}, encoding{}, schema_name{}, schema_encoding{}, schema{};
-  bool latched = false;  // who subscribes is told the newest at once
+  bool latched = false;  // a new subscriber gets the newest message at once
 };
 
-// A number that clients may read, and nobody can set here.
+// Parameter that clients may read and nobody can set here.
 struct Parameter {
   std::string name;
   double value = 0.0;
@@ -50,7 +50,7 @@ struct TimeRange {
 
 struct ServerInfo {
   std::string name, session;
-  std::optional<TimeRange> playback{};  // of a recording that clients may wind
+  std::optional<TimeRange> playback{};  // of a recording with playback control
 };
 
 enum class Level : std::uint8_t { kInfo, kWarning, kError };
@@ -61,15 +61,15 @@ struct PlaybackState {
   UtcTime at{};
   float speed = 1.0F;
   bool did_seek = false;
-  std::string request{};  // that this answers; empty: none
+  std::string request{};  // that this answers; may be empty
 };
 
 std::string server_info_text(const ServerInfo& info);
 std::string advertise_text(std::span<const ChannelRow> channels);
 std::string status_text(Level level, std::string_view message);
-// `request`: that this answers; empty: a change that nobody asked for.
+// `request`: that this answers; empty for a change without a request.
 std::string parameters_text(std::span<const Parameter> parameters, const std::string& request);
-// All topics are published by `publisher`, and nothing is listened to.
+// Connection graph: `publisher` publishes all topics, and nothing is subscribed to.
 std::string graph_text(std::span<const ChannelRow> channels, std::string_view publisher);
 
 inline constexpr std::size_t kMessageHeader = 13;
@@ -93,17 +93,17 @@ struct PlaybackControl {
   std::string request;
 };
 struct GetParameters {
-  std::vector<std::string> names;  // none: all
+  std::vector<std::string> names;  // empty: all
   std::string request;
 };
 struct WatchParameters {
-  std::vector<std::string> names;  // none: all
+  std::vector<std::string> names;  // empty: all
   bool ends = false;
 };
 struct WatchGraph {
   bool ends = false;
 };
-// What no server of ours does: the capability that it would need.
+// Request that this server does not support, with the capability that it would need.
 struct Refusable {
   std::string_view capability;
 };

@@ -1,12 +1,12 @@
 // Channels for Foxglove clients, and the source of each channel's messages.
-//   /vehicle/odom, /tf, /imu, /gnss/*, /diagnostics ...   the standard messages of ROS 2, as
-//                      publishers/ros_view makes them
+//   /vehicle/odom, /tf, /imu, /gnss/*, /diagnostics ...   the standard messages of ROS 2, from
+//                      publishers/ros_view
 //   /car/GROUP         every group of the registry, and
-//   /base/TYPE         the texts that consoles get, both as a recording has them: one layout fits
+//   /base/TYPE         the texts that consoles get; both as in a recording, so that one layout fits
 //                      a live car and its recording
-//   /base/values/GROUP what the base itself finds: link, derived values
+//   /base/values/GROUP values of the base itself: link, derived values
 //   invariants
-//          the time of a message is when the base received it; its header has when it was sampled
+//          the time of a message is when the base received it; its header has the sampling time
 //   cost   some tens of microseconds for a state with all groups
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
@@ -44,7 +44,7 @@ class Sources {
   recorder::ClockMap clock_;
   ros_view::View view_;
   std::vector<ChannelRow> channels_;
-  // Where a topic of the view and a channel of a recording stand among the channels; npos: nowhere.
+  // Channel of each topic of the view and of each channel of a recording; npos if it has none.
   std::vector<std::size_t> of_view_, of_recording_;
 };
 

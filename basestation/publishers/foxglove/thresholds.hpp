@@ -1,7 +1,7 @@
-// The thresholds of alarms as parameters that clients read.
+// Alarm thresholds as parameters that Foxglove clients read.
 //   in     the text `settings` as consoles get it (publishers/web/PROTOCOL.md)
 //   out    /alarms/KEY/limit and /deadband in the field's unit, /on_s and /off_s in seconds
-//   errors a text that is none gives none; a number that is none is left out
+//   errors a malformed text gives no parameters; a value that is not a number is left out
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

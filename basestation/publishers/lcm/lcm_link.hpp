@@ -1,11 +1,11 @@
-// LCM's own library, for publishing alone: nothing subscribes, so nothing that others publish is
-// ever read here.
-//   in     where to: udpm://ADDRESS:PORT?ttl=N; channel and message
+// Sender of LCM messages through LCM's own library. It subscribes to nothing, so that no message of
+// another program is read here.
+//   in     the destination udpm://ADDRESS:PORT?ttl=N; channel and message
 //   invariants
-//          a ttl of 0 stays on this machine, which is what a URL without one means
-//   errors parse(): a Problem for another provider, no multicast address, no port, a ttl beyond
-//          255. open(): a Problem where the library finds no way there. publish(): false, the
-//          network did not take it
+//          with a ttl of 0, the default of a URL without one, messages stay on this machine
+//   errors parse(): Problem for another provider, an address that is not multicast, no port, a ttl
+//          beyond 255. open(): Problem if the library finds no route. publish(): false if the
+//          network did not accept the message
 //   source LCM 1.3.1: lcm.h, lcm_udpm.c
 // SPDX-License-Identifier: Apache-2.0
 #pragma once

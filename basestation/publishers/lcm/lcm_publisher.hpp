@@ -1,11 +1,11 @@
 // LCM publisher of received states and messages: channels, types and bytes as in the LCM log of a
 // recording.
 //   in     packets, and the texts that consoles get
-//   out    /car/GROUP and /base/TYPE, under a prefix where several cars share a wall
+//   out    /car/GROUP and /base/TYPE, with a prefix if one base serves several cars
 //   invariants
-//          a thread of its own behind a Feed: a network that stalls costs this publisher its oldest
-//          messages, counted by channel, and nobody anything else
-//   errors figures(): dropped before they were published; failed: the network did not take them
+//          it has its own thread behind a Feed: on a stalled network it loses its oldest messages,
+//          counted by channel, and affects nothing else
+//   errors figures(): dropped: lost before they were published; failed: refused by the network
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -27,7 +27,7 @@ namespace pitwall::publishers::lcm {
 
 class LcmPublisher : public service::Publisher {
  public:
-  // False: it was not taken.
+  // Returns false if the network did not accept the message.
   using Publish = std::function<bool(const std::string&, std::span<const std::uint8_t>)>;
 
   static Result<std::unique_ptr<LcmPublisher>, Problem> start(const LcmUrl& url,

@@ -1,6 +1,6 @@
-// Shared store of figures of all cars, from which a request for /metrics is answered.
+// Shared store of figures of all cars, for the answers to requests for /metrics.
 //   invariants
-//          under the lock is a copy only: a scrape does not keep a stand waiting
+//          the lock is held only for a copy, so that a scrape does not delay the service of a car
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -18,12 +18,12 @@ class Board {
  public:
   void put(std::size_t place, CarStatus status);
   void put(const web::WebCounters& web);
-  // With how bench time stands now, where this base goes by it.
+  // `pause`: the present pause of bench time, if this base runs on bench time.
   std::string text(const std::optional<transport::BenchPause>& pause = {}) const;
 
  private:
   mutable std::mutex lock_;
-  std::vector<CarStatus> cars_;  // these under the lock
+  std::vector<CarStatus> cars_;  // from here on under the lock
   std::optional<web::WebCounters> web_;
 };
 

@@ -1,8 +1,8 @@
-// Prometheus text format: families of samples, each once with help and type.
-//   in     families in any order of their samples
+// Prometheus text format: families of samples, each with one help and one type.
+//   in     samples, in any order of their families
 //   out    text format 0.0.4
 //   invariants
-//          a sample that is no number is left out: what nobody knows has no value
+//          a sample that is not a finite number is left out: an unknown value has no sample
 //   cost   O(samples)
 //   source Prometheus: exposition formats; promtool's lint: base units in words, counters _total
 // SPDX-License-Identifier: Apache-2.0
@@ -34,13 +34,13 @@ class Exposition {
   std::vector<Family> families_;
 };
 
-// What a unit of the registry is called in the name of a metric, and what turns its numbers into
-// that: "kPa" is pascals, 1000.
+// Name of a unit of the registry in metric names, and the factor to that unit: "kPa" is pascals,
+// 1000.
 struct UnitName {
   std::string_view unit, words, help;
   double factor = 1.0;
 };
-// None for a unit that the table does not have.
+// Returns nullptr for a unit that the table does not have.
 const UnitName* unit_name(std::string_view unit);
 
 }  // namespace pitwall::publishers::metrics

@@ -1,7 +1,7 @@
-// Figures of one car's service for /metrics, once a second.
-//   in     the service; the other publishers of this car, the web server where there is one
+// Publisher of the figures of one car's service for /metrics, once a second.
+//   in     the service; the other publishers of this car, the web server if there is one
 //   out    a CarStatus on the board; the counters of the web server
-//   cost   some ten microseconds a second; the text is made by who asks for it
+//   cost   about ten microseconds a second; the text is made per request, in the requesting thread
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

@@ -1,11 +1,11 @@
 // Metrics of a base station in the Prometheus text format.
-//   in     what each car's stand looked like at one moment, as plain values
+//   in     the figures of each car's service at one moment, as plain values
 //   out    the text of /metrics
 //   names  pitwall_field_UNIT{car,group,field}: every number of the registry and of the base's own,
 //          in base units; pitwall_group_age_seconds{car,group}; counters pitwall_*_total
 //   invariants
-//          a field that is stale, or that the car does not know, has no sample: nobody takes an old
-//          number for a present one. The age of its group tells how old it is
+//          a field that is stale, or that the car does not know, has no sample, so that no old
+//          value looks like a present one. The age of its group shows how old it is
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -37,7 +37,7 @@ constexpr state::FieldId id_at(std::size_t place) {
 struct CarStatus {
   int car = 0;
   std::string name, mode;
-  std::uint64_t history_bytes = 0;             // of plots that look back
+  std::uint64_t history_bytes = 0;             // of the trends of the service
   std::array<double, kNumbers> numbers = [] {  // NaN: not known now
     std::array<double, kNumbers> unset{};
     unset.fill(kUnset);
@@ -53,13 +53,13 @@ struct CarStatus {
     std::uint64_t active = 0, unseen = 0;
   };
   std::vector<Alarms> alarms{};
-  // Name without pitwall_ and _total, and what it counts.
+  // `name`: without pitwall_ and _total.
   struct Count {
     std::string_view name, help;
     std::uint64_t value = 0;
   };
   std::vector<Count> counts{};
-  service::PublisherFigures::Counts refused{};  // datagrams, by the reason
+  service::PublisherFigures::Counts refused{};  // datagrams, by reason
   std::vector<service::PublisherFigures> publishers{};
 };
 

@@ -27,10 +27,10 @@ class Journal : public service::Publisher {
   Instant figures_at_{};
 };
 
-// Datagrams of both directions, as a Station gives them.
+// Observer that records the datagrams of both directions of a Station.
 link::Station::Observer observer_of_datagrams(Recorder& recorder);
 
-// The operator's hand, as a JoystickDevice tells it.
+// Observer that records the samples of a JoystickDevice.
 std::function<void(const telemetry::JoystickSample&, Instant)> observer_of_joystick(
     Recorder& recorder);
 

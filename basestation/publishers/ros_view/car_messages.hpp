@@ -1,14 +1,14 @@
-// Mapping of the car's state to standard ROS 2 messages.
-//   in     the state as the radio has it; times on the base's clock, and what makes UTC of them
-//   out    messages; none where there is nothing to be said
+// Conversion of the car's state to standard ROS 2 messages.
+//   in     the state as received by radio; times on the base's clock, and the offset of UTC to it
+//   out    messages; nullopt if the state has no data for one
 //   frames map, base_link at the centre of gravity (ISO 8855, REP 103, REP 105)
 //   units  of REP 103; header.stamp is when the car took the sample, in UTC
-//   absent odometry, its transform and the fused fix are not sent without a position, heading or
-//          with one that is lost. A height, roll or pitch that the car does not know is that of the
-//          map's plane, 0, with a variance of kUnknownVariance; any other number that it does not
-//          know is NaN with that variance (Odometry) or with -1 in front of its covariance (Imu).
-//          A receiver without a solution has STATUS_NO_FIX; the radio does not carry what position
-//          each of them reports, so latitude and longitude of /gnss/... are NaN
+//   absent odometry, its transform and the fused fix need a valid position and heading; otherwise
+//          they are not sent. An unknown height, roll or pitch is that of the map's plane, 0, with
+//          a variance of kUnknownVariance; any other unknown value is NaN with that variance
+//          (Odometry) or with -1 as first element of its covariance (Imu). A receiver without a
+//          solution has STATUS_NO_FIX; the radio does not carry the positions of the receivers, so
+//          latitude and longitude of /gnss/... are NaN
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -43,9 +43,9 @@ class CarMessages {
   std::optional<ros::TFMessage> transform(const telemetry::Snapshot& state) const;
   std::optional<ros::NavSatFix> fix(const telemetry::Snapshot& state, const Ground& ground) const;
   std::optional<ros::Imu> imu(const telemetry::Snapshot& state) const;
-  // Of unit 0 (the receiver on top) or 1.
+  // `unit`: 0 (the top receiver) or 1.
   ros::NavSatFix receiver_fix(const telemetry::Snapshot& state, std::size_t unit) const;
-  // A box and a text for each that is known; one that is not any more is deleted.
+  // A box and a text for each known opponent; the markers of the others are deleted.
   ros::MarkerArray opponents(const telemetry::Snapshot& state, const state::Course& course,
                              Instant now) const;
 
@@ -57,7 +57,7 @@ class CarMessages {
   Duration utc_minus_base_;
 };
 
-// The reference line of the track, closed.
+// Reference line of the track, closed.
 ros::Path raceline(const state::Course& course, const ros::Header& header);
 
 }  // namespace pitwall::publishers::ros_view

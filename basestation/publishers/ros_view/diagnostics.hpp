@@ -1,10 +1,10 @@
 // Diagnostics messages for rqt_robot_monitor and Foxglove's diagnostics panel.
-//   in     the state as the radio has it, what the base itself finds, time
-//   out    one status for each watchdog of the car, each sensor that ever came, each receiver, the
-//          car's faults, its computer, the radio, each alarm that stands, each publisher
-//   level  OK 0, WARN 1, ERROR 2; STALE 3 for whatever the car has not told of for too long
+//   in     the state as received by radio, values and alarms of the base, time
+//   out    one status for each watchdog of the car, each sensor that was ever received, each
+//          receiver, the car's faults, its computer, the radio, each active alarm, the publishers
+//   level  OK 0, WARN 1, ERROR 2; STALE 3 for a group that was not received for too long
 //   invariants
-//          a sensor that never came is not listed: this car does not have it
+//          a sensor that was never received is not listed: this car does not have it
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -26,21 +26,21 @@ struct AlarmStatus {
   bool high = false;
 };
 
-// What the base finds besides what the car tells.
+// Values of the base itself, beside those of the car.
 struct BaseStatus {
   Instant at{};
-  // kUnset where nobody makes it.
+  // kUnset for a field that nothing computes.
   std::array<double, state::kBaseFields> values = [] {
     std::array<double, state::kBaseFields> unset{};
     unset.fill(kUnset);
     return unset;
   }();
   std::vector<AlarmStatus> alarms{};
-  // Of publishers: what they dropped, whom they refused.
+  // Per publisher: what it dropped and what it refused.
   std::vector<std::pair<std::string, std::uint64_t>> publishers{};
 };
 
-// `loses`: a publisher has lost something lately; its counts only ever grow.
+// `loses`: a publisher has lost messages lately; its counters alone do not show when.
 std::vector<ros::DiagnosticStatus> diagnostics(const telemetry::Snapshot& state,
                                                const BaseStatus& base, const std::string& hardware,
                                                bool loses = false);

@@ -1,5 +1,5 @@
-// Map on the Earth: where its points lie by latitude and longitude, and how the frame `map` stands
-// in the frame `earth`.
+// Position of Map on the Earth: latitude and longitude of its points, and the transform from the
+// frame `earth` to the frame `map`.
 //   in     the datum of a track, at which Map has its origin: WGS 84, height above the ellipsoid
 //   frames Map: x east, y north, z up (REP 103); earth: REP 105, geocentric, x to longitude 0 at
 //          the equator, z to the north pole
@@ -30,7 +30,7 @@ class Ground {
   ros::Vector3 origin_;  // geocentric
 };
 
-// Turns about x, then y, then z, as ISO 8855 and REP 103 have roll, pitch and yaw.
+// Rotations about x, then y, then z, as roll, pitch and yaw in ISO 8855 and REP 103.
 ros::Quaternion quaternion_of(double roll_rad, double pitch_rad, double yaw_rad);
 
 }  // namespace pitwall::publishers::ros_view

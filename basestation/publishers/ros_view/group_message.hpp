@@ -1,14 +1,14 @@
-// The messages of package pitwall_msgs: one for each group of fields that the car tells, and one
-// for each group that the base makes itself. A field is added in the registry and nowhere else.
+// Messages of the package pitwall_msgs: one for each group of fields that the car sends, and one
+// for each group that the base computes. A new field is added in the registry and nowhere else.
 //
 //     tyres.pressure_rear_left   pitwall_msgs/msg/Tyres: float64 pressure_rear_left  # kPa, ...
 //
 //   out    type description, .msg text with units, RIHS01, CDR bytes
-//   units  as the registry has them
+//   units  as in the registry
 //   invariants
-//          every field is a float64, so that one that is not known is NaN and never 0; the names of
-//          a choice's values are constants of the message; header.stamp is when it was sampled
-//   cost   the descriptions are made once; encode_group() allocates nothing that `out` has room for
+//          every field is a float64, so that an unknown value is NaN and never 0; the labels of an
+//          enumeration are constants of the message; header.stamp is the time of the sample
+//   cost   the descriptions are made once; encode_group() allocates only if `out` is too small
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -32,12 +32,12 @@ struct GroupMessage {
   std::string name;   // "Opponent1"
   ros::TypeDescription type;
   bool of_base = false;
-  std::vector<std::size_t> rows{};  // its fields' places in the registry or in the base's own table
+  std::vector<std::size_t> rows{};  // places of its fields in the registry or the base's own table
 };
 
-// Those of the car first, in the order of the registry, then those of the base.
+// Messages of the car first, in the order of the registry, then those of the base.
 const std::vector<GroupMessage>& group_messages();
-// Where the message of a group stands there; it must be one that the car tells.
+// Place of a group's message in group_messages(); the car must send the group.
 std::size_t message_index(telemetry::Group group);
 
 void encode_group(const ros::Header& header, std::span<const double> values,

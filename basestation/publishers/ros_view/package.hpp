@@ -1,5 +1,5 @@
-// The package pitwall_msgs as a team builds it in its own ROS 2: `colcon build` in a workspace that
-// has this folder below src/.
+// Package pitwall_msgs as source for a team's own ROS 2: `colcon build` in a workspace that has
+// this folder below src/.
 //   out    files with their paths inside the folder: package.xml, CMakeLists.txt, msg/*.msg
 //   source ROS 2: REP 149 (package format 3), rosidl_default_generators
 // SPDX-License-Identifier: Apache-2.0
@@ -18,8 +18,8 @@ struct PackageFile {
 
 std::vector<PackageFile> package_files();
 
-// Into a folder, which is made; what lies there under the same names is replaced. The number of
-// files, or a Problem with the path.
+// Writes them into a folder, which is created; existing files of the same names are replaced.
+// Returns the number of files, or a Problem with the path.
 Result<std::size_t, Problem> write_package(const std::string& folder);
 
 }  // namespace pitwall::publishers::ros_view

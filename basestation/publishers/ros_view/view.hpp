@@ -1,17 +1,17 @@
-// ROS 2 view of a car: topics, and the messages made from a state. The same for every publisher
-// that uses ROS 2 messages.
-//   in     states as they come, what the base finds ten times a second, time
+// ROS 2 view of a car: topics, and the messages made from a state. All publishers of ROS 2 messages
+// use it.
+//   in     states as they come, values and alarms of the base ten times a second, time
 //   out    topics with types, texts and hashes; messages as CDR, each with the time of its sample
 //   invariants
-//          a message is made of a group that is new, and of no other: nothing is repeated. Which
-//          numbers are absent, and how that is said: car_messages.hpp, group_message.hpp
+//          a message is made only from a group that is new, so that nothing is repeated. For absent
+//          values see car_messages.hpp, group_message.hpp
 //          diagnostics once a second, at once when a level changes; a loss of a publisher is shown
 //          for kLossShown after its count has grown
 //   cost   a state with all its groups: some tens of microseconds
 //
 //   /vehicle/odom /vehicle/fix /imu /gnss/{top,bottom}/fix /diagnostics /opponents /raceline
-//   /base/GROUP for each group of pitwall_msgs, all behind the car's space; /tf and /tf_static are
-//   one for all cars, whose frames have a prefix instead
+//   /base/GROUP for each group of pitwall_msgs, all with the car's namespace in front; all cars
+//   share /tf and /tf_static, where their frames have a prefix instead
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -35,7 +35,7 @@ struct Topic {
   std::string type;      // "nav_msgs/msg/Odometry"
   std::string schema;    // as `ros2msg`
   std::string hash;      // "RIHS01_..."
-  bool latched = false;  // who comes later gets the newest
+  bool latched = false;  // later subscribers get the newest message
 };
 
 struct Message {
@@ -46,7 +46,7 @@ struct Message {
 using Sink = std::function<void(const Message&)>;
 
 struct ViewConfig {
-  std::string space{};     // "/car7", or nothing
+  std::string space{};     // namespace "/car7"; may be empty
   std::string hardware{};  // of diagnostics
   std::optional<state::Course> course{};
   std::optional<Geodetic> datum{};
@@ -60,7 +60,7 @@ class View {
 
   const std::vector<Topic>& topics() const { return topics_; }
 
-  // Those that do not change: once, at the start.
+  // Static messages, which never change; call it once, at the start.
   void statics(Instant now, Duration utc_minus_base, const Sink& sink);
   void car(const telemetry::Snapshot& state, telemetry::GroupSet fresh, Instant now,
            Duration utc_minus_base, const Sink& sink);
@@ -97,8 +97,8 @@ class View {
   std::optional<Ground> ground_;
   std::vector<Topic> topics_;
   telemetry::Snapshot newest_;
-  std::vector<std::uint8_t> bytes_;  // of the message that is told
-  std::vector<Level> levels_;        // of the diagnostics that were told last
+  std::vector<std::uint8_t> bytes_;  // of the present message
+  std::vector<Level> levels_;        // of the newest diagnostics message
   Instant health_reported_{};
   std::uint64_t lost_ = 0;  // by all publishers
   std::optional<Instant> lost_at_{};

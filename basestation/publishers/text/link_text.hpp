@@ -1,5 +1,5 @@
-// The radio's figures as lines of text: link, paths, ages, what was refused, commands, events.
-//   out    lines of at most kScreenColumns; a value that is not known is said to be so
+// Figures of the radio link as lines of text: link, paths, ages, refusals, commands, events.
+//   out    lines of at most kScreenColumns; an unknown value is shown as unknown
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

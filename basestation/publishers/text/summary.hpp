@@ -3,8 +3,8 @@
 //          kind), rate_hz; age_ms of ego and ages_ms by class and by group {p50 p90 p99 max};
 //          paths (loss, bursts, one-way delay, jitter, budget); clock; commands and events with
 //          their times; loss by place;
-//          bench_time: for how long it has stood (null: by the wall clock);
-//          fields: "group.name" -> value (null if never heard), unit, age_ms, quality
+//          bench_time: total of its pauses (null: by the wall clock);
+//          fields: "group.name" -> value (null if never received), unit, age_ms, quality
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

@@ -1,8 +1,8 @@
 // Terminal output of a base station: a screen of all cars, or, without a terminal, a line for each
-// attack on the radio and each request that was refused.
-//   invariants  a terminal that takes no text (Ctrl-S, a full pipe) stops the loop and with it what
-//          the car receives: a base whose screen stands still is no base that somebody watches
-//          while bench time stands the screen goes on, and says so
+// attack on the radio and each refused request.
+//   invariants  a terminal that accepts no text (Ctrl-S, a full pipe) blocks the loop, which then
+//          receives nothing from the car. This is accepted, because nobody watches such a screen
+//          during a pause of bench time the screen is still refreshed, and shows the pause
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -23,8 +23,8 @@ struct TerminalCar {
 class Screen : public service::LoopTask {
  public:
   struct Options {
-    bool plain = false;  // no escapes, one screen after the other
-    bool all = false;    // every group
+    bool plain = false;  // no escape sequences, one screen after the other
+    bool all = false;    // show every group
     Duration refresh = milliseconds(100);
   };
   Screen(std::vector<TerminalCar> cars, const Options& options, std::FILE* terminal)
@@ -42,7 +42,7 @@ class Screen : public service::LoopTask {
   Options options_;
   std::FILE* terminal_;
   Instant next_{};
-  Duration shown_pause_{};  // how long bench time had stood on the newest screen
+  Duration shown_pause_{};  // length of the bench time pause on the newest screen
 };
 
 class StationLog : public service::LoopTask {

@@ -10,10 +10,10 @@
 
 namespace pitwall::publishers::web {
 
-// A console's number is also its number as holder of the authority. Lower ones are left to scripts.
+// Client number, which is also its number as holder of the authority. Scripts use lower ones.
 using ClientId = telemetry::HolderId;
 inline constexpr ClientId kFirstClient = 16, kLastClient = 254;
 using ClientSet = std::bitset<256>;
-inline constexpr std::size_t kTextMax = 64 * 1'024;  // of what a console says
+inline constexpr std::size_t kTextMax = 64 * 1'024;  // bytes of one text of a client
 
 }  // namespace pitwall::publishers::web

@@ -1,12 +1,12 @@
-// Bounded send queue of one client: one that does not read loses its own oldest pictures and nobody
-// else's, and is told how many.
-//   in     messages, made once for all clients, or bytes with a head of this client's
-//   out    the next one to write, with the number of frames that this client lost so far
+// Bounded send queue of one client. A client that does not read loses its own oldest snapshots and
+// delays no other client; it gets the number of lost frames.
+//   in     messages, made once for all clients, or bytes with a header for this client
+//   out    the next message to write, with the number of frames that this client has lost so far
 //   invariants
-//          order is kept; of more than the limits allow of what a newer one replaces, snapshots and
-//          tagged bytes, the oldest goes, and is counted, bytes by their tag;
-//          texts and histories are never lost: more than unread_bytes of them mean that the client
-//          is to be closed
+//          order is kept. Snapshots and tagged bytes, which newer ones replace, have limits: beyond
+//          them the oldest is dropped and counted, bytes by their tag
+//          texts and histories are never dropped: with more than unread_bytes of them the client
+//          must be closed
 //   cost   O(waiting) when one is dropped, else O(1)
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
@@ -25,14 +25,14 @@
 
 namespace pitwall::publishers::web {
 
-// A binary message of another protocol than the console's.
+// Binary message of a protocol other than the console's.
 struct Bytes {
   static constexpr std::size_t kHeadMax = 16;
 
-  std::array<std::uint8_t, kHeadMax> head{};  // of one client
+  std::array<std::uint8_t, kHeadMax> head{};  // for one client
   std::size_t head_bytes = 0;
-  std::shared_ptr<const std::vector<std::uint8_t>> body{};  // of all
-  std::uint32_t tag = 0;  // what it is of, when a newer one replaces it; 0: never lost
+  std::shared_ptr<const std::vector<std::uint8_t>> body{};  // shared by all clients
+  std::uint32_t tag = 0;  // identifies what a newer message replaces; 0: never dropped
 
   std::size_t size() const { return head_bytes + (body ? body->size() : 0); }
 };
@@ -43,7 +43,7 @@ struct Message {
   std::optional<Frame> frame{};
   std::optional<Bytes> binary{};
 
-  // May be lost by a client that does not read.
+  // True if the queue may drop the message.
   bool vehicle() const {
     return (frame && frame->kind == FrameKind::kSnapshot) || (binary && binary->tag != 0);
   }
@@ -55,7 +55,7 @@ struct Message {
 using SharedMessage = std::shared_ptr<const Message>;
 
 struct QueueLimits {
-  std::size_t pictures = 25;  // a second of the console's
+  std::size_t pictures = 25;  // one second of the console's snapshots
   std::size_t picture_bytes = 4 * 1'024 * 1'024;
   std::size_t unread_bytes = 4 * 1'024 * 1'024;
 };
@@ -64,13 +64,13 @@ class ClientQueue {
  public:
   explicit ClientQueue(QueueLimits limits = {}) : limits_(limits) {}
 
-  // False: too much was left unread, the client is to be closed.
+  // Returns false if too much is unread; then the client must be closed.
   bool push(SharedMessage message);
-  SharedMessage pop();  // null: nothing waits
+  SharedMessage pop();  // nullptr: the queue is empty
   bool empty() const { return waiting_.empty(); }
-  std::size_t bytes() const { return picture_bytes_ + unread_; }  // that wait
+  std::size_t bytes() const { return picture_bytes_ + unread_; }
   std::uint32_t dropped() const { return dropped_; }
-  // The tags of what was lost since this was asked for last.
+  // Tags of the bytes dropped since the last call.
   std::vector<std::uint32_t> take_lost_tags() { return std::exchange(lost_tags_, {}); }
 
  private:

@@ -1,9 +1,9 @@
-// Built files of the console, kept in memory: nothing that a request says is ever a path on disk.
+// Built files of the console, kept in memory: no part of a request is used as a path on disk.
 //   in     a folder with index.html and assets/; X.gz beside X is X gzipped
-//   out    by path: bytes, gzipped bytes where that is shorter, type
+//   out    by path: bytes, gzipped bytes if they are shorter, type
 //   invariants
-//          read anew when index.html on disk is another than before, so that a new build shows
-//          without a restart
+//          read again when index.html has changed on disk, so that a new build shows without a
+//          restart
 //   bound  kFilesMax files of kFileMax bytes; others are left out
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
@@ -20,9 +20,9 @@ namespace pitwall::publishers::web {
 
 struct ServedFile {
   std::shared_ptr<const std::string> bytes;
-  std::shared_ptr<const std::string> gzipped;  // null: not worth it
+  std::shared_ptr<const std::string> gzipped;  // nullptr: not shorter
   std::string_view type;
-  bool forever = false;  // its name changes with its content
+  bool forever = false;  // may be cached for ever, because its name changes with its content
 };
 
 class ConsoleFiles {
@@ -31,7 +31,7 @@ class ConsoleFiles {
 
   explicit ConsoleFiles(std::filesystem::path folder) : folder_(std::move(folder)) {}
 
-  const ServedFile* find(std::string_view path);  // "/" or "/assets/x.js"; null: none
+  const ServedFile* find(std::string_view path);  // "/" or "/assets/x.js"; nullptr: no such file
   const std::filesystem::path& folder() const { return folder_; }
   bool built() const { return files_.contains("/"); }
 

@@ -35,15 +35,15 @@ struct Frame {
 
 std::array<std::uint8_t, kFrameHeader> header_of(const Frame& frame, std::uint32_t dropped);
 
-// A field as it is told. Two that look alike to a console are equal.
+// One field of a frame. Equal entries look the same on a console.
 struct Entry {
   std::uint16_t field = 0;
   std::uint8_t status = 0, age = 0;
   float value = 0.0F;
 
-  bool same(const Entry& other) const;  // bit by bit: a NaN is itself
+  bool same(const Entry& other) const;  // bit by bit: a NaN equals itself
 };
-std::uint8_t age_code(Duration age);  // 254 and more minutes are 254; never: 255, by entry_of()
+std::uint8_t age_code(Duration age);  // at most 254; never received: 255, set by entry_of()
 Entry entry_of(std::uint16_t field, const state::FieldView& view, alarms::Judgement judgement);
 
 void append(Frame& frame, const Entry& entry);

@@ -1,18 +1,19 @@
 // HTTP responses, without a socket: the console's files, the documents of the base and of each of
 // its cars, layouts.
-//   in     a request: method, target, the headers that matter, its body; documents of the moment
-//   out    status, headers, bytes; or that it is the socket's, who comes, and to which car
+//   in     a request: method, target, headers, body; present documents
+//   out    status, headers, bytes; or an upgrade to a WebSocket with the client's identity and car
 //   invariants
 //          every answer carries the policy that keeps foreign scripts out; a refusal is one line of
-//          text that says why
-//          ?car=NUMBER names the car that is meant; without it the first is. A number that is not
-//          served here is refused: nobody gets another car than the one he asked for
-//          a token comes in a header, or once in the body of a login, which is answered with a
-//          session's cookie; never in an address, where histories and logs would keep it
-//   bound  kLayoutsMax layouts of kLayoutBytes; the folder keeps them, without one they last as
-//          long as the base runs
-//   errors 204 nobody has stored that layout, or there is no such document here; 400 no layout, 401
-//          token, 403 origin, host or role, 404, 405, 413, 507 no room
+//          text with the reason
+//          ?car=NUMBER selects the car; without it, the first one. A number that this base does not
+//          serve is refused, so that no client gets another car than requested
+//          a token comes in a header, or once in the body of a login, whose answer sets the session
+//          cookie; never in an address, which histories and logs keep. Only a port of another
+//          protocol takes it as its path
+//   bound  kLayoutsMax layouts of kLayoutBytes, stored in the folder; without a folder, in memory
+//          until the base ends
+//   errors 204 no such layout stored, or no such document here; 400 not a layout, 401 token, 403
+//          origin, host or role, 404, 405, 413, 507 no room
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -38,9 +39,9 @@ namespace pitwall::publishers::web {
 struct HttpQuestion {
   std::string_view method{}, target{};
   std::string_view host{}, origin{}, authorization{}, accept_encoding{};
-  std::string_view subprotocols{};  // that are offered for a WebSocket: "a, b"
+  std::string_view subprotocols{};  // offered for a WebSocket: "a, b"
   std::string_view cookie{}, forwarded_proto{};
-  bool upgrade = false;  // asks for a WebSocket
+  bool upgrade = false;  // to a WebSocket
   std::string_view body{};
 };
 
@@ -53,40 +54,40 @@ struct HttpAnswer {
   std::string policy;               // Content-Security-Policy
   std::string set_cookie;           // of a login
   std::string_view allow;           // of a 405
-  std::optional<Identity> visitor;  // set: to be upgraded
-  std::size_t car = 0;              // that the visitor comes to, in the order of the cars
-  std::string_view subprotocol{};   // that the socket speaks; empty: the console's own
+  std::optional<Identity> visitor;  // not empty: upgrade this client to a WebSocket
+  std::size_t car = 0;              // of the visitor, in the order of the cars
+  std::string_view subprotocol{};   // of the WebSocket; empty: the console's own
 };
 
-// By path: JSON or nothing.
+// JSON texts by path; an empty text is answered as "no such document".
 using Documents = std::map<std::string, std::string, std::less<>>;
 
 struct ServedCar {
   int number = 0;
-  Documents documents{};  // those of this car
+  Documents documents{};  // of this car
 };
 
-// A document of the moment.
+// Document with its content type.
 struct Shown {
   std::string text;
-  std::string_view type;  // of content, of static life
+  std::string_view type;  // of the content; static lifetime
 };
 
 struct HttpConfig {
   AccessRules access{};
   std::filesystem::path console{};
-  Documents documents{};          // whatever the car
-  std::vector<ServedCar> cars{};  // empty: one, and its number does not matter
+  Documents documents{};          // for all cars
+  std::vector<ServedCar> cars{};  // empty: one car, whose number is not checked
   std::string layouts{};          // a folder; empty: in memory
-  // Documents that are made when they are asked for, by the thread that answers.
+  // Documents that are made per request, by the thread that answers.
   std::map<std::string, std::function<Shown()>, std::less<>> made{};
-  // Not empty: this is the port of another protocol, a WebSocket that speaks one of these, at / or,
-  // with a token, at /TOKEN.
+  // Not empty: this is the port of another protocol, a WebSocket with one of these subprotocols, at
+  // / or, with a token, at /TOKEN.
   std::vector<std::string_view> subprotocols{};
   QueueLimits queue{};                // of each client
-  std::shared_ptr<ssl_ctx_st> tls{};  // set: TLS and nothing else
+  std::shared_ptr<ssl_ctx_st> tls{};  // not null: TLS only
   std::function<UtcTime()> utc = transport::utc_now;
-  // What a person at the base should know; called by the thread that answers.
+  // Log line for the operator of the base; called by the thread that answers.
   std::function<void(const std::string&)> say = [](const std::string&) {};
 };
 
@@ -98,10 +99,10 @@ class HttpResponder {
 
   explicit HttpResponder(HttpConfig config);
   HttpAnswer answer(const HttpQuestion& question);
-  // From now on, for every car.
+  // Adds or replaces a document for all cars.
   void show(const std::string& path, Shown document);
   const HttpConfig& config() const { return config_; }
-  // Of the server that it answers for: part of the cookie's name.
+  // Sets the port of the server, which is part of the cookie's name.
   void serve_at(std::uint16_t port) { port_ = port; }
 
  private:
@@ -136,7 +137,7 @@ class HttpResponder {
 };
 
 HttpAnswer refusal(unsigned status, std::string_view why);
-// The value of "name=" after the question mark; percent signs are not undone: tokens have none.
+// Value of "name=" in the query; percent escapes are not decoded, because tokens have none.
 std::string_view query_value(std::string_view target, std::string_view name);
 
 }  // namespace pitwall::publishers::web

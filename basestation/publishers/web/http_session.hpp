@@ -1,5 +1,5 @@
-// One connection while it speaks HTTP, until it ends or becomes a console's socket. For
-// web_server.cpp alone; it brings in Boost.Beast.
+// HTTP session of one connection, until it ends or becomes the WebSocket of a console. Only for
+// web_server.cpp, because it includes Boost.Beast.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -59,7 +59,7 @@ class WebServer::Engine::HttpSession : public std::enable_shared_from_this<HttpS
   }
 
  private:
-  // Who speaks plain HTTP to a port of TLS is told so in plain HTTP.
+  // A client that sends plain HTTP to a TLS port gets the reason in plain HTTP.
   void no_tls(const error_code& failed) {
     engine_.count([](WebCounters& c) { ++c.refused_tls; });
     if (failed.category() != asio::error::get_ssl_category() ||

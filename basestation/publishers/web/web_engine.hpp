@@ -1,7 +1,7 @@
-// Implementation of web_server.cpp: what belongs to the web thread, and one console's socket. For
-// that file alone; it brings in Boost.Beast.
+// Implementation of web_server.cpp: state of the web thread, and the WebSocket of one console. Only
+// for that file, because it includes Boost.Beast.
 //   invariants
-//          news, posts and counters are under the lock; all else is the web thread's own
+//          news, posts and counters are under the lock; all else belongs to the web thread
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -42,12 +42,12 @@ using Tcp = asio::ip::tcp;
 inline constexpr std::size_t kHeaderMax = 16 * 1'024;
 inline constexpr auto kHttpPatience = std::chrono::seconds(15);
 inline constexpr auto kTending = std::chrono::seconds(1);
-inline constexpr Duration kSayingAgain = seconds(10);  // of the same cause
-// Without a descriptor: until the next try.
+inline constexpr Duration kSayingAgain = seconds(10);  // between log lines of the same cause
+// Pause of accept() when no descriptor is free.
 inline constexpr auto kAcceptPause = std::chrono::milliseconds(50);
-inline constexpr auto kSilence = std::chrono::seconds(60);  // of a socket, pings unanswered
+inline constexpr auto kSilence = std::chrono::seconds(60);  // of a socket, with unanswered pings
 inline constexpr auto kClosing = std::chrono::seconds(2);
-inline constexpr int kSendBuffer = 64 * 1'024;  // what waits is to wait where it can be dropped
+inline constexpr int kSendBuffer = 64 * 1'024;  // small: messages wait in the droppable queue
 inline constexpr bool kCompressed = false;      // no permessage-deflate
 inline constexpr std::size_t kNewsMax = 8'192;
 
@@ -62,26 +62,26 @@ struct WebServer::Engine {
     responder.serve_at(acceptor.local_endpoint().port());
     if (responder.config().tls == nullptr) return;
     SSL_CTX* const tls = responder.config().tls.get();
-    SSL_CTX_up_ref(tls);  // the context gives up one
+    SSL_CTX_up_ref(tls);  // the asio context releases one reference
     context.emplace(tls);
   }
 
   void run();
   void accept();
   void accepted(Tcp::socket socket);
-  // Why this one cannot be served; empty: it can. Who came just now has yet to take its memory.
+  // Reason to refuse this connection, or empty. Counts the memory that the newest ones still need.
   std::string no_room_for(const Tcp::socket& socket) const;
   void refuse(std::uint64_t WebCounters::*counter, const std::string& why);
-  // Once a second: tokens that hold no longer, memory that runs short.
+  // Once a second: revoked tokens, shortage of memory.
   void tend();
   void drop_revoked();
-  void make_room();     // where memory runs short
-  void drop_largest();  // of viewers
-  void drop_newest();   // of viewers, while an allocation has failed
+  void make_room();     // on a shortage of memory
+  void drop_largest();  // the viewer with most unread
+  void drop_newest();   // the newest viewer, while an allocation has failed
   void publish(std::size_t car, Role by, ClientNews news);
   void call();
   void deliver();
-  // 0: no place is left for somebody of that role.
+  // Returns 0 if no place is free for this role.
   ClientId free_number(Role role);
   template <class Change>
   void count(const Change& change) {
@@ -91,30 +91,30 @@ struct WebServer::Engine {
 
   struct Post {
     ClientSet to;
-    SharedMessage message;  // null: a request of these clients was handled
+    SharedMessage message;  // nullptr: one request of these clients was handled
   };
   struct Door {
-    std::deque<ClientNews> operators, viewers;  // news of them
-    ClientSet leaving;               // whose end is among the news: no number for another yet
+    std::deque<ClientNews> operators, viewers;  // news, by role
+    ClientSet leaving;               // kLeft still waits among the news: number not reusable yet
     transport::FileDescriptor bell;  // never changes
   };
   mutable std::mutex lock;
   std::array<Door, kCars> doors;  // by car; from here on under the lock
   std::vector<Post> posts;
-  std::map<std::string, Shown> shown;  // not yet at the responder
+  std::map<std::string, Shown> shown;  // documents not yet given to the responder
   bool post_under_way = false;
   WebCounters counters;
   std::map<std::pair<ClientId, std::uint32_t>, std::uint64_t> drops;  // by client and tag
 
-  std::size_t connections = 0;                       // the rest belongs to the web thread
+  std::size_t connections = 0;                       // from here on for the web thread only
   std::size_t newcomers = 0, earlier_newcomers = 0;  // accepted in this and in the last kTending
   ClientId newest = kLastClient;
   WaitingRoom::Connection newest_connection = 0;
   WaitingRoom waiting;
   std::map<WaitingRoom::Connection, std::weak_ptr<HttpSession>> sessions;
-  std::string last_refusal;  // of what was refused last, and when
+  std::string last_refusal;  // cause of the newest refusal
   std::optional<Instant> last_refusal_at;
-  // After what the sessions in its handlers refer to, so that it goes before.
+  // Declared after the members that sessions in its handlers use, so that it is destroyed first.
   asio::io_context io{1};
   Tcp::acceptor acceptor;
   HttpResponder responder;
@@ -124,7 +124,7 @@ struct WebServer::Engine {
   std::thread thread;
 };
 
-// One console. Lives while an operation of it is under way or the engine has it.
+// WebSocket of one console. It lives while an operation is pending or the engine holds it.
 class WebServer::Engine::Socket : public std::enable_shared_from_this<Socket> {
  public:
   Socket(Engine& engine, Wire&& stream, ClientId client, HttpAnswer answer)
@@ -206,7 +206,7 @@ class WebServer::Engine::Socket : public std::enable_shared_from_this<Socket> {
 
  private:
   void read() {
-    if (unhandled_ >= kUnhandled || reading_) return;  // handled() goes on
+    if (unhandled_ >= kUnhandled || reading_) return;  // handled() continues reading
     reading_ = true;
     const Duration rest = pace_.rest(transport::wall_now());
     if (rest > Duration{}) {
@@ -254,7 +254,7 @@ class WebServer::Engine::Socket : public std::enable_shared_from_this<Socket> {
     stream_.async_write(parts_of_current(), std::move(done));
   }
 
-  // Two of every message, so that one kind of write serves all; empty ones write nothing.
+  // Always two buffers, so that one kind of write serves all messages; an empty one writes nothing.
   std::array<asio::const_buffer, 2> parts_of_current() {
     if (const auto& bytes = current_->binary) {
       return {asio::buffer(bytes->head.data(), bytes->head_bytes),
@@ -282,7 +282,7 @@ class WebServer::Engine::Socket : public std::enable_shared_from_this<Socket> {
   Pace pace_;
   ClientId client_;
   Identity who_;
-  std::size_t car_;  // that it came to
+  std::size_t car_;  // that the client has selected
   std::string_view subprotocol_;
   beast::flat_buffer received_;
   ClientQueue queue_;

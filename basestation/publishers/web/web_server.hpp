@@ -1,19 +1,20 @@
-// The sockets of the console: HTTP and WebSocket on a thread of its own, so that no browser ever
-// delays what comes from the car.
-//   in     messages for clients; documents, those of the start and those of the moment
-//   out    who joined, who left, what they said
+// Web server of the consoles: HTTP and WebSocket on a thread of its own, so that no browser delays
+// data from the car.
+//   in     messages for clients; documents, from the start and later
+//   out    clients that joined or left, and their messages
 //   invariants
-//          between this thread and the caller's stand two bounded queues; neither side waits for
-//          the other. A client whose requests are not handled yet is not read on: its own sending
-//          stops. A client that does not read: client_queue.hpp
-//          a console belongs to the car it came to, until it leaves: what it says is told to that
-//          car's reader only
-//          malformed HTTP is answered 400, 413 or 431 and closed; a text that is no UTF-8, too long
-//          or broken framing closes that socket with the code of RFC 6455; the others go on
-//          who has shown no token costs no place to who has: connections that are no console wait
-//          in a room of their own, see admission/waiting_room.hpp
+//          two bounded queues connect this thread and the caller's; neither side waits for the
+//          other. A client with too many unhandled requests is not read further, so that TCP flow
+//          control stops it. A client that does not read: client_queue.hpp
+//          a console belongs to the car that it has selected, until it leaves: its messages go to
+//          the reader of that car only
+//          malformed HTTP is answered 400, 413 or 431 and closed; a text that is not UTF-8, too
+//          long a message or broken framing closes that socket with the code of RFC 6455; other
+//          sockets are not affected
+//          clients without a token take no place from clients with one: connections that are not
+//          consoles yet have limits of their own, see admission/waiting_room.hpp
 //   bound  kCars cars; kConnections in all, consoles 16 to 254 of them, the last kReserved places
-//          for operators; a client is heard as fast as admission/pace.hpp says
+//          for operators; a client is read at the rate of admission/pace.hpp
 //   errors start(): Problem with the address as place; afterwards counters
 //   source RFC 9112, RFC 6455, by Boost.Beast
 // SPDX-License-Identifier: Apache-2.0
@@ -40,10 +41,10 @@ struct ClientNews {
   Kind kind = Kind::kJoined;
   ClientId client = 0;
   Identity who{};      // kJoined
-  std::string text{};  // kSaid, kBinary
+  std::string text{};  // kText, kBinary
 };
 
-// Bytes that a client lost because it did not read.
+// Tagged bytes that a client lost because it did not read.
 struct Drop {
   ClientId client = 0;
   std::uint32_t tag = 0;
@@ -51,27 +52,27 @@ struct Drop {
 };
 
 struct WebCounters {
-  std::uint64_t connections = 0, refused_room = 0;  // more than kConnections at once
-  std::uint64_t closed_waiting = 0;                 // silent for longest when others came
+  std::uint64_t connections = 0, refused_room = 0;  // refused: more than kConnections at once
+  std::uint64_t closed_waiting = 0;                 // longest silent when new ones came
   std::uint64_t refused_places = 0;                 // all places of consoles were taken
   std::uint64_t refused_short = 0;                  // memory or descriptors ran short
   std::uint64_t closed_short = 0;                   // memory ran short: most unread, or newest
-  std::uint64_t closed_revoked = 0;                 // their token holds no longer
-  std::uint64_t refused_tls = 0;                    // no TLS at a port of TLS, or another failure
+  std::uint64_t closed_revoked = 0;                 // their token is no longer valid
+  std::uint64_t refused_tls = 0;                    // no TLS at a TLS port, or another failure
   std::uint64_t bad_http = 0, refused_http = 0;     // malformed; answered 4xx
   std::uint64_t joined = 0, left = 0;
   std::uint64_t texts_received = 0, messages_sent = 0, bytes_sent = 0;
-  std::uint64_t pictures_dropped = 0;  // of clients that did not read, all together
-  std::uint64_t closed_unread = 0;     // that left too much unread
+  std::uint64_t pictures_dropped = 0;  // of clients that did not read, in total
+  std::uint64_t closed_unread = 0;     // too much unread
   std::uint64_t posts_dropped = 0;     // this thread did not keep up with the caller
-  std::uint64_t faults = 0;            // exceptions of the libraries, survived
+  std::uint64_t faults = 0;            // exceptions of the libraries, caught
 };
 
 class WebServer {
  public:
   static constexpr std::size_t kConnections = 400;
-  static constexpr std::size_t kReserved = 32;   // of the places for consoles: for operators
-  static constexpr std::size_t kUnhandled = 16;  // requests of one client under way
+  static constexpr std::size_t kReserved = 32;   // places of consoles for operators only
+  static constexpr std::size_t kUnhandled = 16;  // pending requests of one client
   static constexpr std::size_t kCars = 4;
   static constexpr std::size_t kPostsMax = 4'096;  // messages that wait for the web thread
 
@@ -82,15 +83,15 @@ class WebServer {
   WebServer& operator=(const WebServer&) = delete;
 
   transport::UdpAddress local() const;
-  // Of the consoles of one car, in the order of HttpConfig::cars: readable while news wait. Those
+  // For the consoles of one car, in the order of HttpConfig::cars: readable while news wait. News
   // of operators come before those of viewers; those of one client stay in order.
   int fd(std::size_t car = 0) const;
   std::optional<ClientNews> next_news(std::size_t car = 0);
-  // A document that replaces the one of this path, from now on.
+  // Replaces the document of this path, or adds one.
   void show(const std::string& path, Shown document);
   void send(const ClientSet& to, SharedMessage message);
   WebCounters counters() const;
-  // What tagged bytes were lost since this was asked for last.
+  // Tagged bytes lost since the last call.
   std::vector<Drop> take_drops();
 
  private:

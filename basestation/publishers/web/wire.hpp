@@ -1,5 +1,5 @@
-// One connection as the web server speaks over it: TCP, or TLS over TCP. One type, so that HTTP and
-// WebSocket are compiled once for both.
+// Stream of one connection of the web server: TCP, or TLS over TCP. It is one type, so that HTTP
+// and WebSocket are compiled once for both.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -46,7 +46,7 @@ class Wire {
   std::unique_ptr<Tls> tls_;
 };
 
-// How a WebSocket over it ends: found by Boost.Beast.
+// End of a WebSocket over a Wire; Boost.Beast finds these by argument-dependent lookup.
 template <class Done>
 void async_teardown(boost::beast::role_type role, Wire& wire, Done&& done) {
   if (wire.tls() != nullptr) return wire.tls()->async_shutdown(std::forward<Done>(done));

@@ -1,6 +1,6 @@
-// The check list before a run as the text of PROTOCOL.md.
-//   in     the checks in their order, when they were made
-//   out    one JSON object; it is a go where all of them are
+// Checklist before a run as the text of PROTOCOL.md.
+//   in     the checks in their order, and their time
+//   out    one JSON object; it is a go if all checks are
 //   units  milliseconds on the base's clock
 // SPDX-License-Identifier: Apache-2.0
 #pragma once

@@ -1,9 +1,9 @@
 // Inputs of the alarm evaluator as texts of a recording.
-//   in     inputs of a Evaluator; the settings that are in force
+//   in     inputs of an Evaluator; the settings in force
 //   out    one JSON object each: {"type": "judge" (settings) or "input", "time_ms", "what", ...}
 //   invariants
-//          a text that is read gives the very input that was written, to the bit
-//   errors read: Problem for a text of no known input
+//          reading a text gives exactly the input that was written, to the bit
+//   errors read: Problem for a text that is not a known input
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -18,7 +18,7 @@
 namespace pitwall::service {
 
 struct EvaluatorSettings {
-  bool begins = false;  // a process begins to judge: nothing of what was judged before holds
+  bool begins = false;  // a new process begins to evaluate: earlier alarm states do not hold
   alarms::EvaluatorConfig config;  // without a course
 };
 

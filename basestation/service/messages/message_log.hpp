@@ -24,13 +24,13 @@ class MessageLog {
   static constexpr std::size_t kLines = 200;
   using Sink = std::function<void(std::string_view type, std::string_view text, Instant at)>;
 
-  // It lives as long as the log.
+  // The sink must outlive the log.
   void subscribe(Sink sink) { sinks_.push_back(std::move(sink)); }
 
-  // Replaces the newest of its type.
+  // Replaces the newest text of this type.
   void set_state(std::string_view type, std::string text, Instant at);
   void add_line(std::string_view type, std::string text, Instant at);
-  // Given to the subscribers and not kept.
+  // Gives the text to the subscribers without keeping it.
   void pass(std::string_view type, std::string_view text, Instant at) const;
   void clear();
 

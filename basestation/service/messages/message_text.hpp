@@ -1,7 +1,7 @@
 // Messages of the base to its consoles, as the texts of PROTOCOL.md.
 //   in     alarms, authority, tickets, audit lines, drafts, fuel, events, figures of the link
 //   out    one JSON object each, with its type
-//   units  milliseconds on the base's clock, as PROTOCOL.md has them
+//   units  milliseconds on the base's clock, as PROTOCOL.md describes them
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -18,23 +18,23 @@
 
 namespace pitwall::service {
 
-// Of car and base, as consoles show it.
+// Identity of car and base for consoles.
 struct CarIdentity {
   int car = 0;
   std::string name{}, mode = "NONE", alarm_config{};
-  bool second_person = false;  // an override takes one
+  bool second_person = false;  // an override needs one
 
   bool operator==(const CarIdentity&) const = default;
 };
 
-// Of car and base, without the client's role.
+// Identity of car and base, without the role of the client.
 std::string hello_text(const CarIdentity& identity, Instant now);
 std::string alarms_text(const alarms::Engine& engine);
 std::string alarm_event_text(const alarms::AlarmEvent& event);
 std::string authority_text(const command::AuthorityHandover& talk,
                            const telemetry::AuthorityRegister& authority, Instant now);
 std::string ticket_text(const command::Ticket& ticket);
-// None: the car is not stopped.
+// nullopt: the car is not stopped.
 std::string stop_text(const std::optional<command::StoppedCar>& stopped);
 std::string audit_text(const command::AuditLine& line);
 std::string notice_text(const alarms::Notice& notice);

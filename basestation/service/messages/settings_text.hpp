@@ -1,7 +1,7 @@
 // Settings and operator entries, as the texts `settings` and `expected` of PROTOCOL.md.
-//   in     the settings editor, the alarms in force; what people said
+//   in     the settings editor, the alarms in force; entries of operators
 //   out    one JSON object each
-//   units  seconds for delays, else as the field of the alarm has them
+//   units  seconds for delays, otherwise the unit of the alarm's field
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -14,11 +14,11 @@
 
 namespace pitwall::service {
 
-// `unreadable`: the file that should have been read, as long as it is the old one.
+// `unreadable`: the error of the settings file, as long as the file is not replaced.
 std::string settings_text(const command::SettingsEditor& editor,
                           const alarms::AlarmSettings& alarms,
                           const std::optional<Problem>& unreadable = {});
-// `fuel_left_l`: of what was filled in, as it is reckoned now.
+// `fuel_left_l`: the present estimate of the fuel that was entered.
 std::string expected_text(const command::OperatorEntries& entries, double fuel_left_l, Instant now);
 
 // "settings file unreadable: FILE:3:5: ...; built-in limits in force"

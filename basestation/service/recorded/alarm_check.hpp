@@ -1,12 +1,12 @@
-// Judges a recording again and holds the alarms against those that were told then.
+// Check of a recording: evaluates the alarms again and compares them with the recorded ones.
 //   in     a folder of segments
-//   out    how many lists and lines of alarms were compared, which differ
+//   out    the number of lists and lines of alarms that were compared, and the differences
 //   invariants
-//          what a base has recorded it judges again to the same texts, byte for byte: the same
-//          states and inputs, in the same order, at the same times. Each process that recorded is
-//          judged on its own clock, with the settings that it had
-//   errors Problem where there is no segment; segments that cannot be read are told
-//   cost   the grid of the Evaluator: some seconds for each hour
+//          a recording of a base evaluates to the same texts, byte for byte: the same states and
+//          inputs, in the same order, at the same times. Each process that recorded is evaluated
+//          on its own clock, with its own settings
+//   errors Problem if there is no segment; segments that cannot be read are reported in `say`
+//   cost   the grid of the Evaluator: some seconds for each recorded hour
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -33,8 +33,8 @@ class AlarmCheck : public replay::Listener {
   std::uint64_t lists() const { return lists_; }
   std::uint64_t lines() const { return lines_; }
   std::uint64_t different() const { return different_; }
-  const std::vector<std::string>& differences() const { return differences_; }  // the first
-  // No base of ours that records what it judges by.
+  const std::vector<std::string>& differences() const { return differences_; }  // at most kListed
+  // False if the recording has no inputs of the evaluator.
   bool judged() const { return evaluator_.has_value(); }
   const alarms::Evaluator& watch() const { return *evaluator_; }
 
@@ -48,7 +48,7 @@ class AlarmCheck : public replay::Listener {
   std::vector<std::string> differences_;
 };
 
-// The whole folder. Lines for a person in `say`.
+// Checks the whole folder. `say`: lines for the log.
 Result<AlarmCheck, Problem> check_alarms(const std::string& folder, std::vector<std::string>& say);
 
 }  // namespace pitwall::service

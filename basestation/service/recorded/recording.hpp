@@ -2,11 +2,11 @@
 // and read back into the service.
 //   in     the folder of the recordings, the metadata of the run; the car's service
 //   out    the recorder, which keeps everything, with the very messages that consoles get; lines
-//          for the log, by `say`; fields of the base that tell how the recording goes
+//          for the log, by `say`; fields of the base that show the state of the recording
 //   invariants
 //          the inputs of the alarm evaluator that are not vehicle state are recorded too, so that
 //          check_alarms() computes the same alarm list from the recording
-//   errors Problem where the folder cannot be made or written
+//   errors Problem if the folder cannot be created or written
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -19,7 +19,7 @@
 
 namespace pitwall::service {
 
-// Of the base that runs. The file of limits and alarms goes in as its hash.
+// Metadata of the running base. The file of limits and alarms is included as its hash.
 recording::Metadata run_metadata(int car, const std::string& name,
                                  const std::string& judgement_file);
 

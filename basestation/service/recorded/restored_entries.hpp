@@ -1,12 +1,12 @@
-// Operator entries of before a base was killed, restored from its recording: the announced round
-// speed, the flag that was relayed, the fuel that was filled in.
-//   in     texts `expected` and states of the car, oldest first, with times on the clock of now
-//   out    the same entries, with who made them and when; the fuel of them that must be left
+// Operator entries from before a base was killed, restored from its recording: the announced round
+// speed, the relayed flag, the fuel in the tank.
+//   in     texts `expected` and states of the car, oldest first, with times on the present clock
+//   out    the same entries, with author and time; how much of their fuel is left
 //   invariants
-//          fuel is reckoned on through the states that were recorded, as the base that was killed
-//          did; from the last of them to now the engine is taken to have burnt on as it did then:
-//          what nobody heard was burnt, not saved
-//   errors a text that cannot be read says nothing
+//          fuel use is computed over the recorded states as in the killed base. From the last of
+//          them to now, the engine is assumed to have used fuel at the last known rate: time
+//          without samples counts as driving, not as standing
+//   errors a text that cannot be read is ignored
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -30,7 +30,7 @@ class EntriesReader {
   void expected(std::string_view json, Instant at);
   void state(const telemetry::Snapshot& state, telemetry::GroupSet groups);
 
-  std::optional<RestoredEntries> result(Instant now) const;  // none: nobody had entered anything
+  std::optional<RestoredEntries> result(Instant now) const;  // nullopt: no entries
 
  private:
   std::optional<command::OperatorEntries> entries_;

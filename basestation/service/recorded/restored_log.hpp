@@ -1,4 +1,4 @@
-// Restored log of a base that was killed: the listener of replay::read_back().
+// Restored logs and state of a base that was killed: the listener of replay::read_back().
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -18,7 +18,7 @@ class LogReader : public replay::Listener {
     car_.restore(state, groups);
     entries_.state(state, groups);
   }
-  // Lines of the logs; how things stand is said by the base that runs now.
+  // Restores lines of logs only; the running base publishes its own states.
   void text(recorder::Topic topic, Instant at, std::string_view json) override {
     using enum recorder::Topic;
     const bool line = topic == kCommand || topic == kAlarmEvent || topic == kAudit ||

@@ -1,10 +1,9 @@
-// Derived fields, computed from those of the car: one pass over the vehicle state.
-//   in     the vehicle state, what is known beside it, books that remember (fuel, corrections,
-//          link)
-//   out    a view of each base field: as old as the oldest value that it needed, and no better
+// Derived fields, computed from those of the car in one pass over the vehicle state.
+//   in     the vehicle state, link and base figures, monitors with memory (fuel, corrections, link)
+//   out    a view of each base field, as old as the oldest value that it needs, and no better
 //   invariants
-//          a value that needs a field nobody ever told is never there; one of a stale field is
-//          stale. Judged fields keep their last value like the car's
+//          a value that needs a field which was never received is absent; one from a stale field is
+//          stale. Fields with a judgement keep their last value like the car's
 //   cost   about forty views of the vehicle state; no allocation
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
@@ -25,16 +24,16 @@ struct DeriveParams {
   FuelPlan fuel;
 };
 
-// What the base remembers of earlier values.
+// Monitors that keep a memory of earlier values.
 struct MonitorState {
   FuelBook fuel;
   CorrectionWatch corrections;
   LinkWatch link;
   AttemptBook attempts;
 
-  // Once for each new sample of the groups they follow, and once each step of the grid.
+  // Processes each new sample of the groups that the monitors need; call it each step of the grid.
   void step(const VehicleState& vehicle, const Known& known, Instant now);
-  // Once each step of the grid; without a course whole laps are counted and gaps are not known.
+  // Call it each step of the grid; without a course, whole laps are counted and gaps are unknown.
   void step_race(const VehicleState& vehicle, const FuelPlan& plan, const Course* course,
                  Instant now);
   FuelLeft fuel_left(const FuelPlan& plan) const;

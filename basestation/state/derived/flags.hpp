@@ -1,12 +1,13 @@
-// Comparison of the flags of race control, car and pit wall. The paper's race control once set 125
-// mph instead of 115.
-//   in     flags and round speed as race control, the car and the pit wall have them; unset where
-//          somebody has said none
-//   out    conflicts now; how long one must last before it is one is the alarm's on-delay
+// Comparison of the flags of race control, car and pit wall. In the paper, race control once set
+// 125 mph instead of 115.
+//   in     flags and round speed of race control, the car and the pit wall; unset for each of them
+//          that gives none
+//   out    whether they conflict now; the on-delay of the alarm sets how long this must last
 //   invariants
-//          two that are known and differ are a conflict. A car that acts on a more restrictive flag
-//          than race control's because the pit wall relays it is none of the car's: the pit wall
-//          differs then. A car that wants to go faster than the round's speed is one
+//          two known and different values are a conflict. If the pit wall relays a more restrictive
+//          flag than race control's and the car acts on it, the conflict is between pit wall and
+//          race control, not with the car. A target speed of the car above the round speed is a
+//          conflict too
 //   units  flags as telemetry::kTrackFlags and kVehicleFlags; m/s
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
@@ -30,7 +31,8 @@ struct RoundSpeeds {
 };
 bool round_speed_conflict(const RoundSpeeds& speeds);
 
-// Which of two flags binds the car more; RED, then black, yellow, green. Unknown flags bind most.
+// Rank of a flag, higher for a more restrictive one. In falling order: unknown, RED, ORANGE,
+// CHEQUERED, YELLOW, none, GREEN, WAVING GREEN.
 int restriction_of_track_flag(double flag);
 
 }  // namespace pitwall::state

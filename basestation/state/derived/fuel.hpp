@@ -31,15 +31,15 @@ enum class FuelState : std::uint8_t { kUnknown, kEnough, kNoAttempt, kHomeNow };
 struct FuelLeft {
   double level_l = kUnset, per_lap_l = kUnset, laps = kUnset, attempts = kUnset;
   FuelState state = FuelState::kUnknown;
-  bool measured = false;   // else by the plan's guess
-  bool estimated = false;  // the level is reckoned, not measured
+  bool measured = false;   // the consumption; false: it is the guess of the plan
+  bool estimated = false;  // the level is estimated, not measured
 };
 
 class FuelBook {
  public:
   static constexpr std::size_t kLaps = 3;
 
-  // `used_l`: since the start, where the car counts it; finer than the level.
+  // `used_l`: since the start, if the car counts it; finer than the level.
   void receive(double level_l, double used_l, double lap);
   FuelLeft left(const FuelPlan& plan) const;
 

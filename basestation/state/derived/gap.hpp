@@ -1,10 +1,11 @@
 // Gaps to the opponents along the track, bumper to bumper.
-//   in     own station and speed, those of each opponent that is known now, length of a lap
-//   out    the nearest one ahead and the nearest one behind; unset where there is none
+//   in     station and speed of the own car and of each opponent that is known now, length of a lap
+//   out    the gap to the nearest one ahead and to the nearest one behind; unset if there is none
 //   invariants
-//          stations are compared around the lap the short way. Whoever overlaps is both ahead and
-//          behind by nothing: a gap of zero. Without the length of the lap nobody knows a gap
-//   units  m, m/s; closing is positive while the car behind of the two is the faster one
+//          the difference of two stations is taken the short way around the lap. A car that
+//          overlaps is both ahead and behind with a gap of zero. Without the length of the lap all
+//          gaps are unset
+//   units  m, m/s; closing is positive while the car behind is the faster of the two
 //   source length of the AV-21: 192 in
 // SPDX-License-Identifier: Apache-2.0
 #pragma once

@@ -1,11 +1,11 @@
 // Estimated position of a car while nothing is received.
-//   in     its last known place and speed, the track
-//   out    a pose further along the track, and the radius in which the car is; none while its place
-//          is known, after kGhostFor, and where there never was a place
+//   in     its last known position and speed, the track
+//   out    a pose further along the track, and the radius in which the car is; nullopt before
+//          kGhostAfter, after kGhostFor, and if no position was ever known
 //   invariants
-//          the radius begins at the position's sigma and grows with what the car may have done
-//          meanwhile: an acceleration of kUnknownAccel either way
-//          without a track it goes straight on
+//          the radius begins at the position's sigma and grows with the unknown acceleration since
+//          then, up to kUnknownAccel_mps2 either way
+//          without a track the car is assumed to go straight on
 //   frames Map
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
@@ -19,7 +19,7 @@
 namespace pitwall::state {
 
 inline constexpr Duration kGhostAfter = milliseconds(500), kGhostFor = seconds(10);
-inline constexpr double kUnknownAccel_mps2 = 5.0;  // a controlled stop
+inline constexpr double kUnknownAccel_mps2 = 5.0;  // that of a controlled stop
 
 struct LastPlace {
   double x_m = kUnset, y_m = kUnset, yaw_rad = kUnset, speed_mps = kUnset, sigma_m = kUnset;
@@ -28,7 +28,7 @@ struct LastPlace {
 struct Ghost {
   double x_m = kUnset, y_m = kUnset, yaw_rad = kUnset, radius_m = kUnset;
 };
-// `age` of the place: since the car was there.
+// `age`: time since the car was at that position.
 std::optional<Ghost> ghost_of(const LastPlace& last, Duration age, const Course* course);
 
 }  // namespace pitwall::state

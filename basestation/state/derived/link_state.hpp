@@ -1,11 +1,12 @@
 // State of the downlink: good, degraded or lost, from measured figures.
-//   in     the newest authentic packet, loss and round trip of the last seconds
+//   in     the time of the newest authentic packet, loss and round trip of the last seconds
 //   out    state, and since when
 //   invariants
-//          lost: no packet for kLostAfter, 20 of them, so that a console shows it within half a
-//          second. Degraded: loss of the last seconds above kLossMax in one direction, or a round
-//          trip above kRoundTripMax. From degraded to good only after kGoodFor of neither; from
-//          lost with the first packet to degraded. A car that was never heard has none of these
+//          lost: no packet for kLostAfter, which is 20 packet periods, so that a console shows it
+//          within half a second. Degraded: loss of the last seconds above kLossMax in one
+//          direction, or a round trip above kRoundTripMax_ms. From degraded to good after kGoodFor
+//          without either; from lost to degraded with the first packet. Before the first packet of
+//          the car the state is kNone
 //   units  loss 0 .. 1
 // SPDX-License-Identifier: Apache-2.0
 #pragma once

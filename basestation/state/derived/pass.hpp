@@ -1,5 +1,5 @@
-// One pass over the vehicle state at one moment: what the parts of derive() read, and where they
-// put it.
+// Pass over the vehicle state at one moment: access of the parts of derive() to their inputs and
+// outputs.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -18,12 +18,12 @@ struct Pass {
 
   FieldView see(telemetry::FieldIndex index) const { return vehicle.view(index, now); }
   double value(telemetry::FieldIndex index) const { return see(index).value; }
-  // Kept as it was last told, or unset once it is stale.
+  // The last known value, or unset if it is stale.
   double usable(telemetry::FieldIndex index) const {
     const FieldView view = see(index);
     return state::usable(view) ? view.value : kUnset;
   }
-  // A value that was made of these: as old as the oldest of those that there are.
+  // Stores a value that was computed from these fields: as old as the oldest known one of them.
   void put(BaseField at, double value, std::initializer_list<telemetry::FieldIndex> made_of) const {
     FieldView made{.value = value, .age = {}, .quality = Quality::kFresh};
     for (const telemetry::FieldIndex index : made_of) {

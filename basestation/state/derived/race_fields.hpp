@@ -1,8 +1,9 @@
-// The race among the base's own fields: roles, attempts, gaps, the flag that the base relays.
+// Race fields of the base: roles, attempts, gaps, the flag that the base relays.
 //   invariants
-//          a gap is to opponents that are known now; where none is, to the one that was known last,
-//          as old as that. The attempt is as old as the flags that it is counted by
-//   units  as own_field.hpp has them
+//          gaps are to the opponents that are known now; without any, to the last known position of
+//          opponent 1, with the age of that. Number and state of the attempt have the age of the
+//          track flag, its laps that of the lap number
+//   units  as in station_field.hpp
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

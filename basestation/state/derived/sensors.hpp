@@ -1,11 +1,11 @@
-// Rate, gap and latency checks of the sensors. Under load the paper's LiDAR came at 5 Hz instead of
-// 20 with gaps above half a second, while each frame was young.
-//   in     rate, largest gap and latency of each sensor as the car tells them
-//   out    worst rate as a share of the nominal one, largest gap, worst latency as a share of what
-//          is allowed; by sensor and over all
+// Rate, gap and latency checks of the sensors. In the paper, under load, the LiDAR came at 5 Hz
+// instead of 20 with gaps above half a second, although each frame was recent.
+//   in     rate, largest gap and latency of each sensor as the car reports them
+//   out    rate as a share of the nominal one, largest gap, latency as a share of the allowed one;
+//          of one sensor, or the worst of all
 //   invariants
-//          a sensor that never came is not judged: this car does not have it; one that came and is
-//          silent now has the rate 0
+//          a sensor that was never received is not judged: this car does not have it. One that was
+//          received and is silent now has the rate 0
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

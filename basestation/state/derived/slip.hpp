@@ -1,10 +1,10 @@
-// Slip of the driven wheels against the speed of the car. Before the paper's spin the rear wheels
-// were faster than the front ones, and these faster than GPS.
-//   in     speeds of the wheels and of the receivers [m/s]; unset where not known or stale
-//   out    rear - front and rear - GNSS as shares of the latter; unset where one is missing
+// Slip of the driven wheels relative to the speed of the car. Before the spin in the paper, the
+// rear wheels were faster than the front ones, and these faster than GPS.
+//   in     speeds of the wheels and of the receivers [m/s]; unset if unknown or stale
+//   out    rear - front and rear - GNSS as shares of front and GNSS speed; unset if one is missing
 //   invariants
-//          axles are compared by the mean of left and right, which a corner does not split; below
-//          kSlipSpeed_mps the share is 0: at a crawl sensors differ more than wheels
+//          the speed of an axle is the mean of left and right, so that a corner has no effect.
+//          Below kSlipSpeed_mps the share is 0, because sensor errors are larger than the slip
 //   source Saba et al.: the spin, wheel speeds of the second before it
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
@@ -22,7 +22,7 @@ struct WheelSpeeds {
 struct Slip {
   double rear_front = kUnset, rear_gnss = kUnset;
 
-  double worst() const;  // unset where both are
+  double worst() const;  // unset if both are
 };
 Slip slip_of(const WheelSpeeds& wheels, double gnss_mps);
 

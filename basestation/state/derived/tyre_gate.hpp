@@ -1,12 +1,12 @@
 // Tyre temperature required for a speed: a table, not one number, because a cold oval may never
-// warm them to what the highest speed wants.
+// warm the tyres to the temperature of the highest speed.
 //   in     speed [m/s], temperature of the coldest tyre [degC]
-//   out    the least temperature for a speed, the highest speed for a temperature
+//   out    the lowest temperature for a speed, the highest speed for a temperature
 //   invariants
-//          linear between the rows; below the first row nothing is asked, beyond the last its
-//          temperature. Both directions are one relation
+//          linear between the rows; no requirement below the first row; beyond the last row its
+//          temperature. Both directions are the same relation
 //   source Saba et al.: spin above 62.6 m/s (140 mph) at 29 degC, where 79 degC were needed; the
-//          rows between are ours, at the passing competition's speeds of 80 to 125 mph
+//          rows between are our own, at the passing competition's speeds of 80 to 125 mph
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

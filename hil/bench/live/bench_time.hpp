@@ -1,9 +1,9 @@
-// The time of a live run: follows the wall clock, and stands while somebody who takes part in the
-// run is held up by the machine.
-//   in     the file in which it is kept; in a guest the line to a host that follows it
-//   out    the clock of car, guardian and bench, and over the line of the base station
+// Bench time of a live run: follows the wall clock, and is paused while the machine holds up a
+// process of the run.
+//   in     the file in which it is kept; in a guest also the serial line to a host that follows it
+//   out    the clock of car, guardian and bench; through the line, that of the base station
 //   invariants
-//          over the line, the host is at most kBehind back
+//          the host follows through the line with a lag of at most kBehind
 //   errors open(): Problem with the file or the line
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
@@ -21,16 +21,16 @@ class BenchTime {
  public:
   static constexpr Duration kWordEvery = milliseconds(5), kBehind = milliseconds(25);
 
-  // No line: nobody follows it elsewhere.
+  // Empty `line`: no other machine follows this time.
   static Result<BenchTime, Problem> open(const std::string& file, const std::string& line);
-  // None without a file: the run goes by the wall clock. None either where another keeps the
-  // file: then this thread takes turns as everybody does.
+  // nullopt without a file: the run uses the wall clock. nullopt also if another process keeps the
+  // file: then this thread takes turns like all others.
   static Result<std::optional<BenchTime>, Problem> of_run(const std::string& file,
                                                           const std::string& line);
 
   void begin();
-  // To be called more often than every ClockKeeper::kLead, and never past `limit`, which is how far
-  // the bench itself has come, and a lead. False: time stands.
+  // Call it more often than each ClockKeeper::kLead. Time never passes `limit`, which is the
+  // progress of the bench itself plus a lead. Returns false while time is paused.
   bool advance(Instant limit = Instant::max());
   void end();
   const transport::ClockWaits& waits() const { return keeper_.waits(); }

@@ -1,5 +1,5 @@
-// State reported by the car, for grading: the local report that it sends to a port of this machine.
-// The radio is sealed, and not listened in on.
+// Monitor of the car's state for grading: receives the local report that the car sends to a port of
+// this machine. The radio is encrypted and is not read.
 //   in     datagrams at a socket on loopback
 //   out    the car's latest report; counters
 //   errors open(): Problem with the port; later counters only
@@ -20,15 +20,15 @@ namespace pitwall::bench {
 
 class CarMonitor {
  public:
-  // A car that has not been heard for so long says nothing any more.
+  // After this time without a report the car counts as silent.
   static constexpr Duration kSilence = milliseconds(300);
 
   // `port` 0: the kernel chooses.
   static Result<CarMonitor, Problem> open(std::uint16_t port);
 
-  void read(Instant now);  // what is there; never blocks
+  void read(Instant now);  // takes all waiting datagrams; never blocks
 
-  // `silent` once it has spoken and no longer does.
+  // `silent` if reports came before and have stopped.
   const CarReport& report() const { return report_; }
   std::uint64_t packets() const { return packets_; }
   std::uint64_t refused() const { return refused_; }

@@ -1,4 +1,4 @@
-// Summary of the car process when it stops: its --summary file, a JSON object.
+// Summary that the car process writes when it stops: its --summary file, a JSON object.
 //   errors Problem with the place in the file
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
@@ -15,12 +15,12 @@
 
 namespace pitwall::bench {
 
-// How one message was in the end.
+// Final state of one message.
 struct CarMessage {
   std::uint32_t id = 0;
   std::string liveness{};
   std::uint64_t debt = 0, lost = 0, bad = 0;
-  std::uint64_t late = 0;  // reported missing, and came after all
+  std::uint64_t late = 0;  // reported missing, but arrived later
   Duration mean_interval{};
   Instant last{};
 };
@@ -31,7 +31,7 @@ struct CarReceiver {
   std::vector<std::pair<std::string, std::uint64_t>> counts;
 };
 
-// One of its sensors that come over ROS 2 topics: samples, and what was refused or overwritten.
+// One of its sensors on ROS 2 topics: samples, and counts of refused or overwritten ones.
 struct CarSensor {
   std::string name;
   std::vector<std::pair<std::string, std::uint64_t>> counts;
@@ -48,12 +48,12 @@ struct CarSummary {
   std::string controller;
   std::string database, identity, identity_sentence;  // of the bus
   Counts link;
-  // Of its radio, as vehicle/io/report/radio_summary.hpp writes them; empty where it had none.
+  // Of its radio, from vehicle/io/report/radio_summary.hpp; empty without a radio.
   Counts radio, radio_refused, radio_commands;
   std::vector<Counts> radio_paths;
   std::vector<CarReceiver> receivers;
   std::vector<CarSensor> sensors;
-  Counts recorder;  // of its own recording; empty where it had none
+  Counts recorder;  // of its own recording; empty without one
   std::vector<CarMessage> messages;
   std::vector<world::LossReport> losses;  // the first of loss_reports
   double step_p50_us = kUnset, step_p99_us = kUnset, step_max_us = kUnset;
@@ -61,7 +61,7 @@ struct CarSummary {
 
 Result<CarSummary, Problem> read_car_summary(const std::string& path);
 
-// Frames due by then that never came: what was reported missing, less what came after all.
+// Frames due until then that never arrived: those reported missing, less those that arrived later.
 std::uint64_t frames_that_never_came(const CarSummary& car, Instant until);
 
 }  // namespace pitwall::bench

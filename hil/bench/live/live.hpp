@@ -1,6 +1,6 @@
-// The live bench: the unmodified car process on real SocketCAN, the rig in real time on the same
-// bus.
-// Runs where the CAN interface exists (the kernel's, or the guest's; hil/can_bus decides that).
+// Live bench: the unmodified car process on real SocketCAN, with the rig in real time on the same
+// bus. It runs where the CAN interface exists (in the kernel or in the guest; hil/can_bus decides
+// that).
 //
 //   pitwall-vehicle <== CAN ==> live bench (plant, drive-by-wire, race control)
 //    ^   |   ^                   |    |   ^
@@ -9,11 +9,11 @@
 //    '---------- UDP NovAtel bytes of two receivers
 //
 //   in     scenario, Setup of the car, LivePlan
-//   out    RunResult with the same verdicts as lockstep; times are real. What the scenario did to
-//          processes, clock and disk is in it and in the event log
-//   errors Problem: no interface; a process did not start, or ended although nobody killed it. A
-//          late wake-up is caught up and counted; a log or a summary that could not be written is
-//          told, and the run goes on
+//   out    RunResult with the same verdicts as lockstep; times are real. It and the event log have
+//          the actions of the scenario on processes, clock and disk
+//   errors Problem: no interface; a process did not start, or ended without being killed. A late
+//          wake-up is made up for and counted; a log or a summary that cannot be written is
+//          reported, and the run goes on
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -30,7 +30,7 @@ namespace pitwall::bench {
 struct LiveResult {
   RunResult run;
   RadioCounters radio;
-  std::uint64_t reports = 0;  // of the car, heard on this machine
+  std::uint64_t reports = 0;  // local reports of the car that were received
 };
 
 Result<LiveResult, Problem> run_live(const scenario::Scenario& scenario,

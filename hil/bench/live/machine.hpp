@@ -1,12 +1,13 @@
-// Faults of the machine that the run is on: its clock of the day steps, its disk fills up. Only
-// ever in a guest, which nobody else uses and which is thrown away afterwards.
+// Faults of the machine of the run: a step of its real-time clock, a full disk. Only in a guest,
+// which has no other use and is discarded afterwards.
 //
 //   in     process faults (clock_step, log_disk_full), scenario time; for a disk: a folder on it
-//   out    the clock set, the disk full; a list of what was done, in words
+//   out    the clock set, the disk full; a list of the actions, in words
 //   invariants
-//          what has a duration is undone at its end. The full disk is a small file system of its
-//          own (mount_disk), filled to the last byte
-//   errors Problem: not a guest, not root, no room; nothing has been done then
+//          a fault with a duration is undone at its end. The full disk is a small file system of
+//          its own (mount_disk), filled to the last byte
+//   errors take(): Problem if this is not a guest or the run has no such disk; nothing has been
+//          done then. advance(), mount_disk(): Problem of the system call: not root, no room
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -21,13 +22,13 @@
 
 namespace pitwall::bench {
 
-// True in User-mode Linux, as its kernel says.
+// True in User-mode Linux, according to /proc/cpuinfo.
 bool is_guest();
 
 // True for the faults that this file carries out.
 bool is_machine_fault(faults::BenchFaultKind kind);
 
-// An empty file system of a few MiB at `folder`, which is made. Guest only.
+// Mounts an empty file system of 8 MiB at `folder`, which is created. Guest only.
 Result<bool, Problem> mount_disk(const std::string& folder);
 
 class Machine {

@@ -1,6 +1,6 @@
-// Text commands of a scenario for the base station of a live run, by its command socket. The base
-// may begin anew at any time.
-//   errors a base that is not there gets nothing; refusals are in the base's own summary
+// Sender of a scenario's text commands to the base station of a live run, through its command
+// socket. It reconnects after a restart of the base.
+//   errors without a base the command is dropped; refusals are in the base's own summary
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

@@ -1,15 +1,16 @@
 // Process supervisor of a live run, and the actions of the scenario on its processes: kill, stop,
-// go on, start again.
+// continue, restart.
 //
 //   in     a command per role, the script (process_script.hpp), the scenario's time
-//   out    running processes; a list of what was done to whom, in words
+//   out    running processes; a list of the actions, in words
 //   invariants
-//          started again = the command for a restart, which is never armed; a process that ends
-//          although nobody killed it is an error of the run. At the end whoever is stopped goes on,
-//          so that it can be told to end. Who will be started again waits from the beginning on, as
-//          a shell that becomes the program at a word: a fork would hold the run up for long
-//   errors Problem: a program that cannot be started, one that ended by itself, a script about
-//          somebody who is not there
+//          a restart uses the restart command, which never arms the car; a process that ends
+//          without being killed is an error of the run. At the end stopped processes are continued,
+//          so that they can end on SIGTERM. A process for a later restart waits from the beginning
+//          on, as a shell that executes the program on a line of input, because a fork would delay
+//          the run
+//   errors Problem: a program that cannot be started, one that ended by itself, a script with a
+//          role that this run does not have
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -26,8 +27,8 @@
 namespace pitwall::bench {
 
 struct Member {
-  std::vector<std::string> command;  // empty: this role is not played by us
-  std::vector<std::string> restart;  // empty: the same
+  std::vector<std::string> command;  // empty: not started by the bench
+  std::vector<std::string> restart;  // must be set if the script restarts this role
 };
 
 class ProcessSupervisor {
@@ -36,16 +37,16 @@ class ProcessSupervisor {
       : members_(std::move(members)), script_(std::move(script)) {}
 
   std::optional<Problem> start();
-  // Carries out what is due; to be called often, in the order of time.
+  // Carries out the actions that are due; call it often, with rising times.
   std::optional<Problem> advance(Instant now);
-  // Somebody who should run and does not.
+  // Problem with a process that should run and has ended.
   std::optional<Problem> missing();
-  // Everybody goes on, is told to end (SIGTERM) and waited for; `idle` is called meanwhile.
+  // Continues all processes, sends SIGTERM and waits for their end; calls `idle` meanwhile.
   std::optional<Problem> finish(Duration patience, const std::function<void()>& idle);
 
   bool plays(Role role) const { return !member(role).command.empty(); }
   bool was_killed(Role role) const { return state(role).killed; }
-  // It ended as told, so what it leaves behind is whole.
+  // The process ended on request with success, so that its files are complete.
   bool ended_well(Role role) const { return state(role).ended_well; }
   const std::vector<Done>& done() const { return done_; }
 

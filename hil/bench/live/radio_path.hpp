@@ -1,15 +1,15 @@
-// The radio between car and base station as the live bench carries it: every datagram, both ways,
-// through the air of the scenario, unread.
+// Radio between car and base station in the live bench: every datagram, in both directions, passes
+// through the radio channel of the scenario; its content is not read.
 //
 //   car :x  -> :listen    bench, down   :uplink -> :onward  base, or line to it
-//   car :x  <- :listen    bench, up     :uplink <- whatever the base answers
+//   car :x  <- :listen    bench, up     :uplink <- answers of the base
 //
-//   in     datagrams at two sockets on loopback for each path; now, of the scenario
-//   out    the same on the other side, later, fewer or never; counters
+//   in     datagrams at two sockets on loopback for each path; scenario time
+//   out    the same datagrams on the other side, later, fewer or none; counters
 //   invariants
-//          what comes from the base goes to where the car's newest datagram of this path came from,
-//          also after the car was started again. Before there is one there is nowhere to send to:
-//          counted
+//          a datagram of the base goes to the sender of the car's newest datagram on this path,
+//          also after a restart of the car. Before the first one there is no receiver: it is
+//          dropped and counted
 //   errors open(): Problem with the port; later counters only
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
@@ -28,23 +28,23 @@
 namespace pitwall::bench {
 
 struct RadioPorts {
-  std::uint16_t listen = 0;  // where the car sends to; 0: the kernel chooses
-  std::uint16_t onward = 0;  // where the bench passes it on; 0: nowhere
-  std::uint16_t uplink = 0;  // where the base's answers come; 0: the kernel chooses
+  std::uint16_t listen = 0;  // receives from the car; 0: the kernel chooses
+  std::uint16_t onward = 0;  // port of the base; 0: none
+  std::uint16_t uplink = 0;  // receives from the base; 0: the kernel chooses
 };
 
 struct RadioCounters {
   std::uint64_t from_car = 0, to_base = 0;  // datagrams
   std::uint64_t from_base = 0, to_car = 0;
-  std::uint64_t no_car = 0;  // of the base, but no car has been heard yet
+  std::uint64_t no_car = 0;  // from the base, before the first datagram of the car
 };
 
 class RadioPath {
  public:
-  // One for each path of the air.
+  // `ports`: one entry for each path of the channel.
   static Result<RadioPath, Problem> open(std::span<const RadioPorts> ports, RadioChannel channel);
 
-  void serve(Instant now);  // carries what is there; never blocks
+  void serve(Instant now);  // forwards all waiting datagrams; never blocks
 
   RadioChannel& channel() { return channel_; }
   const RadioChannel& channel() const { return channel_; }

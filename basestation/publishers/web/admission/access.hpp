@@ -1,11 +1,11 @@
 // Access rules of the web services: who is admitted, and in which role.
-//   in     the tokens; what a browser says of itself: Host, Origin, a token or a session
+//   in     the tokens; headers of a request: Host, Origin, a token or a session
 //   out    a role and a name; or a refusal
 //   invariants
-//          a page of somebody else cannot speak to the base: an Origin that is not the base's own
-//          is refused; so is a Host that is neither an address, nor localhost, nor a name that was
-//          given: otherwise a name that points here would make a foreign page the base's own.
-//          A tool that is a page of its own may be let in by its origin
+//          a foreign page cannot use the base: an Origin that is not the base's own is refused. So
+//          is a Host that is neither an address, nor localhost, nor a configured name; otherwise a
+//          foreign name that resolves to this address would pass as the base's own (DNS rebinding).
+//          A tool that is a web page of its own may be admitted by its origin
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -23,15 +23,15 @@ namespace pitwall::publishers::web {
 
 struct AccessRules {
   std::shared_ptr<TokenBook> tokens = std::make_shared<TokenBook>();
-  std::optional<Role> default_role = Role::kViewer;  // without a token; none: nobody comes in
+  std::optional<Role> default_role = Role::kViewer;  // without a token; nullopt: refused
   std::vector<std::string> names{};  // of this machine, beside addresses and localhost
-  // Of pages that may speak to this base beside its own: "https://app.foxglove.dev".
+  // Origins of foreign pages that are admitted: "https://app.foxglove.dev".
   std::vector<std::string> origins{};
-  bool local_pages = false;  // also those of files and of servers on the machine itself
-  bool encrypted = false;    // by TLS here; without it a proxy before the base may do that
+  bool local_pages = false;  // also admit pages from files and from servers on this machine
+  bool encrypted = false;    // TLS is done here; otherwise a proxy in front may do it
 };
 
-// Of a request: the values of its headers, empty where it has none.
+// Header values of a request; empty if absent.
 struct Visitor {
   std::string_view host{}, origin{}, token{}, session{};
 };
@@ -39,7 +39,7 @@ struct Visitor {
 enum class Refused : std::uint8_t { kHost, kOrigin, kToken };
 std::string_view text_of(Refused refused);
 
-// A token counts before a session. A session that has ended is as none.
+// A token is checked before a session. An expired session counts as no session.
 Result<Identity, Refused> admit(const AccessRules& rules, const Visitor& visitor, UtcTime now);
 
 }  // namespace pitwall::publishers::web

@@ -16,7 +16,7 @@ constexpr std::string_view text_of(Role role) {
 struct Identity {
   Role role = Role::kViewer;
   std::string name{};
-  std::string token_id{};  // of the token by which it is known, which it does not tell; or empty
+  std::string token_id{};  // identifies the token without revealing it; empty without a token
 };
 
 }  // namespace pitwall::publishers::web

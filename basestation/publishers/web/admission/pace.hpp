@@ -1,9 +1,9 @@
-// Rate limit of one client's messages: so many messages at once, then so many a second. What is
-// faster is not lost: it is read later, and the client's own sending stops.
-//   in     that a message was heard; time
-//   out    how long to read no further
+// Rate limit of one client's messages: a burst, then a constant rate. Faster messages are not lost:
+// they are read later, and TCP flow control slows the client.
+//   in     each message read; time
+//   out    how long to pause reading
 //   invariants
-//          in any span of t seconds no more than kAtOnce + t * kPerSecond messages are heard
+//          in any span of t seconds at most kAtOnce + t * kPerSecond messages are read
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -20,11 +20,11 @@ class Pace {
   static constexpr Duration kEach = seconds(1) / kPerSecond;
 
   void receive(Instant now) { free_at_ = std::max(free_at_, now) + kEach; }
-  // Until the next may be read; none or less: now.
+  // Time until the next message may be read; zero or negative: now.
   Duration rest(Instant now) const { return free_at_ - now - kEach * (kAtOnce - 1); }
 
  private:
-  Instant free_at_{};  // when all that was heard is paid for
+  Instant free_at_{};  // time until which the messages read so far use up the rate
 };
 
 }  // namespace pitwall::publishers::web

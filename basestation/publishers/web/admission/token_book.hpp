@@ -1,8 +1,8 @@
-// Set of the tokens that are valid now: those of a file, read again when it has changed, so that a
-// line that is taken away takes its console away without a restart.
+// Set of the valid tokens: those of a file, which is read again when it has changed. Removing a
+// line disconnects the consoles of its token without a restart.
 //   invariants
 //          threads may share it
-//          a file that cannot be read, or has a mistake, changes nothing: what held goes on holding
+//          a file that cannot be read, or has an error, leaves the tokens as they are
 //   errors open(), look_again(): Problem with file and line
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
@@ -21,20 +21,20 @@ namespace pitwall::publishers::web {
 class TokenBook {
  public:
   explicit TokenBook(Tokens tokens = {}) : tokens_(std::move(tokens)) {}
-  // Refused if others may read or change it.
+  // Problem also if other users can read or change the file.
   static Result<std::shared_ptr<TokenBook>, Problem> open(const std::string& file);
 
   std::optional<Identity> find(std::string_view token) const;
   std::string session(std::string_view token, UtcTime end) const;
   std::optional<Identity> find_session(std::string_view value, UtcTime now) const;
-  // Whether who came by this token may stay; who came without one may.
+  // Whether the client's token is still valid; true for a client without a token.
   bool may_stay(const Identity& who) const;
 
-  // True: the file was read again.
+  // Returns true if the file was read again.
   Result<bool, Problem> look_again();
 
  private:
-  // What tells a file from what it was.
+  // File attributes that show a change.
   struct Mark {
     std::int64_t changed_ns = 0, size = 0;
     std::uint64_t inode = 0;
@@ -44,7 +44,7 @@ class TokenBook {
 
   mutable std::mutex lock_;
   Tokens tokens_;
-  std::string file_;  // empty: none
+  std::string file_;  // empty: no file
   Mark mark_;
 };
 

@@ -1,8 +1,8 @@
-// Unauthenticated connections: new ones, and those that wait for another request. They are cheap to
-// open for anybody, so they must not cost a place to who has a token.
-//   in     a connection and the address it came from; that it was heard, that it went
-//   out    which one must go for a new one: the one that was silent longest
-//   bound  kPerAddress of one address, kInAll of all
+// Unauthenticated connections: new ones, and those that wait for another request. Anybody can open
+// them cheaply, so they must not take the places of clients with a token.
+//   in     connections with their source addresses; when one sends data or ends
+//   out    the connection to close for a new one: the one that was silent longest
+//   bound  kPerAddress from one address, kInAll in total
 //   cost   O(kInAll)
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
@@ -29,7 +29,7 @@ class WaitingRoom {
     Connection connection = 0;
     std::uint32_t address = 0;
   };
-  std::list<Entry> waiting_;  // silent for longest first
+  std::list<Entry> waiting_;  // longest silent first
 };
 
 }  // namespace pitwall::publishers::web
