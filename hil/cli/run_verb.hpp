@@ -2,8 +2,7 @@
 //
 //   --live            real SocketCAN and the real car process; if this kernel has no CAN, inside a
 //                     User-mode Linux guest that is booted for it
-//   --interface unix:PATH  live without either: a bus over a Unix socket; its hub is started if
-//   needed
+//   --interface unix:PATH  live without either: a bus over a Unix socket; starts a missing hub
 //   --attach          live: the car is already running; the bench adds the rest of its world
 //   --log FILE        event log (MCAP)       --json FILE   result for programs
 //   --hours H         lockstep: repeated with the next seed each time, until H hours have been
