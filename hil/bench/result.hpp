@@ -43,7 +43,7 @@ struct RealTime {
 
 struct RunResult {
   std::string scenario, mode;
-  double simulated_s = 0.0, wall_s = kUnset;  // NaN if not measured
+  double simulated_s = 0.0, wall_s = kUnset;  // wall time: NaN if not measured
   std::vector<grading::Verdict> verdicts;
   grading::CrossTrack cross_track;
   Laps laps;

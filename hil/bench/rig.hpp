@@ -1,7 +1,7 @@
 // Simulated world around the car's computer: plant, drive-by-wire, race control, sensors, timing,
 // faults. The owner of the clock advances it by one plant step at a time: the lockstep bench in
-// virtual time, the live bench in real time. Plant and road have the perturbations of the scenario;
-// the map that the car drives by has not.
+// virtual time, the live bench in real time. Plant and road include the perturbations of the
+// scenario; the map of the car does not.
 //   in     frames that the car's computer sent, now (a whole number of kRigStep since the start)
 //   out    frames for the bus, sensor samples, truth
 //   errors build(): Problem with the place in the scenario; later only counters
@@ -77,7 +77,7 @@ class Rig {
   double round_target_speed_mph() const { return race_.round_target_speed_mph; }
   world::SysState system_state() const { return raptor_.system; }
   world::CtState ct_state() const { return raptor_.ct_state; }
-  std::uint64_t overflows() const { return overflows_; }              // by a full queue
+  std::uint64_t overflows() const { return overflows_; }              // lost to full queues
   std::uint64_t actuator_frames() const { return actuator_frames_; }  // 1400-1403 on the bus
 
  private:

@@ -1,7 +1,8 @@
 // Location of the clock of a live run, as the option --clock gives it.
 //   in     "bench": a bench time of this run; "wall": the wall clock; FILE: the bench time in this
-//          file, with which other programs on this machine were started; "host:FILE": likewise on
-//          the machine around a guest. Empty: "bench", or "wall" if a car is attached
+//          file, with which other programs on this machine were started; "host:FILE": a file of the
+//          host, even if this program runs in a guest. Empty: "bench", or "wall" if a car is
+//          attached
 //   out    the file on this machine; in a guest also the serial line to the host, whose file the
 //          guest cannot access
 // SPDX-License-Identifier: Apache-2.0

@@ -1,11 +1,11 @@
 // Table of the faults that the bench carries out in its models: data only, one row per kind. The
 // scenario file names them; `acts_on` gives the part of the bench that applies each.
-//   units  of `value`: as the row says; 0 where the kind needs none
+//   units  of `value`: as given in the row; 0 if the kind needs none
 //   invariants
 //          a process killed for a duration is restarted at its end (never armed); one killed
 //          without a duration stays dead; a paused one continues at the end. A base that is
 //          replaced dies, and at the end a spare base starts at the second address of the car's
-//          list. A base that moves has an address of no list until the end
+//          list. A base that moves has an address outside the list until the end of the fault
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

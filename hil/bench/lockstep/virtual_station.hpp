@@ -1,6 +1,6 @@
 // Radio link and base station of the lockstep bench, in virtual time: the car's endpoint with its
-// adapter, the base's service, and the radio channel of the scenario between them. The scenario has
-// the operator's commands.
+// adapter, the base's service, and the radio channel of the scenario between them. The operator's
+// commands come from the scenario.
 //   in     scenario, Setup, faults; time; Inputs before and Outputs after each tick of the car
 //   out    Inputs, filled like those of the real car; the service of the base, as in its program
 //   invariants

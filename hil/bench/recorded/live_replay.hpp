@@ -8,9 +8,10 @@
 //   out    the car's own recording in the folder of the plan; a report of the replay
 //   invariants
 //          the base station of the plan, if any, gets the operator's commands and stops, each one
-//          packet slot before the car had it; joystick samples and radio gaps are not replayed
+//          packet slot before the recorded car received it; joystick samples and radio gaps are not
+//          replayed
 //          the car starts armed if the recorded one did. Nothing is sent before the first frame of
-//          the car has arrived, and nothing from after the recorded run
+//          the car has arrived, or after the end of the recorded run
 //          bench time pauses while the machine delays car or player
 //   errors Problem: no bus; a car that does not start, sends nothing or ends; a recording without
 //          frames and bytes to replay

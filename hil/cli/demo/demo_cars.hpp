@@ -31,9 +31,9 @@ struct DemoCar {
   int bay = 0;  // index among the benches of this machine
   std::string folder{};
   DemoBus bus = DemoBus::kVcan;
-  std::uint16_t base_port = 0;          // the base receives the car here
-  std::uint16_t uplink_port = 0;        // the base sends to the car from here, on this machine
-  std::uint16_t guest_uplink_port = 0;  // and the bench receives it here
+  std::uint16_t base_port = 0;    // the base receives the datagrams of the car here
+  std::uint16_t uplink_port = 0;  // datagrams of the base to the car enter here, on this machine
+  std::uint16_t guest_uplink_port = 0;  // and arrive here, at the bench
   std::uint16_t radio_port = 0;         // the bench sends the car's telemetry here
 
   std::string base_recording() const { return folder + "/recording"; }

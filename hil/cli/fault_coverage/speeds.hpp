@@ -22,7 +22,7 @@ namespace pitwall::fault_coverage {
 enum class Speed : std::uint8_t { kWalking, kYellow, kRacing };
 inline constexpr std::array<std::string_view, 3> kSpeedNames{"walking", "yellow", "racing"};
 
-inline constexpr double kWalking_mps = 4.0;  // above 3 m/s, where the judgement of actuators begins
+inline constexpr double kWalking_mps = 4.0;  // actuators are monitored from 3 m/s on
 // Lower speed limits of a car that drives on.
 inline constexpr double kWalksOn_mps = 2.0, kYellowOn_mps = 15.0;
 
