@@ -1,6 +1,7 @@
-// Outcome of a run for the car: smallest gap to a wall, contact, place at the end.
-//   in     what is true of the car, once per tick, in the order of time
-//   out    Outcome; nothing after a contact is taken in: a run ends there, the plant knows no walls
+// Outcome of a run for the car: smallest gap to a wall, contact, final position.
+//   in     the true state of the car, once per tick, in order of time
+//   out    Outcome; states after a contact are ignored: a run ends there, because the plant has no
+//          walls
 //   units  m/s, m
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
@@ -16,15 +17,15 @@ namespace pitwall::bench {
 struct Whereabouts {
   Instant at{};
   double speed_mps = kUnset;
-  double cross_track_m = kUnset;  // from the line that the car was told to drive; left is positive
-  double wall_gap_m = kUnset;     // of the nearest corner
+  double cross_track_m = kUnset;  // from the line that the car has to drive; left is positive
+  double wall_gap_m = kUnset;     // of the corner nearest to a wall
   double s_m = kUnset;            // station on the track
-  bool left = false;              // the nearer wall is that on the left
-  bool contact = false;           // a corner is in a wall
+  bool left = false;              // the nearer wall is on the left
+  bool contact = false;           // a corner of the car is in a wall
 };
 
 struct Outcome {
-  std::optional<Whereabouts> last;  // at the contact, where there was one
+  std::optional<Whereabouts> last;  // at the contact, if there was one
   std::optional<Whereabouts> nearest;
 };
 
@@ -32,7 +33,7 @@ inline bool has_contact(const Outcome& outcome) { return outcome.last && outcome
 
 void follow(Outcome& outcome, const Whereabouts& now);
 
-// One sentence; empty if nothing was followed.
+// Returns one sentence; empty if there was no state.
 std::string to_text(const Outcome& outcome);
 
 }  // namespace pitwall::bench

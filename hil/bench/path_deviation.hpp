@@ -1,12 +1,11 @@
-// Path-deviation monitor: distance of the car from the path that it has to hold: the line that it
-// was told to drive, and from the beginning of a stop the path of that stop, planned here once more
-// by the same planner from where the car truly is. A car that no longer speaks has to stop too: its
-// guardian does.
-//   in     the truth, the mode that the car says, once per tick
+// Path-deviation monitor: distance of the car from the path that it has to hold. That is the line,
+// and from the beginning of a stop the stop path, which the same planner plans here again from the
+// true position of the car. A silent car has to stop too: its guardian stops it.
+//   in     the true state; the mode that the car reports, once per tick
 //   out    metres, not negative
 //   invariants
-//          the path of a stop stays until the car says that it drives
-//   cost   nothing while the car drives; in a stop one plan in kEvery
+//          the stop path stays in use until the car reports the mode driving
+//   cost   nothing while the car drives; in a stop one planning step per kEvery
 //   errors none
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
@@ -22,7 +21,7 @@ class PathDeviation {
  public:
   explicit PathDeviation(const pipeline::Setup& setup) : setup_(setup) {}
 
-  // `cross_track_m` from the line; `mode` as the car says it, unset before it has spoken.
+  // `cross_track_m` from the line; `mode` as the car reports it, NaN before the first report.
   double off_path_m(const plant::Truth& truth, double cross_track_m, double mode, bool silent,
                     Instant now);
 

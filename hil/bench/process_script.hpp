@@ -1,11 +1,11 @@
-// Timed actions on the processes of a live run, from the faults of its scenario. Pure.
+// Timed actions on the processes of a live run, made from the faults of its scenario. Pure.
 //   in     process faults, end of the run
-//   out    deeds in the order of time; of equal instants in the order of the scenario
+//   out    actions in order of time; at equal times in the order of the scenario
 //   invariants
-//          killed for a duration: started again at its end; paused: goes on at its end; slow: in
-//          every kSlowPeriod first stopped for the share, then running. What has no duration lasts
-//          until the end of the run
-//   errors none: plan_faults() has judged the values
+//          killed for a duration: restarted at the end of the fault; paused: continued at the end;
+//          slow: in every kSlowPeriod first stopped for the share `value`, then running. A fault
+//          without duration lasts until the end of the run
+//   errors none: plan_faults() has checked the values
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -34,10 +34,10 @@ struct ProcessAction {
   Instant at{};
   Role role = Role::kCar;
   Act act = Act::kKill;
-  bool first_of_many = false, one_of_many = false;  // of a slowed process: told once
+  bool first_of_many = false, one_of_many = false;  // pauses of a slowed process: reported once
 };
 
-// What was really done, and when, for the event log and the result.
+// An action that was carried out, with its time, for the event log and the result.
 struct Done {
   Instant at{};
   std::string what;
@@ -45,7 +45,7 @@ struct Done {
 
 std::vector<ProcessAction> script_of(std::span<const faults::BenchFault> faults, Instant end);
 
-// Whom the faults are about.
+// True if one of the faults acts on the process of this role.
 bool concerns(std::span<const faults::BenchFault> faults, Role role);
 
 }  // namespace pitwall::bench

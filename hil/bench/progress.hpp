@@ -1,14 +1,14 @@
-// Progress messages of a run: one JSON object per line, for whoever watches it.
-//   plan    once, before the first tick: scenario, seed, duration, what is planned and expected
+// Progress messages of a run: one JSON object per line.
+//   plan    once, before the first tick: scenario, seed, duration, planned events, expectations
 //   at      every kEvery of scenario time: speed, mode, flag, laps, cross-track error by bracket,
-//           how each expectation stands, reactions
-//   event   as it happens: a fault begins or ends, a flag, a mode, a lap, a deed to a process
+//           state of each expectation, reactions
+//   event   as it happens: begin or end of a fault, flag, mode, lap, action on a process
 //   result  once, at the end: the whole RunResult; or failure, with the reason
-//   in      the run at each tick, in the order of time; its result or the problem that ended it
+//   in      the run at each tick, in order of time; its result or the problem that ended it
 //   invariants
-//           the lines of a lockstep run are the same for the same scenario, build and seed, but for
-//           the wall time of the result. A value that nobody knows is null
-//   bound   kEventsMax events; the line after them says how many were left out
+//           the lines of a lockstep run are the same for the same scenario, build and seed, except
+//           for the wall time in the result. An unknown value is null
+//   bound   kEventsMax events; the line after them gives the number of omitted ones
 //   units   as the names say; times in seconds of scenario time
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
@@ -29,13 +29,13 @@
 
 namespace pitwall::bench {
 
-// A run at one of its ticks.
+// State of a run at one tick.
 struct RunView {
   Instant now{};
   const Rig& rig;
   double mode = kUnset;  // of the car's supervisor
   const grading::Grader& grader;
-  const RunResult& result;  // as far as it has come
+  const RunResult& result;  // so far
 };
 using Follow = std::function<void(const RunView&)>;
 
@@ -67,7 +67,7 @@ class Progress {
   scenario::Scenario scenario_;
   Say say_;
   grading::ReactionBook reactions_;
-  std::vector<Planned> planned_;  // in the order of time
+  std::vector<Planned> planned_;  // in order of time
   std::size_t next_planned_ = 0, actions_published_ = 0, events_ = 0;
   Instant due_{};
   race::Flags flags_;

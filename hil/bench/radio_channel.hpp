@@ -1,13 +1,14 @@
-// Radio channel between car and base station: a link emulator for each path and direction, and what
-// the scenario does to the radio. Real time or virtual: it is told the time.
-//   in     datagrams of one end; faults of the radio; now, of the scenario, never going back
-//   out    those that arrive at the other end; when the car could last hear its base
+// Radio channel between car and base station: one link emulator per path and direction, and the
+// radio faults of the scenario. The caller gives the time, real or virtual.
+//   in     datagrams of one end; radio faults; now in scenario time, never decreasing
+//   out    the datagrams that arrive at the other end; the time since the car last received the
+//          base
 //   invariants
-//          radio_down: nothing passes either way. base_station_silent: nothing reaches the car.
-//          radio_loss: each datagram is lost with this probability. radio_delay: each comes so much
-//          later, in order (what waits in a queue that is too long)
-//          both directions of a path meet the same fades; two paths meet different ones
-//   errors what is dropped is counted by reason
+//          radio_down: nothing passes in either direction. base_station_silent: nothing reaches the
+//          car. radio_loss: each datagram is lost with probability `value`. radio_delay: each
+//          datagram arrives `value` seconds later, in order (like a queue that is too long)
+//          both directions of a path have the same fades; two paths have different ones
+//   errors dropped datagrams are counted by reason
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -32,7 +33,7 @@ inline constexpr std::size_t kWays = 2;
 
 struct Payload {
   std::span<const std::uint8_t> bytes;
-  std::uint64_t tag = 0;  // arrives with them: link::Datagram::tag
+  std::uint64_t tag = 0;  // arrives with the bytes: link::Datagram::tag
 };
 
 struct RadioChannelCounters {
@@ -41,19 +42,19 @@ struct RadioChannelCounters {
 
 class RadioChannel {
  public:
-  // No path given: one that takes no time and loses nothing.
+  // `paths` empty: a single path without delay and loss.
   RadioChannel(const std::vector<scenario::RadioPath>& paths,
                std::vector<faults::BenchFault> faults, std::uint64_t seed);
 
   std::uint8_t paths() const { return static_cast<std::uint8_t>(lanes_.size()); }
   void offer(Way way, telemetry::PathId path, const Payload& payload, Instant now);
-  // The next that has arrived by now.
+  // The next datagram that has arrived by now.
   std::optional<link::Datagram> take(Way way, telemetry::PathId path, Instant now);
-  void place(double station_m);  // of the car: for loss by place
+  void place(double station_m);  // station of the car, for loss that depends on it
 
-  // Since the newest datagram of the base that reached the car was sent; none: none has yet.
+  // Time since the newest base datagram that reached the car was sent; nullopt before the first.
   std::optional<Duration> silence(Instant now) const;
-  // The longest of the run so far; zero before the car has heard anything.
+  // The longest silence of the run so far; zero before the first datagram reached the car.
   Duration longest_silence(Instant now) const;
   const RadioChannelCounters& counters() const { return counters_; }
   const link::LinkCounters& counters(Way way, telemetry::PathId path) const;
@@ -62,14 +63,14 @@ class RadioChannel {
   struct Lane {
     link::LinkEmulator emulator;
     Random random;
-    std::deque<link::Datagram> held;  // arrived, but for radio_delay
-    Instant last{};                   // arrival of the newest of them
+    std::deque<link::Datagram> held;  // arrived, and held back by radio_delay
+    Instant last{};                   // arrival of the newest held one
   };
 
   Lane& lane(Way way, telemetry::PathId path) {
     return lanes_[path][static_cast<std::size_t>(way)];
   }
-  // The greatest value of the active faults of this kind; none: none is active.
+  // The greatest value of the active faults of this kind; nullopt if none is active.
   std::optional<double> active(faults::BenchFaultKind kind, Instant at) const;
   bool is_off(Way way, Instant at) const;
   void hold_back(Lane& lane, Instant now);
@@ -78,7 +79,7 @@ class RadioChannel {
   std::vector<faults::BenchFault> faults_;
   std::vector<std::array<Lane, kWays>> lanes_;
   std::optional<Instant> newest_up_;
-  Duration longest_{};  // until newest_up_ came
+  Duration longest_{};  // before newest_up_ arrived
   RadioChannelCounters counters_;
 };
 

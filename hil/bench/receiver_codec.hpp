@@ -1,12 +1,11 @@
-// Receiver codec of the bench. The encoder gives the bytes that the receivers would send of the
-// rig's samples, with what the scenario does to those bytes on their way, live and in lockstep. The
-// decoder is a listener in lockstep, exactly as the car's process: its own receivers, and what they
-// gave.
-//   in     kinds of the units, as the car file has them; faults of bytes; samples or bytes, now
+// Receiver codec of the bench. The encoder makes the bytes that the receivers send for the samples
+// of the rig, with the byte faults of the scenario, in live and lockstep runs. The decoder is one
+// listener of lockstep, equal to the car process: it has its own receivers and keeps their samples.
+//   in     kinds of the units, as in the car file; byte faults; samples or bytes, now
 //   out    encoder: bytes per unit, message by message; decoder: samples since the last clear(),
-//          and when the newest byte of each unit came
+//          and the arrival time of the newest byte of each unit
 //   invariants
-//          a listener that is not run loses nothing but what its lists do not hold
+//          a listener that is not stepped loses only the samples that exceed its lists
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -30,7 +29,7 @@ class ReceiverEncoder {
   ReceiverEncoder(const world::Receivers& units, std::vector<faults::BenchFault> damage)
       : encoders_(units), damage_(std::move(damage)) {}
 
-  // sink(unit, bytes); what was lost altogether is not told.
+  // Calls sink(unit, bytes) for each message; not for a message that is lost entirely.
   template <class Sink>
   void encode(const world::SensorInput& samples, Instant now, Sink&& sink) {
     encoders_.encode(samples, [&](std::uint8_t unit, std::span<const std::uint8_t> message) {

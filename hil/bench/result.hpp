@@ -1,5 +1,5 @@
-// Result of a bench run: verdicts, cross-track error, laps, traffic, digest of its event log. The
-// same for lockstep and live runs.
+// Result of a bench run, lockstep or live: verdicts, cross-track error, laps, traffic, outcome,
+// digest of the event log.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -20,59 +20,59 @@ namespace pitwall::bench {
 struct Traffic {
   std::uint64_t to_car = 0, from_car = 0;  // frames put on the bus
   std::uint64_t car_received = 0, bench_received = 0;
-  std::uint64_t lost = 0;    // sent by one side, never seen by the other
-  double bus_load = kUnset;  // share of 500 kbit/s in the last second; unset where unknown
+  std::uint64_t lost = 0;    // sent by one side, never received by the other
+  double bus_load = kUnset;  // share of 500 kbit/s in the last second; NaN if unknown
 };
 
-// Of a live run: how punctual the bench was, and how long the car took.
+// Timing of a live run: of the bench's wake-ups and of the car's steps.
 struct RealTime {
   static constexpr double kWakeBin_us = 10.0;  // width of one bin of wake_late
   static constexpr std::size_t kWakeBins = 200;
 
   double wake_late_p50_us = kUnset, wake_late_p99_us = kUnset, wake_late_max_us = kUnset;
-  std::uint64_t caught_up_wakes = 0;           // began more than one wake-up late
-  Duration behind_max{};                       // farthest behind its clock, whoever was to blame
-  Instant behind_at{};                         // when that was, on the scenario's clock
-  std::optional<transport::ClockWaits> waits;  // of bench time; none: a run by the wall clock
-  double stolen_ms = kUnset;             // of all processors' time, by the virtual machine's host
-  std::vector<std::uint64_t> wake_late;  // the last bin holds all later ones
+  std::uint64_t caught_up_wakes = 0;  // began at least one period late
+  Duration behind_max{};              // largest lateness, of any cause
+  Instant behind_at{};                // its scenario time
+  // pauses of bench time; nullopt: a run by the wall clock
+  std::optional<transport::ClockWaits> waits;
+  double stolen_ms = kUnset;  // time of all processors that the host of the virtual machine took
+  std::vector<std::uint64_t> wake_late;  // the last bin holds all larger values
   double step_p50_us = kUnset, step_p99_us = kUnset, step_max_us = kUnset;  // of the car
   std::uint64_t missed_deadlines = 0;                                       // of the car
 };
 
 struct RunResult {
   std::string scenario, mode;
-  double simulated_s = 0.0, wall_s = kUnset;  // wall time only where somebody measured it
+  double simulated_s = 0.0, wall_s = kUnset;  // wall time: NaN if not measured
   std::vector<grading::Verdict> verdicts;
   grading::CrossTrack cross_track;
   Laps laps;
   Traffic traffic;
   std::uint64_t gate_refusals = 0, bus_refusals = 0;
-  std::uint64_t bus_losses =
-      0;  // frames that the car missed when they were due (live: late ones too)
+  std::uint64_t bus_losses = 0;  // frames not received when due (live: also late ones)
   double speed_max_mps = 0.0;
   Outcome outcome;
   std::optional<RealTime> real_time;
-  std::string refused_to_arm;  // why, if at the end the bus was not that of the car; else empty
-  std::vector<Done> done;      // to processes, clock and disk: faults that were carried out
-  std::vector<std::string> remarks;  // what else a reader must know, e.g. that the log has a gap
+  std::string refused_to_arm;  // reason, if the bus did not match the car at the end; else empty
+  std::vector<Done> done;      // faults on processes, clock and disk that were carried out
+  std::vector<std::string> remarks;  // further notes, e.g. that the log has a gap
   std::string digest;
 
   bool passed() const;
-  // A contact that the scenario does not name, or a harder one.
+  // True for a contact that the scenario does not expect, or a harder one.
   bool failed_by_contact() const;
-  // The bench kept up with its clock. One that stood still for longer than this was a bus without
-  // frames for the car, which may then fail for no fault of its own.
+  // True if the bench kept up with its clock. A bench that was late by more than kBehindMax gave
+  // the car a bus without frames, and the car may fail without a fault of its own.
   static constexpr Duration kBehindMax = milliseconds(40);
   bool timely() const { return !real_time || real_time->behind_max <= kBehindMax; }
 };
 
-// For a person: a table of brackets, laps, traffic, one line per expectation.
+// Text report: a table of brackets, laps, traffic, one line per expectation.
 std::string to_text(const RunResult& result);
 std::string to_json(const Outcome& outcome);
-// One verdict as a JSON object; null for a number that there is none of.
+// One verdict as a JSON object; a missing number is null.
 std::string to_json(const grading::Verdict& verdict);
-// The same as one JSON object.
+// The whole result as one JSON object.
 std::string to_json(const RunResult& result);
 
 }  // namespace pitwall::bench

@@ -1,7 +1,7 @@
 // Simulated world around the car's computer: plant, drive-by-wire, race control, sensors, timing,
-// faults. Advanced one plant step at a time by whoever owns the clock: the lockstep bench with
-// virtual time, the live bench with the machine's. The plant and its road are those of the
-// scenario, as it perturbs them; the map that the car drives by is not.
+// faults. The owner of the clock advances it by one plant step at a time: the lockstep bench in
+// virtual time, the live bench in real time. Plant and road include the perturbations of the
+// scenario; the map of the car does not.
 //   in     frames that the car's computer sent, now (a whole number of kRigStep since the start)
 //   out    frames for the bus, sensor samples, truth
 //   errors build(): Problem with the place in the scenario; later only counters
@@ -35,7 +35,7 @@ namespace pitwall::bench {
 
 inline constexpr Duration kRigStep = milliseconds(1);
 
-// kStranger: belongs to nobody, and speaks only where a fault makes it.
+// kStranger: an unknown node that sends only during a fault.
 enum class Node : std::uint8_t { kCar, kDriveByWire, kRaceControl, kGuardian, kStranger };
 inline constexpr std::uint8_t kNodes = 5;
 
@@ -47,7 +47,7 @@ inline constexpr std::size_t kMaxOutgoing = 128;
 
 struct Laps {
   std::uint32_t finished = 0, flying = 0;
-  double best_flying_mean_mps = 0.0;  // 0 until there is one
+  double best_flying_mean_mps = 0.0;  // 0 before the first flying lap
   double best_flying_s = kUnset;
   double last_s = kUnset;
 };
@@ -58,12 +58,12 @@ class Rig {
                                     const world::TrackMap& track);
 
   void step(std::span<const can::ReceivedFrame> from_car, Instant now);
-  // Of the models, beside those of the scenario.
+  // Adds a fault of the models to those of the scenario.
   void add_fault(const faults::BenchFault& fault) { plan_.models.push_back(fault); }
 
-  // What the nodes put on the bus since the last call; valid until the next step.
+  // Frames that the nodes sent since the last call; valid until the next step.
   std::span<const Outgoing> take_frames();
-  // What the sensors delivered since the last call.
+  // Samples of the sensors since the last call.
   bool has_samples() const {
     return !(samples_.imu.empty() && samples_.positions.empty() && samples_.velocities.empty() &&
              samples_.headings.empty() && samples_.attitudes.empty() && samples_.receivers.empty());
@@ -77,20 +77,20 @@ class Rig {
   double round_target_speed_mph() const { return race_.round_target_speed_mph; }
   world::SysState system_state() const { return raptor_.system; }
   world::CtState ct_state() const { return raptor_.ct_state; }
-  std::uint64_t overflows() const { return overflows_; }  // frames that found take_frames() full
+  std::uint64_t overflows() const { return overflows_; }              // lost to full queues
   std::uint64_t actuator_frames() const { return actuator_frames_; }  // 1400-1403 on the bus
 
  private:
   Rig(const world::TrackMap& track, FaultPlan plan, can_variant::CanVariant variant)
       : track_(track), plan_(std::move(plan)), variant_(std::move(variant)) {}
-  // What the drive-by-wire understands of the bus.
+  // The received frames in the encoding of the drive-by-wire model.
   std::span<const can::ReceivedFrame> understood(std::span<const can::ReceivedFrame> received);
   void apply_model_faults(Instant now);
   void apply_model_fault(const faults::BenchFault& fault, Instant now);
   void step_plant();
-  plant::Surface true_road() const;  // under the car, with what the scenario does to it
+  plant::Surface true_road() const;  // under the car, with perturbations and faults
   void encode_frames(Node from, const can::Frame& frame,
-                     Instant now);  // in the words of the variant
+                     Instant now);  // in the encoding of the variant
   void send(Node from, const can::Frame& frame, Instant now);
   void release_delayed(Instant now);
   void time_laps(Instant now);
@@ -107,8 +107,8 @@ class Rig {
   plant::State plant_;
   plant::Surface surface_;
   plant::Truth truth_;
-  plant::Road road_;           // by the map
-  plant::RoadSurface ground_;  // as it is
+  plant::Road road_;           // from the map
+  plant::RoadSurface ground_;  // the true road
   drive_by_wire::Params raptor_params_;
   drive_by_wire::State raptor_;
   drive_by_wire::Demand demand_;
@@ -121,7 +121,7 @@ class Rig {
   sensors::State sensors_;
   sensors::WheelParams wheel_params_;
   sensors::WheelState wheels_;
-  plant::Wheels wheel_speed_mps_{};  // as the sensors have them
+  plant::Wheels wheel_speed_mps_{};  // measured
   world::SensorInput samples_;
   FixedVector<Outgoing, kMaxOutgoing> outgoing_;
   bool outgoing_taken_ = false;  // cleared by the next step

@@ -1,9 +1,9 @@
-// The event log of a bench run: one MCAP file with every CAN frame, the truth, the car's own view
-// and its decisions, and events in words. Its SHA-256 names the run.
-//   channels /can          every frame, who sent it
+// Event log of a bench run: one MCAP file with every CAN frame, the truth, the car's estimates and
+// decisions, and events as text. Its SHA-256 identifies the run.
+//   channels /can          every frame with its sender
 //            /truth        the plant at 100 Hz
 //            /car          the car at 100 Hz: ego state, mode, command
-//            /bus_losses   frames that never came, as the car noticed them
+//            /bus_losses   missing frames that the car detected
 //            /events       flags, modes, laps, verdicts ("pass", "fail": to_json(Verdict))
 //   metadata run: scenario, seed, mode, duration, database, bus, track file, faults (JSON list)
 //   invariants
@@ -38,7 +38,7 @@ constexpr auto cdr_fields(std::type_identity<CanSample>) {
 struct TruthSample {
   double x_m, y_m, yaw_rad, vx_mps, vy_mps, yaw_rate_rad_per_s, s_m, n_m, bank_rad;
   double steering_motor_rad, throttle, brake_kpa, engine_rpm, friction_use, wall_gap_m;
-  double cross_track_m;     // from the line that the car was told to drive; NaN: not judged
+  double cross_track_m;     // from the line that the car has to drive; NaN: not graded
   double ax_mps2, ay_mps2;  // specific force in the plane of the road: forward, left
   double tyre_fl_c, tyre_fr_c, tyre_rl_c, tyre_rr_c;
   std::uint8_t gear, sys_state, ct_state, track_flag;
@@ -109,7 +109,7 @@ constexpr auto cdr_fields(std::type_identity<CarSample>) {
 CarSample car_sample(const pipeline::Outputs& out);
 
 struct LossSample {
-  std::uint32_t id;  // 0: the detector cannot tell
+  std::uint32_t id;  // 0: the detector does not identify it
   std::uint8_t detector;
   std::uint32_t frames;
   double due_s;  // since the start of the run; 0: unknown
@@ -124,18 +124,18 @@ constexpr auto cdr_fields(std::type_identity<LossSample>) {
 
 class RunRecord {
  public:
-  // `mode`: "lockstep" or "live". The metadata says that this is a simulation, which CAN database
-  // the car was built with (file, revision, fingerprint) and which revision its bus spoke.
+  // `mode`: "lockstep" or "live". The metadata states that this is a simulation, the CAN database
+  // that the car was built with (file, revision, fingerprint) and the revision of its bus.
   RunRecord(const scenario::Scenario& scenario, std::string_view mode, recording::Sink sink);
 
   void can(Node from, const can::Frame& frame, Instant at);
   void truth(const Rig& rig, Instant at, double cross_track_m = kUnset);
-  // With the losses that it noticed in this tick.
+  // Includes the losses that the car detected in this tick.
   void car(const pipeline::Outputs& out, Instant at);
   void loss(const world::LossReport& loss);
   void event(Instant at, std::string_view name, std::string_view text);
   void verdict(Instant at, const grading::Verdict& verdict);
-  // Writes the summary; afterwards the digest is that of the whole file.
+  // Writes the summary; after it digest() is that of the whole file.
   bool close();
   std::string digest() const;
   recording::McapCounters counters() const { return log_.counters(); }

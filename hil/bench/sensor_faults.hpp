@@ -1,8 +1,9 @@
-// Faults of sensors, as a scenario names them, carried into the sensor models.
-//   in     a fault that is active, now
-//   out    what it does to the unit or the wheel; effects of several rows add up
+// Sensor faults of a scenario, applied to the sensor models.
+//   in     an active fault, now
+//   out    its effect on the unit or the wheel. Of several faults, offsets add up and scale factors
+//          multiply; the largest share of gaps and the last fault of a wheel apply
 //   invariants
-//          a drift, a convergence, a lock grow from the start of their row
+//          a drift, a convergence and a wheel lock grow from the start of the fault
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -15,9 +16,9 @@
 namespace pitwall::bench {
 
 bool is_sensor_fault(faults::BenchFaultKind kind);
-// How many equal parts the row's `unit` may name; 1: none.
+// Number of equal units that `unit` of such a fault selects from; 1: no choice.
 std::size_t parts_of(faults::BenchFaultKind kind);
-// Is the row's value one that the model can take?
+// True if the model accepts this value.
 bool is_sensor_value(faults::BenchFaultKind kind, double value);
 
 void apply_sensor_fault(const faults::BenchFault& fault, Instant now, sensors::State& receivers,

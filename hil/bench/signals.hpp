@@ -1,7 +1,7 @@
 // Signals for the conditions of a scenario, by name, sampled once per tick. Signals of the car come
-// from its outputs in lockstep and from its telemetry in the live bench; all others are the bench's
-// own truth. The car's monitors are known in lockstep alone: "seen_counter" and so on are 1 in each
-// tick in which the monitor reports a fault.
+// from its outputs in lockstep and from its telemetry in the live bench; all others come from the
+// true state of the bench. The monitors of the car are available in lockstep only: "seen_counter"
+// and so on are 1 in each tick in which the monitor reports a fault.
 //   units  in the names; enumerations by their number
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
@@ -28,7 +28,7 @@ enum class Signal : std::uint8_t {
   kSpeed,
   kStation,
   kOffset,
-  kAbsCrossTrack,  // truth against the line that the car was told to drive
+  kAbsCrossTrack,  // true position against the line that the car has to drive
   kWallGap,
   kContact,
   kFrictionUse,
@@ -41,25 +41,26 @@ enum class Signal : std::uint8_t {
   kCtState,
   kTrackFlag,
   kLaps,
-  kFlyingLapMean,  // best so far, 0 until there is one
+  kFlyingLapMean,  // best so far, 0 before the first
   kFramesLost,
   kMode,           // of the car's supervisor
   kGateRefusals,   // of the car's frame gate
   kBusRefusals,    // frames that the car did not apply
   kPositionError,  // of the car's localization against the truth
   kYawError,
-  kSideSlip,     // size of the angle between heading and motion; a spin is seen here. 0 below 5 m/s
-  kIdentity,     // of the bus, as the car sees it: 0 listening, 1 right, 2 wrong
-  kDifferingId,  // the first CAN id that is not as in the car's database; 0: none
-  kActuatorFrames,  // commands to brake, accelerator, steering and gear that were on the bus
-  kDeceleration,    // of the truth along the car; negative while it speeds up
-  kStopCause,       // of the car: what stopped it first, by its number; 0: nothing
-  kOperatorLimit,   // that the car heeds of its operator; 1000 where there is none
-  kRadioGap,        // since the newest datagram of the base that reached the car was sent
-  kRadioGapMax,     // the longest of the run
-  // 1: the car stopped for its base station, but the air has no gap as long as the car's limit
+  kSideSlip,        // angle between heading and motion, absolute, large in a spin; 0 below 5 m/s
+  kIdentity,        // of the bus, as the car sees it: 0 listening, 1 right, 2 wrong
+  kDifferingId,     // first CAN id that differs from the car's database; 0: none
+  kActuatorFrames,  // commands to brake, accelerator, steering and gear on the bus
+  kDeceleration,    // true, along the car; negative while it accelerates
+  kStopCause,       // of the car: number of the first cause of the stop; 0: none
+  kOperatorLimit,   // operator's speed limit that the car applies; 1000: none
+  kRadioGap,        // time since the newest base datagram that reached the car was sent
+  kRadioGapMax,     // longest radio gap of the run
+  // 1: the car stopped for loss of its base, but the radio channel had no gap as long as the limit
+  // of the car
   kRadioStopUnexplained,
-  kOffPath  // truth against the path that holds: the line, and in a stop the path of the stop
+  kOffPath  // true position against the line, or in a stop against the stop path
 };
 inline constexpr std::size_t kSignals = 34;
 
@@ -98,45 +99,45 @@ inline constexpr std::array<std::string_view, kSignals> kSignalNames{"speed_mps"
                                                                      "radio_stop_unexplained",
                                                                      "off_path_m"};
 
-// What the car says of itself. Unset until it has said something; silent: it has spoken before and
-// no longer does, so nothing is known, which meets no condition.
+// Reported state of the car. Values are NaN before the first report, and conditions then see 0.
+// silent: a car that reported before no longer does; its signals are NaN and meet no condition.
 struct CarReport {
   double mode = kUnset, gate_refusals = kUnset, bus_refusals = kUnset;
   double x_m = kUnset, y_m = kUnset, yaw_rad = kUnset;
   double identity = kUnset, differing_id = kUnset;
   double cause = kUnset, operator_limit_mps = kUnset;
-  std::optional<world::MonitorSet> seen{};  // in lockstep
+  std::optional<world::MonitorSet> seen{};  // lockstep only
   bool silent = false;
 };
 
-// Those of Signal, then one per monitor in the order of world::Monitor; NaN: not known here.
+// The values of Signal, then one per monitor in the order of world::Monitor; NaN: not available.
 using SignalValues = std::array<double, kSignals + world::kMonitors>;
 
 struct SignalSources {
   const Rig& rig;
   const CarReport& car;
-  double line_offset_m = 0.0;  // of the line from the track's reference line
+  double line_offset_m = 0.0;  // offset of the line from the track's reference line
   std::uint64_t frames_lost = 0;
-  Duration radio_gap{}, radio_gap_max{};  // by the air's own record
-  Duration radio_limit{};                 // of the car: it stops after a longer gap
-  double off_path_m = kUnset;             // PathDeviation
+  Duration radio_gap{}, radio_gap_max{};  // as the radio channel recorded it
+  Duration radio_limit{};                 // the car stops after a longer gap
+  double off_path_m = kUnset;             // from PathDeviation
 };
 
-// The gap after which the car stops, as its file has it.
+// The radio gap after which the car stops, from its parameters.
 Duration radio_limit_of(const pipeline::CarParams& params);
 
 SignalValues observe(const SignalSources& from);
 double cross_track_m(const Rig& rig, double line_offset_m);
-double wall_gap_m(const Rig& rig);  // of the nearest corner, on either side
-// What an Outcome is made of.
+double wall_gap_m(const Rig& rig);  // of the corner nearest to a wall, on either side
+// True state of the car, as Outcome takes it.
 Whereabouts whereabouts(const Rig& rig, double line_offset_m, Instant now);
 
 std::vector<std::string> signal_names();
 
-// The first expectation that this kind of bench cannot judge.
+// Problem of the first expectation that this mode of the bench cannot evaluate.
 std::optional<Problem> unjudged_by(BenchMode mode, const scenario::Scenario& scenario);
 
-// The expectations of a scenario as the grader takes them.
+// The expectations of a scenario in the form of the grader.
 Result<std::vector<grading::Expectation>, Problem> expectations_of(
     const scenario::Scenario& scenario);
 

@@ -1,7 +1,7 @@
 // Command-line options of `bus exec`, `bus up` and `bus hub`.
-//   in     arguments without the verb itself
+//   in     arguments without the subcommand itself
 //   out    BusExecOptions, BusUpOptions, BusHubOptions
-//   errors Problem with the word as place
+//   errors Problem with the argument as place
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -24,7 +24,7 @@ struct BusExecOptions {
   std::vector<std::string> interfaces{};  // empty: vcan0
   std::optional<Duration> timeout{};
   std::optional<LinePorts> line{};
-  std::string clock{};  // file of bench time that follows that of a guest; empty: none
+  std::string clock{};  // file of the bench time that follows a guest's; empty: none
   int memory_mib = 512;
   std::vector<std::string> command{};
 };
@@ -33,16 +33,16 @@ Result<BusExecOptions, Problem> parse_bus_exec(std::span<const std::string> args
 
 struct BusUpOptions {
   std::vector<std::string> interfaces{};  // empty: vcan0
-  // Of a real interface; nothing: a virtual one is made where it is missing.
+  // Settings of a real interface; nullopt: a missing virtual one is created.
   std::optional<transport::CanInterfaceSettings> settings{};
 };
 
 Result<BusUpOptions, Problem> parse_bus_up(std::span<const std::string> args);
 
 struct BusHubOptions {
-  std::string bus{};  // unix:PATH, whether "unix:" was written or not
+  std::string bus{};  // unix:PATH, with "unix:" added if it is missing
   std::optional<Duration> length{};
-  std::string clock = "wall";  // or the file of bench time that waits for the hub, too
+  std::string clock = "wall";  // or the file of a bench time that also waits for the hub
 };
 
 Result<BusHubOptions, Problem> parse_bus_hub(std::span<const std::string> args);

@@ -1,11 +1,11 @@
-// Bench time of a host that follows that of its guest, so that a base station out here lives by the
-// time of the car in there.
+// Follower of a guest's bench time on the host, so that a base station on the host uses the time of
+// the car in the guest.
 //
-//   guest  bench keeps time -- where it is, every 5 ms --> host  moves its own time there
-//                           <-- how far it was followed --       unless somebody here is held up
+//   guest  bench sends its time every 5 ms --> host  moves its own bench time there
+//                           <-- acknowledgement --   unless a process here is held up
 //
-//   in     the line to the guest, the file in which time is kept here
-//   out    time here: at most a lead past the guest's last word
+//   in     the serial line to the guest, the file of the bench time of the host
+//   out    bench time of the host: at most kLead past the guest's last message
 //   errors open(): Problem with the file
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
@@ -21,12 +21,12 @@ namespace pitwall::can_bus {
 
 class ClockFollower {
  public:
-  // Two words late before time stands.
+  // Bench time pauses after two late messages.
   static constexpr Duration kLead = milliseconds(12);
 
   static Result<ClockFollower, Problem> open(const std::string& file);
 
-  // To be called when the line has something, and again soon while is_waiting().
+  // To be called when the line has data, and again soon while is_waiting().
   void serve(transport::SerialLine& line);
   bool is_waiting() const { return owed_.has_value(); }
 
@@ -36,7 +36,7 @@ class ClockFollower {
 
   transport::ClockKeeper keeper_;
   std::optional<Duration> here_minus_guest_;
-  std::optional<Instant> owed_;  // a word of the guest that is not answered yet
+  std::optional<Instant> owed_;  // message of the guest that is not acknowledged yet
 };
 
 }  // namespace pitwall::can_bus

@@ -1,7 +1,7 @@
-// Message between the bench time of a guest and that of its host: an instant, from the guest where
-// its time is, from the host how far that has been followed.
-//   units  eight bytes, the lowest first: nanoseconds of the guest's bench time
-//   errors none: what is of another length is nothing
+// Message between the bench times of a guest and its host. The guest sends its present time, or
+// Instant::max() at the end of the run; the host returns the time that it has followed.
+//   units  eight bytes, least significant first: nanoseconds of the guest's bench time
+//   errors nullopt for a message of another length
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -14,7 +14,7 @@
 
 namespace pitwall::can_bus {
 
-// The guest's end.
+// Device of the guest.
 inline constexpr const char* kClockLine = "/dev/ttyS3";
 
 using ClockMessage = std::array<std::uint8_t, 8>;

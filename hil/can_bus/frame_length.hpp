@@ -27,9 +27,9 @@ struct FrameLength {
 
 FrameLength frame_length(const can::Frame& frame);
 
-// Arbitration on the wire: the frame with the smaller key wins. Identifier, RTR, IDE in bit order,
-// so a data frame beats a remote frame and an 11 bit identifier beats a 29 bit one that begins
-// alike.
+// Key of arbitration: the frame with the smaller key wins. Identifier, RTR, IDE in bit order, so a
+// data frame wins against a remote frame, and an 11 bit identifier against a 29 bit one with the
+// same first bits.
 std::uint32_t arbitration_key(const can::Frame& frame);
 
 }  // namespace pitwall::can_bus

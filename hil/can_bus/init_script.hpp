@@ -1,6 +1,6 @@
-// The first program of a guest: a shell script that loads CAN, makes the interfaces, runs one
-// command and switches the machine off. Pure: text out; nothing runs here.
-//   in     GuestPlan, and where on the host's file system the guest leaves its results
+// Init script of a guest: a shell script that loads CAN, creates the interfaces, runs one command
+// and switches the machine off. Pure: the output is text, nothing is executed here.
+//   in     GuestPlan, and the folder on the host's file system for the results of the guest
 //   out    a script for /bin/sh (dash)
 //   source Debian user-mode-linux 6.1; consoles: ttyS0 the line, ttyS1 output, ttyS2 errors
 // SPDX-License-Identifier: Apache-2.0
@@ -13,14 +13,15 @@
 
 namespace pitwall::can_bus {
 
-inline constexpr int kLeastMemory_mib = 96;  // below, the guest's own kernel is short of it
+inline constexpr int kLeastMemory_mib = 96;  // with less, the guest kernel runs out of memory
 
 struct GuestPlan {
-  std::vector<std::string> command{};      // runs as root in the same folder; sees our files
-  std::vector<std::string> environment{};  // "NAME=value", on top of ours
+  std::vector<std::string> command{};      // runs as root in the same folder, with the host's files
+  std::vector<std::string> environment{};  // "NAME=value", added to our environment
   std::vector<std::string> interfaces{"vcan0"};
-  // Runs beside the command and carries datagrams over /dev/ttyS0; empty: none. The command waits
-  // until it has made the file that the script appends as its last argument.
+  // Runs in parallel with the command and carries datagrams over /dev/ttyS0; empty: none. The
+  // command starts after line_command has created the file that the script appends as its last
+  // argument.
   std::vector<std::string> line_command{};
   int memory_mib = 512;
 };
@@ -30,9 +31,9 @@ inline constexpr std::string_view kExitCodeFile = "exit_code";
 inline constexpr std::string_view kProblemFile = "problem";
 inline constexpr std::string_view kLineReadyFile = "line_ready";
 
-// One word of a shell command, whatever is in it.
+// Quotes any text as one word of a shell command.
 std::string shell_quoted(std::string_view word);
-// True for names that a shell can export.
+// True if a shell can export the name.
 bool is_exportable(std::string_view assignment);
 
 std::string init_script(const GuestPlan& plan, std::string_view folder,

@@ -1,13 +1,13 @@
-// Relay of UDP datagrams between a local port and somewhere else: the guest's serial line, or
-// another pair of ports where no guest is needed.
+// Relay of UDP datagrams between a local port and the serial line of a guest, or between two pairs
+// of ports if there is no guest.
 //
 //   host                                   guest
 //   :b <- send   LineRelay(a, b) == line == LineRelay(c, d)   send -> :d
 //   :a -> listen                                              listen <- :c
 //
 //   in     datagrams on the listening port, datagrams on the line
-//   out    the same, on the other side, whole or not at all
-//   errors open(): Problem with the port; losses are counters of the sockets and the line
+//   out    the same datagrams on the other side, each complete or not at all
+//   errors open(): Problem with the port; sockets and line count their losses
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -35,7 +35,7 @@ Result<LinePorts, Problem> parse_line_ports(std::string_view text);
 class LineRelay {
  public:
   static Result<LineRelay, Problem> open(std::uint16_t listen, std::uint16_t destination);
-  void serve(transport::SerialLine& line);  // carries what is there, both ways; never blocks
+  void serve(transport::SerialLine& line);  // forwards all waiting data both ways; never blocks
   int fd() const { return socket_.fd(); }
   const transport::UdpCounters& counters() const { return socket_.counters(); }
 

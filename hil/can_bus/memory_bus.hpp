@@ -1,22 +1,23 @@
-// One CAN bus in memory, in virtual time: bit-exact frame lengths, arbitration, queues, load, and
-// what goes wrong on a wire: bit errors with error frames and retransmission, nodes that are
-// warned, passive and bus-off, one that babbles, one that takes nothing.
-//   in     offer(port, frame, now): a node hands a frame to its controller; `now` does not run
-//          backwards (an offer in the past counts as now). Each port has one slot per identifier:
-//          a newer frame overwrites the one that still waits.
-//   out    advance(now): what every other port received up to `now`, in order of the end of frame;
-//          valid until the next call of advance(). Arbitration is decided strictly before `now`,
-//          so the order of offers at one instant does not matter (only on equal keys).
+// CAN bus in memory, in virtual time: bit-exact frame lengths, arbitration, queues, load, and bus
+// faults: bit errors with error frames and retransmission, nodes in the states warning,
+// error-passive and bus-off, a babbling node, a stalled controller.
+//   in     offer(port, frame, now): a node passes a frame to its controller; `now` never decreases
+//          (an earlier time counts as the present one). Each port has one slot per identifier: a
+//          newer frame overwrites the one that still waits
+//   out    advance(now): the frames that every other port received up to `now`, in order of the end
+//          of frame; valid until the next call of advance(). Arbitration is decided strictly before
+//          `now`, so the order of offers at one instant does not matter (except for equal keys)
 //   order  (time, arbitration key, sequence of the offer): total, hence reproducible
-//   faults all off until somebody asks for one. A frame that is destroyed costs the bits up to the
-//          error, an error frame of 20 bits (flag 6, echo 6, delimiter 8) and the interframe space,
-//          and is sent again, unless its slot has a newer one by then. A passive node waits 8 bits
-//          after each try. Bus-off empties the queue and refuses offers until restart() and 128
-//          runs of 11 recessive bits
+//   faults all off by default. A destroyed frame takes the bits up to the error, an error frame of
+//          20 bits (flag 6, echo 6, delimiter 8) and the interframe space; it is sent again unless
+//          its slot has a newer frame by then. An error-passive node waits 8 bits after each
+//          attempt. Bus-off empties the queue and refuses offers until restart() and 128 runs of 11
+//          recessive bits
 //   units  bit/s, Instant of the bench; a frame is received 3 bits before the bus is free again
-//   errors full queue or a CAN FD frame -> offer() returns false, counted; nothing is silent
+//   errors offer() returns false for a full queue or a CAN FD frame, and counts it; every loss is
+//          counted
 //   cost   O(pending) per frame; no allocation after construction
-//   source Bosch CAN 2.0; virtual CAN of the kernel has neither length nor arbitration
+//   source Bosch CAN 2.0; the kernel's virtual CAN models neither frame length nor arbitration
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -34,17 +35,19 @@
 namespace pitwall::can_bus {
 
 inline constexpr std::size_t kMaxPorts = 8;
-inline constexpr std::size_t kMaxPending = 64;       // per port: more than the database has ids
-inline constexpr std::size_t kMaxDeliveries = 8192;  // per advance(): over a second of full load
+// per port: more than the identifiers of the database
+inline constexpr std::size_t kMaxPending = 64;
+// per advance(): more than one second of full load
+inline constexpr std::size_t kMaxDeliveries = 8192;
 
 struct BusConfig {
   std::uint8_t ports = 2;
   std::int64_t bit_rate = 500'000;  // bit/s
-  std::uint64_t seed = 1;           // of what destroys frames
+  std::uint64_t seed = 1;           // of the random bus errors
 };
 
 inline constexpr std::uint32_t kErrorFrameBits = 20;
-inline constexpr std::uint32_t kSuspendBits = 8;  // of a passive node, after it has sent
+inline constexpr std::uint32_t kSuspendBits = 8;  // wait of an error-passive node after it has sent
 
 struct Delivery {
   std::uint8_t to = 0, from = 0;  // ports
@@ -52,21 +55,21 @@ struct Delivery {
 };
 
 struct BusCounters {
-  std::uint64_t sent = 0;          // frames that made it onto the wire
+  std::uint64_t sent = 0;          // frames sent completely
   std::uint64_t overwritten = 0;   // replaced in their slot by a newer frame of the same identifier
-  std::uint64_t lost = 0;          // queue full, port disconnected, or nobody called advance()
+  std::uint64_t lost = 0;          // queue full, port disconnected, or kMaxDeliveries exceeded
   std::uint64_t refused = 0;       // not a classic CAN frame
-  std::uint64_t bits = 0;          // on the wire, interframe space included
-  std::uint64_t error_frames = 0;  // everybody sees each of them
+  std::uint64_t bits = 0;          // on the bus, interframe space included
+  std::uint64_t error_frames = 0;  // each one counted once for the whole bus
 };
 
-// How one node stands.
+// State of one node.
 struct PortStatus {
   ErrorState state = ErrorState::kActive;
   std::uint16_t send_errors = 0, receive_errors = 0;
-  std::uint64_t dropped = 0;   // overwritten, refused or thrown away before they were sent
+  std::uint64_t dropped = 0;   // overwritten, refused in bus-off, or discarded before sending
   std::uint64_t restarts = 0;  // from bus-off
-  Duration blocked{};          // something waits, and nothing was sent for so long
+  Duration blocked{};          // time without a sent frame while a frame waits
 };
 
 class MemoryBus {
@@ -76,25 +79,27 @@ class MemoryBus {
   bool offer(std::uint8_t port, const can::Frame& frame, Instant now);
   std::span<const Delivery> advance(Instant now);
 
-  // A cut wire: a disconnected port neither sends nor hears; what waits in its queue is lost.
+  // Connects or disconnects a port, like a cut wire: a disconnected port neither sends nor
+  // receives, and its waiting frames are lost.
   void connect(std::uint8_t port, bool connected);
 
-  // Each bit that anybody sends is seen wrong with this probability, by all.
+  // Each bit on the bus is corrupted with this probability, for all nodes.
   void disturb(double bit_error);
-  // This share of the frames that the port sends is destroyed at a bit of its own.
+  // This share of the frames of the port is destroyed, each at a random bit.
   void damage_transmitter(std::uint8_t port, double share);
-  // The controller takes frames and sends none.
+  // The controller accepts frames and sends none.
   void stall(std::uint8_t port, bool stalled);
-  // The node sends this frame over and over, so that it fills `share` of the bus; 0 ends it.
+  // The node repeats this frame so that it fills `share` of the bus; 0 ends it.
   void babble(std::uint8_t port, const can::Frame& frame, double share, Instant now);
-  // True if the port was bus-off and not being restarted yet.
+  // Starts the recovery from bus-off. Returns false unless the port is bus-off and not yet
+  // recovering.
   bool restart(std::uint8_t port, Instant now);
 
-  PortStatus status(std::uint8_t port) const;  // at the last advance or offer
+  PortStatus status(std::uint8_t port) const;  // at the last advance() or offer()
   const BusCounters& counters() const { return counters_; }
   std::uint64_t sent_by(std::uint8_t port) const;
   std::size_t pending(std::uint8_t port) const;
-  // Share of the last full second (up to the last advance or offer) in which the bus was busy.
+  // Bus load: busy share of the last full second, up to the last advance() or offer().
   double load() const;
 
  private:
@@ -127,7 +132,7 @@ class MemoryBus {
     bool found = false;
     std::uint8_t port = 0;
     Pending frame;
-    std::size_t slot = 0;  // kMaxPending: of the babbler, none
+    std::size_t slot = 0;  // kMaxPending: frame of a babbling node, in no slot
     Instant start{};
   };
 
@@ -157,13 +162,13 @@ class MemoryBus {
   BusCounters counters_;
   std::uint64_t sequence_ = 0;
   Instant now_{}, free_at_{};
-  bool on_wire_ = false;  // a frame has begun whose end has not been delivered yet
+  bool on_wire_ = false;  // a frame has begun, and its end is not delivered yet
   bool is_destroyed_ = false;
   std::uint8_t sender_ = 0;
   Pending wire_;
   bool is_babble_ = false;
   Instant wire_ends_{};
-  Instant idle_from_{};  // what came before has been seen by those that recover
+  Instant idle_from_{};  // recovering nodes have counted the idle bits before it
   double bit_error_ = 0.0;
   Random random_;
   std::array<std::int64_t, kLoadBuckets> busy_ns_{};

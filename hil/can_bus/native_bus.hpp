@@ -1,7 +1,7 @@
-// CAN interfaces of this machine's own kernel, virtual and real.
-//   in     interface names; settings of real ones
-//   out    whether they exist now, and how they are
-//   errors Problem: no CAN in this kernel, not allowed, or refused by the driver, in its own words
+// CAN interfaces of the machine's own kernel, virtual and real: creation, setup, status, removal.
+//   in     interface names; settings of real interfaces
+//   out    existing interfaces, their status as text
+//   errors Problem: no CAN in this kernel, missing permission, or the error text of the driver
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -17,14 +17,14 @@ namespace pitwall::can_bus {
 
 bool interface_exists(const std::string& name);
 
-// Makes those that are missing and sets all of them up. Nothing: they are there.
+// Creates missing virtual interfaces and sets all of them up. nullopt: success.
 std::optional<Problem> bring_up(std::span<const std::string> interfaces);
-// Sets up real interfaces; one without a CAN controller is a problem.
+// Sets up real interfaces; an interface without a CAN controller is a Problem.
 std::optional<Problem> bring_up(std::span<const std::string> interfaces,
                                 const transport::CanInterfaceSettings& settings);
-// Some lines for people.
+// Status report of several lines.
 std::string status_text(std::string_view interface, const transport::CanInterfaceStatus& status);
-// Removes virtual interfaces; one that does not exist is no problem, a real one is.
+// Removes virtual interfaces; a missing one is ignored, a real one is a Problem.
 std::optional<Problem> take_down(std::span<const std::string> interfaces);
 
 }  // namespace pitwall::can_bus

@@ -1,8 +1,9 @@
-// A hub of our own for a bus `unix:PATH` that nobody serves yet: a child process, so that it keeps
-// its own pace beside the bench. It goes with its owner, however that ends.
-//   in     name of the bus; another interface needs no hub. File of bench time; empty: the wall's
-//   out    nothing where none is needed; else a hub that takes clients already
-//   errors Problem: it did not start (its own words are on stderr)
+// Hub process for a bus `unix:PATH` that has no hub yet. A child process, so that its timing does
+// not depend on the bench. It ends with its owner, however the owner ends.
+//   in     name of the bus (other interfaces need no hub); file of bench time, empty: the wall
+//          clock
+//   out    nullopt if no hub is needed; else a hub that already accepts clients
+//   errors Problem: it did not start (its own messages are on stderr)
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -23,7 +24,7 @@ class OwnHub {
                                                       const std::string& clock = {});
   OwnHub(OwnHub&&) = default;
   OwnHub& operator=(OwnHub&&) = delete;
-  ~OwnHub();  // it prints its counters and removes its path
+  ~OwnHub();  // the hub prints its counters and removes its path
 
  private:
   explicit OwnHub(transport::Process process) : process_(std::move(process)) {}

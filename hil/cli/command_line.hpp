@@ -1,8 +1,7 @@
-// Command-line options of one subcommand: declaration, validation, help. CLI11 does the work behind
-// this header, which costs a file that includes it nothing.
-//   in     the verb's options with the variables that they fill; the words after the verb
-//   out    nothing if the verb is to run; else the exit code: help was printed, or the error in the
-//          options
+// Command-line options of one subcommand: declaration, validation, help. This header hides CLI11,
+// so that including it costs no compile time.
+//   in     the options of the subcommand with the variables that they fill; the arguments after it
+//   out    nullopt if the subcommand has to run; else the exit code, after help or an error message
 //   errors the exit code
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
@@ -22,7 +21,7 @@ class Option;
 
 namespace pitwall::cli {
 
-// One option, as its command line made it; valid as long as that is.
+// One option of a CommandLine; valid as long as that exists.
 class VerbOption {
  public:
   explicit VerbOption(CLI::Option& option) : option_(&option) {}
@@ -30,13 +29,13 @@ class VerbOption {
   VerbOption& required();
   VerbOption& range(int least, int most);
   VerbOption& range(double least, double most);
-  VerbOption& words(int count);  // as many as one use of the option takes
-  VerbOption& with_commas();     // between these words
+  VerbOption& words(int count);  // number of arguments per use of the option
+  VerbOption& with_commas();     // the arguments are separated by commas
   VerbOption& needs(const VerbOption& other);
   VerbOption& excludes(const VerbOption& other);
-  VerbOption& hidden();         // from the help
-  VerbOption& shows_default();  // in the help
-  bool given() const;           // among the words that were read
+  VerbOption& hidden();         // not shown in the help
+  VerbOption& shows_default();  // shown in the help
+  bool given() const;           // true if the option was on the command line
 
  private:
   CLI::Option* option_;
@@ -51,21 +50,20 @@ class CommandLine {
   CommandLine(const CommandLine&) = delete;
   CommandLine& operator=(const CommandLine&) = delete;
 
-  // Value is any type that a verb asks for: text, a list of texts, a number. An option without
-  // leading dashes is known by its place among the words.
+  // Value is text, a number, or a list of either. An option without leading dashes is positional.
   template <typename Value>
   VerbOption option(const std::string& name, Value& value, const std::string& help);
   VerbOption flag(const std::string& name, bool& value, const std::string& help);
-  // Of these exactly one has to be said.
+  // Adds a subcommand; exactly one of them must be given.
   CommandLine one_of(const std::string& name, const std::string& help);
 
-  bool is_chosen() const;  // this part, after the words have been read
+  bool is_chosen() const;  // true if this subcommand was given; valid after ended_by() of the whole
   std::optional<int> ended_by(std::span<const std::string> args);
 
  private:
   explicit CommandLine(CLI::App& part);
 
-  std::unique_ptr<CLI::App> own_;  // none: a part of another
+  std::unique_ptr<CLI::App> own_;  // nullptr: a subcommand of another CommandLine
   CLI::App* app_;
 };
 

@@ -1,11 +1,11 @@
-// `pitwall-hil report EVENTS.mcap --out report.html [--result run.json] [--junit FILE]
+// Subcommand `pitwall-hil report EVENTS.mcap --out report.html [--result run.json] [--junit FILE]
 //                                [--track FILE]`
-// The page and the JUnit file of a run, made from its event log, now or later.
+// Makes the HTML page and the JUnit file of a run from its event log, after the run or later.
 //   in     the event log; the result of the same run, for laps, traffic and real-time figures; the
-//          track for the walls of the map (default: the file that the log names, where it is there)
-//   out    both files, also for a log that is cut, damaged or missing: then they say so
-//   errors exit code 0: every expectation held; 1: one did not; 2: wrong usage, a log or result
-//          that cannot be relied on, a file that cannot be written
+//          track for the walls of the map (default: the file that the log names, if it exists)
+//   out    both files, also for a log that is cut, damaged or missing: the files then state that
+//   errors exit code 0: every expectation passed; 1: one failed; 2: wrong usage, an unreliable log
+//          or result, a file that cannot be written
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -22,12 +22,12 @@ struct ReportFiles {
   std::string result, junit, track;  // empty: none
 };
 
-// `failure`: why the run itself did not end, where it did not. The exit code as above.
+// `failure`: why the run did not end properly, if so. Returns the exit code as above.
 int write_report(const ReportFiles& files, const std::optional<Problem>& failure);
 
-// Where `run --report FOLDER` leaves its files: events.mcap, run.json, report.html, junit.xml.
+// Output files of `run --report FOLDER`: events.mcap, run.json, report.html, junit.xml.
 ReportFiles report_files(const std::string& folder);
-// Makes the folder and takes away what another run left there.
+// Creates the folder and removes the files of an earlier run in it.
 std::optional<Problem> prepare_report(const std::string& folder);
 
 int report_verb(std::span<const std::string> args);

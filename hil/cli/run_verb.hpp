@@ -1,17 +1,18 @@
-// `pitwall-hil run SCENARIO`: one scenario, in lockstep (default) or live.
+// Subcommand `pitwall-hil run SCENARIO`: runs one scenario, in lockstep (default) or live.
 //
-//   --live            real SocketCAN and the real car process; where this kernel has no CAN,
-//                     inside a User-mode Linux guest that is booted for it
-//   --interface unix:PATH  live without either: a bus over a Unix socket, its hub started if needed
-//   --attach          live: the car runs already; what the bench adds is the rest of its world
+//   --live            real SocketCAN and the real car process; if this kernel has no CAN, inside a
+//                     User-mode Linux guest that is booted for it
+//   --interface unix:PATH  live without either: a bus over a Unix socket; starts a missing hub
+//   --attach          live: the car is already running; the bench adds the rest of its world
 //   --log FILE        event log (MCAP)       --json FILE   result for programs
-//   --hours H         lockstep: again and again, each time with the next seed, until so many hours
-//                     have been driven or one failed
-//   --report FOLDER   both of these and their page and JUnit file: report.html, junit.xml
-//   --progress FILE   one JSON line after the other while the run goes on: hil/bench/progress.hpp
+//   --hours H         lockstep: repeated with the next seed each time, until H hours have been
+//                     driven or a run failed
+//   --report FOLDER   log and result with their page and JUnit file: report.html, junit.xml
+//   --progress FILE   one JSON line per message during the run: hil/bench/progress.hpp
 //   --out FOLDER      live: summary of the car, candump of the bus
-//   --record FOLDER   live: the car's own recording, which `pitwall-hil compare` drives again
-//   out    exit code 0 passed, 1 an expectation failed, 2 bad input or bench failure
+//   --record FOLDER   live: the car's own recording, which `pitwall-hil compare` replays
+//   out    exit code 0 passed, 1 an expectation failed, 2 bad input or bench failure, 4 the car hit
+//          a wall and the scenario does not expect it
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -29,34 +30,35 @@ namespace pitwall::cli {
 struct RunOptions {
   std::string scenario, log_file, json_file, folder = "out/run";
   std::string report_folder;          // empty: no report
-  std::string progress_file;          // lines while it goes on; empty: none
-  std::string record_folder;          // live: of the car's own recording; empty: none
-  std::optional<Duration> duration;   // instead of the scenario's
-  std::optional<std::uint64_t> seed;  // likewise
-  double hours = 0.0;                 // 0: once
+  std::string progress_file;          // progress lines; empty: none
+  std::string record_folder;          // live: folder of the car's own recording; empty: none
+  std::optional<Duration> duration;   // replaces that of the scenario
+  std::optional<std::uint64_t> seed;  // replaces that of the scenario
+  double hours = 0.0;                 // 0: a single run
   bool live = false, here = false, candump = false, quiet = false;
-  bool cut = false;          // what a shorter duration takes from the scenario is not judged
-  bool attach = false;       // live: the car is not ours, it runs already
-  bool no_guardian = false;  // live: the car alone, although the guardian's program is there
+  bool cut = false;          // expectations beyond a shorter duration are not graded
+  bool attach = false;       // live: the car was started separately
+  bool no_guardian = false;  // live: no guardian, even if its program exists
   std::string interface = "vcan0";
-  int bay = 0;                    // live: of the benches that run on this machine at once
-  std::uint16_t radio_port = 0;   // live: where the bench passes the car's telemetry on
-  std::uint16_t uplink_port = 0;  // live: where answers of the base come; 0: any port
+  int bay = 0;                    // live: index among the benches that run on this machine
+  std::uint16_t radio_port = 0;   // live: port to which the bench forwards the car's telemetry
+  std::uint16_t uplink_port = 0;  // live: port for datagrams of the base; 0: any port
   std::string clock;              // live: see clock_place.hpp
-  std::string keys;               // live: folder of the run's keys; empty: new ones
+  std::string keys;               // live: folder of the keys of the run; empty: new ones
 };
 
 int run_scenario(const RunOptions& options);
 int run_verb(std::span<const std::string> args);
 
-// Path of this very program, to start it again inside a guest.
+// Path of this program, to start it again inside a guest.
 std::string own_program();
-// Path of another program of the same build, by its folder and name.
+// Path of another program of the same build, given by folder and name.
 std::string beside(const std::string& program);
-// The command that runs a scenario live where the interface already exists.
+// The command that runs a scenario live on an existing interface.
 std::vector<std::string> live_command(const RunOptions& options);
-// The words of `pitwall-hil bus` that run it in a guest, or here where there is CAN. The radio's
-// ports stay those of this machine: a base that runs on it hears the car and is heard.
+// The arguments of `pitwall-hil bus` that run this command in a guest, or here if the kernel has
+// CAN. The radio ports stay those of this machine, so that a base on it can communicate with the
+// car.
 Result<std::vector<std::string>, Problem> exec_words(const RunOptions& options);
 
 }  // namespace pitwall::cli

@@ -1,9 +1,9 @@
-// `pitwall-hil serve --socket PATH [--scenarios FOLDER] [--runs FOLDER]`
-// Bench server at a socket: hil/cli/bench_server/PROTOCOL.md. A base station that was given the
-// same path shows its scenarios and starts them.
-//   in     words of the verb; clients at the socket
+// Subcommand `pitwall-hil serve --socket PATH [--scenarios FOLDER] [--runs FOLDER]`
+// Bench server at a Unix socket: hil/cli/bench_server/PROTOCOL.md. A base station with the same
+// path shows its scenarios and starts them.
+//   in     arguments of the subcommand; clients at the socket
 //   out    runs, each `pitwall-hil run` in a process and a folder of its own
-//   errors exit code 2: wrong usage, no such folder, a socket that somebody serves
+//   errors exit code 2: wrong usage, no such folder, a socket that another process serves
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

@@ -1,4 +1,4 @@
-// Text about the timing of a live run.
+// Text about the timing of a live run, for its report.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -10,12 +10,12 @@
 namespace pitwall::cli {
 
 std::string timing_text(const bench::LiveResult& live);
-// What the host of a virtual machine took; empty where it took nothing, and in a guest, whose bench
-// cannot know it.
-// For how long bench time stood, and for whom.
+// waits_text(): total pause of bench time and the process that caused the longest. stolen_text():
+// processor time that the host of a virtual machine took; empty if none, and in a guest, where it
+// cannot be measured.
 std::string waits_text(const bench::RealTime& time);
 std::string stolen_text(const bench::RealTime& time);
-// Why the run has judged nothing.
+// Reason why the run was not graded.
 std::string late_text(const bench::RealTime& time);
 
 }  // namespace pitwall::cli

@@ -1,11 +1,11 @@
-// Faults that the bench itself carries out in its models: data only, one row per kind. The scenario
-// file names them; what acts on each is the part in `acts_on`.
-//   units  of `value`: as the row says; 0 where the kind needs none
+// Table of the faults that the bench carries out in its models: data only, one row per kind. The
+// scenario file names them; `acts_on` gives the part of the bench that applies each.
+//   units  of `value`: as given in the row; 0 if the kind needs none
 //   invariants
-//          a process that is killed for a duration is started again at its end (never armed); one
-//          killed without a duration stays dead; one that is paused goes on at the end. A base that
-//          is replaced dies, and at the end a spare one begins at the second address of the car's
-//          list. A base that moves is elsewhere until the end, at an address of no list
+//          a process killed for a duration is restarted at its end (never armed); one killed
+//          without a duration stays dead; a paused one continues at the end. A base that is
+//          replaced dies, and at the end a spare base starts at the second address of the car's
+//          list. A base that moves has an address outside the list until the end of the fault
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -129,12 +129,12 @@ struct BenchFault {
   BenchFaultKind kind = BenchFaultKind::kGnssUnitOutage;
   Instant start{};
   std::optional<Duration> duration{};  // absent: until the end
-  std::uint8_t unit = 0;               // which of several equal parts, from 0
+  std::uint8_t unit = 0;               // index of one of several equal parts, from 0
   double value = 0.0;
   std::uint64_t seed = 1;
 };
 
-inline constexpr std::size_t kBrakeCircuits = 2;  // unit 0 the front one, 1 the rear one
+inline constexpr std::size_t kBrakeCircuits = 2;  // unit 0: front, unit 1: rear
 
 inline constexpr std::size_t kBenchFaultKinds = 82;
 extern const std::array<BenchFaultRow, kBenchFaultKinds> kBenchFaults;

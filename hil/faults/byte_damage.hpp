@@ -49,7 +49,7 @@ class ByteDamage {
 
   std::vector<BenchFault> faults_;
   std::vector<Random> random_;
-  std::array<Piece, kUnits> older_{};  // the message before
+  std::array<Piece, kUnits> older_{};  // the previous message
   std::array<std::uint8_t, 2 * kMaxMessage + kMaxGarbage> out_{};
   std::size_t length_ = 0;
   std::uint64_t damaged_ = 0;

@@ -1,7 +1,8 @@
-// Frames that wait for their instant.
-//   in     push(frame with its instant); out   pop(now): the next one that is due, or nothing
-//   order  (instant, sequence of push): total
-//   errors full -> push() is false; the caller counts
+// Delay queue of CAN frames: each is released at its time.
+//   in     push(frame with its time)
+//   out    pop(now): the next frame that is due, or nullopt
+//   order  (time, sequence of push): total
+//   errors push() returns false if the queue is full; the caller counts
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -13,7 +14,7 @@
 
 namespace pitwall::faults {
 
-inline constexpr std::size_t kMaxDelayed = 2048;  // one second of the car's whole traffic
+inline constexpr std::size_t kMaxDelayed = 2048;  // one second of all traffic of the car
 
 class DelayQueue {
  public:

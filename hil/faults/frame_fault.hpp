@@ -1,11 +1,11 @@
 // Faults of single CAN frames on their way from the bench to the car (F01 to F12, F16 to F18 of the
 // catalogue).
-//   in     the list of faults of the scenario, their state, one frame, now
-//   out    what is put on the bus in its place, each with the instant from which it may be sent
-//          (later than `now` for a delay: keep it in a DelayQueue)
-//   order  faults act in the order of the list, each on what the ones before it left
+//   in     the fault list of the scenario, its state, one frame, now
+//   out    the frames that replace it on the bus, each with its earliest send time (later than
+//          `now` for a delay: the caller keeps it in a DelayQueue)
+//   order  faults act in the order of the list, each on the result of those before it
 //   invariants
-//          one seed, one sequence of outcomes; a fault outside its time changes nothing
+//          one seed gives one sequence of faults; a fault outside its time changes nothing
 //   errors a copy beyond kMaxCopies is dropped and counted
 //   cost   no allocation
 // SPDX-License-Identifier: Apache-2.0
@@ -29,24 +29,24 @@ enum class FrameFaultKind : std::uint8_t {
   kDropBurst,      // F02 with `probability` a burst of `count` frames is lost
   kDropAll,        // F03 one id, F04 without an id
   kDelay,          // F05 `delay` plus up to `jitter`
-  kDuplicate,      // F06 `count` copies more, kCopyAfter one another, with `probability`
+  kDuplicate,      // F06 `count` additional copies at intervals of kCopyAfter, with `probability`
   kBitFlip,        // F07 `count` bits of the payload, with `probability`
-  kStuckCounter,   // F08 the counter stays at its value when the fault began
+  kStuckCounter,   // F08 the counter keeps its value from the start of the fault
   kCounterJump,    // F09 the counter is `count` ahead
-  kWrongLength,    // F11 one byte less (or one more when the message is empty)
+  kWrongLength,    // F11 one byte less (one more if the message is empty)
   kUnknownId,      // F11 an extra frame with identifier `other_id`, with `probability`
-  kFrozenValue,    // F16 the payload of the beginning, with a live counter
-  kWrongChecksum,  // F10 the counter is right; of a message that has a checksum
-  kExtendedAlias,  // F11 an extra frame with an identifier of 29 bits that reads the same
-  kMasquerade,    // F12 an extra frame with `id`, one of the computer's own, all zeros, beside each
-                  // of kBeside
-  kSignalOffset,  // F17 the signal no. `unit` of the message: `value` is added
-  kSignalDrift,   // F17 `value` per second
-  kSignalNoise,   // F17 up to +-`value`
-  kSignalSet      // F17, F18 says `value`, be it out of its range
+  kFrozenValue,    // F16 the payload from the start of the fault, with a live counter
+  kWrongChecksum,  // F10 with a correct counter; only messages with a checksum
+  kExtendedAlias,  // F11 an extra frame with the same identifier in 29 bit format
+  // F12 an extra frame of zeros with `id`, one of the computer's own, beside each kBeside
+  kMasquerade,
+  kSignalOffset,  // F17 `value` is added to signal number `unit` of the message
+  kSignalDrift,   // F17 `value` per second is added
+  kSignalNoise,   // F17 random, up to +-`value`, is added
+  kSignalSet      // F17, F18 the signal becomes `value`, even outside its range
 };
 inline constexpr std::size_t kFrameFaultKinds = 18;
-// A controller has one place per identifier: a copy at once would replace its original.
+// A controller has one slot per identifier: an immediate copy would replace the original.
 inline constexpr Duration kCopyAfter = milliseconds(1);
 inline constexpr std::uint32_t kBeside = 1301;  // brake_pressure_report
 
@@ -68,8 +68,7 @@ struct FrameFault {
 };
 
 inline constexpr std::size_t kMaxFrameFaults = 32;
-inline constexpr std::size_t kMaxFrozen =
-    48;  // identifiers that one fault can hold: the database's
+inline constexpr std::size_t kMaxFrozen = 48;  // identifiers per fault: all of the database
 inline constexpr std::size_t kMaxCopies = 8;
 
 struct TimedFrame {

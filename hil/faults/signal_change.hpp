@@ -1,11 +1,11 @@
-// Change of one signal of a report, and nothing else of the frame.
-//   in     a frame; which of the signals of its message that the bench can change, from 0; the
-//          value
-//   out    the frame
+// Change of one signal in a CAN report frame; the rest of the frame stays.
+//   in     a frame; the index of the signal among those of its message that the bench can change;
+//          the value
+//   out    the changed frame
 //   units  those of the database (km/h, kPa, %, deg; raw for sys_state)
 //   invariants
-//          a value beyond what the field holds becomes the field's end; a frame of another message
-//          is left as it is
+//          a value outside the range of the field is clamped to the end of the range; a frame of
+//          another message is not changed
 //   source protocol/can/dbc/av21.dbc
 // SPDX-License-Identifier: Apache-2.0
 #pragma once

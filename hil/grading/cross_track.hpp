@@ -1,7 +1,7 @@
-// Cross-track error by speed, in the brackets of the paper, with the paper's figures beside it.
+// Cross-track error statistics by speed bracket, beside the figures of the paper.
 //   in     one pair (speed, cross-track error) per tick at a constant rate; a NaN is only counted
-//   out    mean and maximum of the absolute error per bracket and over all above 10 m/s
-//   units  m, m/s; a speed on the edge belongs to the faster bracket
+//   out    mean and maximum of the absolute error per bracket and overall above 10 m/s
+//   units  m, m/s; a speed on a boundary belongs to the faster bracket
 //   source Saba et al., Fast and Modular Autonomy Software for Autonomous Racing Vehicles: best and
 //          mean of three runs of season one
 // SPDX-License-Identifier: Apache-2.0

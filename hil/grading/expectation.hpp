@@ -1,9 +1,9 @@
-// Expectations of a scenario as values: conditions on named signals and when they have to hold.
+// Expectations of a scenario as values: conditions on named signals, and when they have to hold.
 //   units  of a number: those of its signal; instants since the start of the scenario
 //   invariants
-//          margin(c, x) >= 0 where c holds for x, <= 0 where not; its size is the distance
-//          of x from the limit (for == and !=: from the edge of the tolerance)
-//   errors a value that is NaN meets no condition and no negation of one: margin -infinity
+//          margin(c, x) >= 0 if c holds for x, <= 0 if not; its size is the distance of x from the
+//          limit (for == and !=: from the edge of the tolerance)
+//   errors a NaN value meets neither a condition nor its negation: margin -infinity
 //   source robustness of temporal logic: Fainekos and Pappas 2009
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
@@ -37,10 +37,10 @@ enum class Kind : std::uint8_t {
   kNever,   // at no tick of the window
   kWithin,  // at some tick at most `limit` after the window opens
   kAfter,   // each time that `trigger` becomes true in the window, `condition` within `limit`
-  kDetects  // as kWithin, of a fault at `from`: after that instant, and not in the kQuiet before
+  kDetects  // as kWithin, for a fault at `from`: after `from`, and not during kQuiet before it
 };
 
-// What was already seen before a fault is not its detection.
+// A condition that held shortly before the fault is not its detection.
 inline constexpr Duration kQuiet = seconds(2);
 
 std::string_view name_of(Kind kind);  // "always" "never" "within" "after" "detects"

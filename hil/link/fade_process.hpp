@@ -1,10 +1,10 @@
-// The fades of a link over time: good and bad alternate, each for an exponential time. What is on
-// the air does not move them.
-//   in     times, which never go back
-//   out    whether the air is faded then
+// Fading of a radio link over time: good and bad states alternate, each for an exponential time,
+// independent of the traffic.
+//   in     times, never decreasing
+//   out    whether the link fades at that time
 //   invariants
-//          one seed, one trace; the first state is drawn too, so that the trace is stationary from
-//          its start at Instant{}
+//          one seed gives one trace; the first state is drawn too, so that the trace is stationary
+//          from its start at Instant{}
 //   cost   one draw for each change of state that has passed
 //   source Gilbert 1960, Elliott 1963, in continuous time
 // SPDX-License-Identifier: Apache-2.0
@@ -23,7 +23,7 @@ class FadeProcess {
   FadeProcess(const Fades& fades, std::uint64_t seed);
 
   bool bad(Instant at);
-  Instant until() const { return until_; }  // the state that bad() told lasts to here
+  Instant until() const { return until_; }  // end of the state that bad() returned
 
  private:
   Duration draw(Duration mean);

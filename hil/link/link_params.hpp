@@ -1,4 +1,4 @@
-// Parameters of the radio link emulator: see link_emulator.hpp.
+// Parameters of the radio link emulator, link_emulator.hpp.
 //   units  bytes per second, Duration, metres, probabilities 0 .. 1; times count from the start of
 //          the run
 // SPDX-License-Identifier: Apache-2.0
@@ -26,47 +26,47 @@ struct Fades {
   }
 };
 
-// Nothing passes from `from` for `length`, again each `every` (zero: once).
+// Nothing passes from `from` for `length`, repeated every `every` (zero: once).
 struct Blackout {
   Instant from{};
   Duration length{}, every{};
 };
 
-// From a recording: of what is on the air in [from, to) this share is lost.
+// From a recording: this share of the datagrams sent in [from, to) is lost.
 struct Outage {
   Instant from{}, to{};
   double loss = 1.0;
 };
 
-// From a recording: around this place of the track, half way to the next ones.
+// From a recording: loss around this station, up to half way to the next ones.
 struct StationLoss {
   double station_m = 0.0;
   double loss = 0.0;
 };
 
-// A recorded link: outages over time, in order, and loss by place, by ascending station.
+// A recorded link: outages in order of time, and loss by ascending station.
 struct LinkTrace {
   std::vector<Outage> outages;
-  Duration repeat{};  // the outages come again each `repeat`; zero: once
+  Duration repeat{};  // period of repetition of the outages; zero: once
   std::vector<StationLoss> by_station;
   double lap_length_m = 0.0;
 };
 
 // One direction of one link.
 struct LinkParams {
-  double rate_bytes_per_s = 0.0;  // of the air, IP and UDP overhead counted; 0: without limit
-  std::size_t overhead_bytes = telemetry::kIpUdpOverhead;  // 0 where whole IP packets are offered
-  std::size_t queue_bytes = 16'384;  // before it; what does not fit is dropped
+  double rate_bytes_per_s = 0.0;  // of the radio, with IP and UDP overhead; 0: unlimited
+  std::size_t overhead_bytes = telemetry::kIpUdpOverhead;  // 0 if whole IP packets are offered
+  std::size_t queue_bytes = 16'384;  // queue before it; what does not fit is dropped
   Duration delay{}, jitter{};        // jitter: uniform, 0 .. jitter; keeps the order
   Fades fades;
-  double loss = 0.0, duplicate = 0.0, corrupt = 0.0;  // of each datagram, independent
-  double reorder = 0.0;                               // of each datagram: held back by
-  Duration reorder_by{};                              // so long
+  double loss = 0.0, duplicate = 0.0, corrupt = 0.0;  // per datagram, independent
+  double reorder = 0.0;                               // per datagram: delayed by reorder_by
+  Duration reorder_by{};
   std::vector<Blackout> blackouts;
   LinkTrace trace;
 };
 
-// Presets: mean loss and mean fade.
+// Preset by mean loss and mean duration of a fade.
 LinkParams bursty(double loss, Duration mean_fade, double rate_bytes_per_s, Duration delay);
 
 }  // namespace pitwall::link

@@ -1,10 +1,10 @@
-// Recorded links: what a team measured on its track, as a file.
+// Reader and writer of recorded radio links, measured on a track, as CSV files.
 //   in     CSV with a header line, one of
-//            from_s,to_s[,loss]   outages in order, loss 1 where it is not given
-//            station_m,loss       loss around a place of the track, by ascending station
+//            from_s,to_s[,loss]   outages in order; loss is 1 if it is not given
+//            station_m,loss       loss around a station of the track, by ascending station
 //          '#' begins a comment line
-//   out    a LinkTrace; and the loss that it holds at a time or place, 0 where it says nothing
-//   errors Problem "file:line" for a line that is no such row, is out of order or out of range
+//   out    a LinkTrace; its loss at a time or station, 0 outside of its entries
+//   errors Problem "file:line" for a line that is not such a row, is out of order or out of range
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -18,11 +18,11 @@
 namespace pitwall::link {
 
 Result<LinkTrace, Problem> read_trace(std::string_view text, const std::string& name);
-// The outages as such a file.
+// The outages as text of such a file.
 std::string write_trace(const LinkTrace& trace);
 
-// The fades that every sender under this seed meets, from the start to `length`: an outage for
-// each, so that a trace may be published and replayed.
+// The fades that every sender under this seed has, from the start to `length`, one outage for each:
+// a trace that can be published and replayed.
 LinkTrace trace_of(const Fades& fades, std::uint64_t seed, Duration length);
 
 double loss_over_time(const LinkTrace& trace, Instant at);

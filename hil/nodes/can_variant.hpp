@@ -1,13 +1,13 @@
-// CAN variant adapter: the bus of another revision of the car: what the bench's drive-by-wire and
-// race control mean, said and heard in the words of that revision.
-//   in     frames as the bench's models exchange them (av21, CAN1-INDY-V14); frames of the bus
-//   out    the same values by name in the layout of the other revision, and back; messages that
-//          only the other revision has, at their period, with values of a healthy car at rest
+// CAN variant adapter: translates between the frames of the bench's drive-by-wire and race control
+// and those of another revision of the car's bus.
+//   in     frames of the bench's models (av21, CAN1-INDY-V14); frames of the bus
+//   out    the same values, matched by name, in the layout of the other revision, and back;
+//          messages that only the other revision has, at their period, with the values of a healthy
+//          car at rest
 //   invariants
-//          V14 changes nothing, and V14 with protected messages adds those and a checksum to race
-//          control's flags. What the other revision
-//          lacks is not sent; a frame of the bus is heard only if its length is right there and it
-//          says all that the model's message has
+//          V14 changes nothing. V14 with protected messages adds these and a checksum to race
+//          control's flags. A message that the other revision lacks is not sent. A frame of the bus
+//          is accepted only if its length is right and it has all signals of the model's message
 //   units  those of the databases
 //   errors of(): Problem of a database; frames that cannot be encoded are left out and counted
 //   source databases: protocol/can/dbc/av24.dbc; for V9 and V12 the messages that differ from
@@ -32,7 +32,7 @@ namespace pitwall::can_variant {
 
 struct Dictionary;
 
-inline constexpr std::size_t kMaxFrames = 16;  // of one message, or due at one instant
+inline constexpr std::size_t kMaxFrames = 16;  // for one message, or due at one instant
 using Frames = FixedVector<can::Frame, kMaxFrames>;
 
 class CanVariant {
@@ -41,7 +41,7 @@ class CanVariant {
 
   Frames spoken(const can::Frame& frame);
   std::optional<can::Frame> receive(const can::Frame& frame);
-  // Of the messages that only this bus has. `now` does not run backwards.
+  // The due messages that only this bus has. `now` never decreases.
   Frames due(Instant now);
 
   const can::Database& database() const;

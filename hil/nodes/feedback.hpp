@@ -1,7 +1,7 @@
-// Inputs (Feedback) and outputs (Demand) of the drive-by-wire model. The bench maps both to its
-// plant; this folder knows no plant.
+// Inputs (Feedback) and outputs (Demand) of the drive-by-wire model. The bench connects both to its
+// plant; this folder does not depend on a plant.
 //   units  SI, kPa, C; angles at the steering motor, left positive; per wheel FL FR RL RR
-//   errors NaN means "not given": the report that would carry it is not sent, and that is counted
+//   errors NaN means "not given": the report with this value is not sent, and that is counted
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -22,9 +22,9 @@ struct Feedback {
   bool engine_running = false;
   std::uint8_t gear = 0;               // 0 neutral
   std::uint8_t gear_shift_status = 1;  // 0 uninitialised, 1 ready, 2 locked out, 3 up, 4 down
-  double wheel_torque_nm = 0.0;        // before the gearbox, pt_report_3
+  double wheel_torque_nm = 0.0;        // before the gearbox, in pt_report_3
 
-  // A plant without a model of these leaves them at a healthy car's numbers.
+  // Defaults of a healthy car, for a plant that does not model these.
   std::array<double, 4> tyre_temperature_c{60.0, 60.0, 60.0, 60.0};
   std::array<double, 4> tyre_pressure_kpa{150.0, 150.0, 150.0, 150.0};  // gauge
   std::array<double, 4> wheel_load_n{2000.0, 2000.0, 2000.0, 2000.0};
@@ -42,7 +42,7 @@ struct Demand {
   double brake_front_kpa = 0.0, brake_rear_kpa = 0.0;  // >= 0
   std::uint8_t gear = 0;
   bool crank = false;      // starter motor turns
-  bool engine_on = false;  // ignition and fuel: an engine that turns runs
+  bool engine_on = false;  // ignition and fuel: a turning engine runs
 };
 
 }  // namespace pitwall::drive_by_wire

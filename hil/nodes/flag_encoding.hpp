@@ -1,10 +1,11 @@
-// Encoder of flags: typed flags to the raw values of both race-control systems.
-//   in     flags; out   raw track and vehicle values
-//   errors a flag that the encoding cannot carry becomes the most similar one that restricts
-//          at least as much (MyLaps: stop -> red, engine kill -> purple; Marelli: orange is a
-//          vehicle flag); kUnknown becomes a value that no public table lists
-//   source flags as spoken by public code of the racing teams; the car's own table is written apart
-//          (vehicle/gateway), so that each tests the other
+// Encoder of flags: from typed flags to the raw values of both race-control systems.
+//   in     flags
+//   out    raw track and vehicle values
+//   errors a flag that the encoding lacks becomes the most similar one that is at least as
+//          restrictive (MyLaps: stop -> red, engine kill -> purple; Marelli: orange is a vehicle
+//          flag); kUnknown becomes a value that is in no public table
+//   source flags as used by public code of the racing teams; the table of the car is written
+//          independently (vehicle/gateway), so that each tests the other
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -29,7 +30,8 @@ struct RawFlags {
 
 RawFlags to_mylaps(const Flags& flags);
 
-// A green with a round speed that Marelli knows is the speed itself; NaN: plain green.
+// A green flag with a round speed that Marelli defines becomes the code of that speed; NaN: plain
+// green.
 RawFlags to_marelli(const Flags& flags, double round_target_speed_mph);
 
 }  // namespace pitwall::race

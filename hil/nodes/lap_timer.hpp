@@ -2,10 +2,10 @@
 //   in     station [m] at each tick, speed, whether the track is green; ticks in order of time
 //   out    a Lap at the tick in which the car crosses the start line forwards
 //   invariants
-//          lap times of consecutive laps add up to the time between the first and the
-//          last crossing; rolling back over the line and forth again is not a lap
+//          the times of consecutive laps add up to the time between the first and the last
+//          crossing; rolling back over the line and forward again is not a lap
 //   units  m, s; the crossing instant is interpolated between two ticks
-//   errors a NaN station is skipped; it does not end a lap, but the lap no longer flies
+//   errors a NaN station is skipped; it does not end the lap, but the lap is no longer a flying one
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -19,8 +19,8 @@ namespace pitwall::race {
 
 struct LapTimerParams {
   double track_length_m = kUnset;
-  double start_line_m = 0.0;       // station of the line
-  double flying_speed_mps = 10.0;  // least speed at the line for a flying lap
+  double start_line_m = 0.0;       // station of the start line
+  double flying_speed_mps = 10.0;  // minimum speed at the line for a flying lap
 };
 
 struct LapTick {
@@ -32,13 +32,14 @@ struct Lap {
   std::uint32_t number = 0;  // 1 is the first lap from line to line
   Instant begin{}, end{};
   double mean_speed_mps = kUnset;
-  bool flying = false;  // begun and ended at speed, under green from line to line
+  bool flying = false;  // started and ended at speed, under green from line to line
 };
 
 struct LapTimerState {
   bool begun = false, timing = false;
-  double position_m = 0.0;  // station after the line, 0 .. track length
-  double driven_m = 0.0;    // since the line was last crossed; negative when rolled back over it
+  double position_m = 0.0;  // distance after the line, 0 .. track length
+  // since the last crossing of the line; negative after rolling back over it
+  double driven_m = 0.0;
   Instant last{}, lap_begin{};
   std::uint32_t laps = 0;
   bool flying = false;

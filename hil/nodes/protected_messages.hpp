@@ -1,9 +1,9 @@
-// Messages with checksums, which no shipped database has, for tests of the integrity checks on
-// their own bus: status messages with counter and checksum beside those of the car, and a checksum
-// in the free last byte of race control's flags.
-//   in     now; a frame of the car's own bus
-//   out    the frames that are due, protected; the same frame with its checksum, where it has one;
-//          the rows by which both are to be judged
+// Messages with counter and checksum, which no shipped database has, for tests of the integrity
+// checks on a bus of their own: status messages in addition to those of the car, and a checksum in
+// the free last byte of race control's flags.
+//   in     now; a frame of the bus
+//   out    the protected frames that are due; the same frame, with its checksum if it is protected;
+//          the rows by which the car checks both
 //   source protocol/can/dbc/integrity_bench.dbc: SAE J1850 and AUTOSAR profiles 1, 2 and 5
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
@@ -22,10 +22,10 @@ namespace pitwall::can_variant {
 
 inline constexpr std::size_t kProtectedMessages = 4;
 
-// Beside those of the car, in the order of their ids; valid for ever.
+// The additional messages, in order of their identifiers; valid forever.
 std::span<const can::MessageRow> protected_rows();
-const can::MessageRow* protected_row(std::uint32_t id);  // nullptr: none of them
-// Those, and the messages of the car that this bus protects.
+const can::MessageRow* protected_row(std::uint32_t id);  // nullptr: not one of them
+// The same, and the messages of the car that this bus protects.
 std::span<const can::MessageRow> judged_rows();
 
 can::Frame with_checksum(const can::Frame& frame);

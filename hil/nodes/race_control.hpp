@@ -26,23 +26,24 @@
 
 namespace pitwall::race {
 
-// What changes at a moment; what is absent stays.
+// Changes at one time; absent values stay.
 struct Call {
   Instant at{};
   std::optional<world::TrackFlag> track{};
   std::optional<world::VehicleFlag> vehicle{};
   std::optional<double> round_target_speed_mph{};
-  std::optional<std::uint8_t> lap{};  // absent: as timing counts
+  std::optional<std::uint8_t> lap{};  // absent: the count of timing
 };
 
 struct Script {
   world::FlagEncoding encoding = world::FlagEncoding::kMyLaps;
   bool both_encodings = true;  // both systems on the bus, in agreement, as on the V14 car
-  bool positions = false;      // 226, 228 and a position in 1251, else a unit without a fix: 0, 0
-  std::vector<Call> calls{};   // sorted by `at`; step() CHECKs
+  // 226, 228 and a position in 1251; else 1251 is that of a unit without a fix: 0, 0
+  bool positions = false;
+  std::vector<Call> calls{};  // sorted by `at`; step() CHECKs
 };
 
-// What timing and scoring measure.
+// Measurements of timing and scoring.
 struct Timing {
   std::uint8_t laps = 0, rank = 1;
   double lap_distance_m = 0.0;  // since the start line
@@ -54,11 +55,11 @@ struct Timing {
   double rival_distance_m = 0.0, rival_speed_mps = 0.0;
 };
 
-// Set by the bench while a fault lasts.
+// Active faults, set by the bench.
 struct RaceFaults {
-  bool silent = false;                      // no frame at all, of either system
-  bool heartbeat_stopped = false;           // frames go on, the base behind both is gone
-  std::optional<double> wrong_speed_mph{};  // the round speed that is sent instead
+  bool silent = false;                      // neither system sends any frame
+  bool heartbeat_stopped = false;           // frames continue, the base behind both is lost
+  std::optional<double> wrong_speed_mph{};  // the round speed sent instead
 };
 
 struct RaceFrame {
@@ -80,7 +81,7 @@ struct State {
   double round_target_speed_mph = 0.0;
   std::optional<std::uint8_t> lap{};
   std::size_t next_call = 0;
-  bool changed = true;  // an extra 1200 / 1250 is owed
+  bool changed = true;  // an extra 1200 / 1250 is due
   RaceFaults faults;
   bool begun = false;
   std::array<Instant, kRaceFrames.size()> due{};
@@ -92,7 +93,7 @@ struct State {
 
 using RaceFrames = FixedVector<can::Frame, kRaceFrames.size()>;
 
-// A call from outside the script, by a judge or an operator; takes effect at the next step().
+// Applies a call from outside the script, by a judge or an operator, at the next step().
 void call(State& state, const Call& call);
 
 RaceFrames step(const Script& script, State& state, const Timing& timing, Instant now);

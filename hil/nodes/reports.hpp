@@ -1,12 +1,13 @@
-// The reports of the drive-by-wire: which message is due when, and its bytes.
+// Scheduler and encoder of the drive-by-wire's reports.
 //   in     Feedback, the state to report, now
 //   out    the frames that are due
 //   invariants
 //          message k is due at phase_k + i * period_k on the bench's clock for every integer i;
-//          phases differ, so that no two messages of one period are due at one millisecond
-//   errors a message with a NaN is left out and counted; a signal out of range saturates, counted
+//          phases differ, so that no two messages of one period are due in the same millisecond
+//   errors a message with a NaN is left out and counted; a signal out of range saturates and is
+//          counted
 //   source cycle times: the override file of the public AV-24 bridge ("mirrors the race car
-//   network")
+//          network")
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -64,7 +65,7 @@ inline constexpr std::array kReports{
 
 using ReportFrames = FixedVector<can::Frame, kReports.size()>;
 
-// True is a fault, as in diagnostic_report.
+// True means a fault, as in diagnostic_report.
 struct Diagnostics {
   bool front_brake_out_of_spec = false, rear_brake_out_of_spec = false, low_engine_speed = false;
   bool steer_warning = false, emergency_brake = false;
@@ -88,7 +89,8 @@ struct ReportInputs {
 
 ReportFrames due_reports(ReportState& state, const ReportInputs& in, Instant now);
 
-// One report now, whatever its period; counters count. False when a number is not finite.
+// Encodes one report now, independent of its period; counters advance. Returns false if a number is
+// not finite.
 bool encode_report(std::uint32_t id, ReportState& state, const ReportInputs& in, can::Frame& out);
 
 }  // namespace pitwall::drive_by_wire

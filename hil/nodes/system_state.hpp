@@ -1,7 +1,7 @@
-// The states of the drive-by-wire computer (misc_report.sys_state) as a table of transitions.
-//   in     the state, how long it has lasted, what the computer and race control say, the engine
-//   out    the next state: the first row of kTransitions whose state and event match,
-//          after its dwell
+// State machine of the drive-by-wire computer (misc_report.sys_state) as a table of transitions.
+//   in     the state and its duration, requests of the computer and of race control, the engine
+//   out    the next state: the first row of kTransitions whose state and event match, after its
+//          dwell time
 //   source RaptorSM of the public AV-21 simulator (1-2-3-4-5-6-19, 19-7-8-9, 9-16 on CT 12), with
 //          the shut-down state 10 of the signal's own value table between 9 and 19
 //
@@ -29,7 +29,7 @@ struct SystemInputs {
 };
 
 enum class SystemEvent : std::uint8_t {
-  kAlways,          // after the dwell alone
+  kAlways,          // after the dwell time alone
   kCrankRequested,  // CT cranking while race control shows orange
   kCrankWithdrawn,  // CT no longer cranking
   kEngineRuns,
@@ -47,7 +47,7 @@ struct Transition {
   world::SysState to;
 };
 
-// Durations of start-up and of the starter: chosen for the bench, no public figure exists.
+// Durations of start-up and of the starter: chosen for the bench, there are no public figures.
 inline constexpr Duration kStartUpStep = milliseconds(500);
 inline constexpr Duration kActuatorTest = seconds(2);
 inline constexpr Duration kStarterTimeout = seconds(8);

@@ -1,9 +1,9 @@
-// Equations of motion: forces on the car in one state and its derivative: the right-hand side of
-// the plant.
-//   in     the continuous state, the discrete state that goes with it, the road, set points of the
-//          actuators (after delay and quantisation)
+// Equations of motion of the plant: the forces on the car in one state, and the derivative of the
+// state.
+//   in     the continuous state, its discrete state, the road, set points of the actuators (after
+//          delay and quantisation)
 //   out    every force and slip, and the derivative of the continuous state
-//   frames as plant.hpp
+//   frames as in plant.hpp
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -19,12 +19,12 @@ struct SetPoints {
 struct Forces {
   Wheels load_n{}, long_n{}, lat_n{};  // of the tyres, in the wheel's frame
   Wheels slip_ratio{}, slip_sine{}, use{};
-  Wheels slip_power_w{}, rolling_power_w{};  // turned into heat in the contact patch, by rolling
-  Wheels drive_nm{}, hold_nm{};              // at the wheel: engine; brake and rolling resistance
-  double body_x_n = 0.0, body_y_n = 0.0;     // all but gravity, in the plane of the road
-  double normal_n = 0.0;                     // tyres less downforce
+  Wheels slip_power_w{}, rolling_power_w{};  // turned into heat: in the contact patch, by rolling
+  Wheels drive_nm{}, hold_nm{};  // at the wheel: of the engine; of brake and rolling resistance
+  double body_x_n = 0.0, body_y_n = 0.0;  // without gravity, in the plane of the road
+  double normal_n = 0.0;                  // sum of the tyre loads minus downforce
   double yaw_moment_nm = 0.0;
-  double steering_nm = 0.0;  // of both front tyres about their steering axes, if that can turn them
+  double steering_nm = 0.0;  // of both front tyres about their steering axes; 0 with rigid steering
   double heading_rate_rad_per_s = 0.0;                           // of the map yaw
   double roll_rate_rad_per_s = 0.0, pitch_rate_rad_per_s = 0.0;  // about body x and y
 };
@@ -40,14 +40,14 @@ Forces forces_of(const Params& params, const State& discrete, const Motion& moti
 Motion derivative_of(const Params& params, const State& discrete, const Motion& motion,
                      const Surface& surface, const SetPoints& set);
 
-// Angle of the front wheels against the body.
+// Angle of the front wheels relative to the body.
 double road_wheel_rad(const Params& params, const Motion& motion);
 
-// The springs of the car as they are when it has accelerated so for long.
+// Sets the springs to the state of a constant acceleration.
 void settle_loads(const Params& params, double mass_kg, double ax_mps2, double ay_mps2,
                   Motion& motion);
 
-// What the engine, brakes and road do to a wheel that does not turn; it stays locked while this is
+// Moment of engine and road on a wheel that does not turn; the wheel stays locked while it is
 // within hold_nm.
 inline double turning_moment_nm(const Forces& f, std::size_t wheel, double radius_m) {
   return f.drive_nm[wheel] - radius_m * f.long_n[wheel];

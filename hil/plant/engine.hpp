@@ -1,10 +1,11 @@
-// Torque and fuel of the engine from speed and throttle.
+// Engine model: torque and fuel flow from speed and throttle.
 //   in     engine speed, rpm; throttle 0..1
 //   out    net torque at the crankshaft (negative: friction); fuel flow, kg/s
 //   invariants
-//          torque between the throttles of the dyno sheet is linear in throttle, and the share of
-//          the full torque linear in speed; from the lowest throttle of the sheet down to closed it
-//          goes linearly to plain friction. Above the limiter fuel is cut over limiter_width_rpm
+//          between the throttles of the dyno sheet torque is linear in throttle, and the share of
+//          the full torque is linear in speed; from the lowest throttle of the sheet down to closed
+//          it falls linearly to pure friction. Above the limiter, fuel is cut over
+//          limiter_width_rpm
 //   fuel   Willans line: (brake torque + friction) x speed / (efficiency x heating value); none in
 //          overrun. L. Guzzella, C. Onder, Introduction to Modeling and Control of Internal
 //          Combustion Engine Systems (2010), 2.5

@@ -1,11 +1,11 @@
-// Table of the parameters of a plant file: its place in the file, its place in plant::Params, what
-// is possible.
+// Table of the parameters of a plant file: section and key, member of plant::Params, permitted
+// range.
 //   units  those of the names
-//   not here  the structure; what a fault moves (remaining brakes, power); the step of the
-//          integrator
+//   not here  the structure; parameters that a fault changes (remaining brakes, power); the step of
+//             the integrator
 //   invariants
-//          no legal set of values makes one substep of the plant unstable, or a delay, with what a
-//          scenario may add to it, longer than the plant's delay lines
+//          no permitted set of values makes one substep of the plant unstable, or makes a delay,
+//          with the part that a scenario may add, longer than the delay lines of the plant
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -19,18 +19,19 @@
 
 namespace pitwall::plant {
 
-enum class Order : std::uint8_t { kAny, kRising, kFalling };  // of a list; strictly
+enum class Order : std::uint8_t { kAny, kRising, kFalling };  // of a list; strict
 
 struct Entry {
   std::string_view section, key;
   double& (*at)(plant::Params& params, std::size_t index);
   double min, max;
-  std::size_t count = 1;  // more than one: a list of exactly so many
+  std::size_t count = 1;  // more than one: a list of exactly this length
   Order order = Order::kAny;
-  std::optional<Structure> only_of = std::nullopt;  // the one structure that has this parameter
+  // the only structure with this parameter; nullopt: all
+  std::optional<Structure> only_of = std::nullopt;
 };
 
-// In the order of the sections; the entries of a section lie together.
+// In order of the sections; the entries of a section are adjacent.
 std::span<const Entry> entries();
 
 inline bool belongs(const Entry& entry, Structure structure) {

@@ -1,5 +1,5 @@
-// Parameters of the modelled car. Every default is a published figure of the AV-21, or says that it
-// is an estimate; where sources disagree the one that comes from a driven car is taken.
+// Parameters of the modelled car. Every default is a published figure of the AV-21 or marked as an
+// estimate; where sources disagree, the one from a driven car is taken.
 //   sources [A] autonomalabs/autonoma-awsim vehicle and tyre assets (AV-21 simulator)
 //           [T] TUMFTM/mod_vehicle_dynamics_control, driven on the AV-21
 //           [D] linklab-uva/deep-dynamics, fitted to AV-21 laps
@@ -19,8 +19,8 @@
 
 namespace pitwall::plant {
 
-// Which equations the car follows. kDoubleTrack: magic formula, quasi-static loads, rigid steering.
-// kCompliantBrush: brush tyre, a body that rolls, steering that gives way, brakes with a dead band.
+// Equations of the car. kDoubleTrack: magic formula, quasi-static loads, rigid steering.
+// kCompliantBrush: brush tyre, body roll, compliant steering, brakes with a dead band.
 enum class Structure : std::uint64_t { kDoubleTrack, kCompliantBrush };
 struct NamedStructure {
   std::string_view name;
@@ -40,21 +40,21 @@ struct Chassis {
   double track_rear_m = 1.523;             // [U]
   double roll_stiffness_front = 0.53;      // share of the lateral load transfer [E]
   double length_m = 4.92, width_m = 1.93;  // over the wheels
-  double load_lag_s = 0.05;                // roll and pitch settle like this [E]
+  double load_lag_s = 0.05;                // time constant of roll and pitch [E]
 };
 
 struct Aero {
   double air_density_kgpm3 = 1.12;                             // 600 m above the sea at 25 C
   double drag_area_m2 = 0.858;                                 // [A] Cd A
   double front_lift_area_m2 = 0.65, rear_lift_area_m2 = 1.18;  // [A] downforce positive
-  // Side force per dynamic pressure and angle of the wind; and where it acts, ahead of the centre
-  // of gravity. A passenger car has 4 to 5 m2; ours by the ratio of the silhouettes [E].
+  // Side force per dynamic pressure and angle of the wind, and its distance ahead of the centre of
+  // gravity. A passenger car has 4 to 5 m2; ours is scaled by the ratio of the silhouettes [E].
   double side_area_m2 = 2.0;
   double side_arm_m = 0.0;  // [E]
 };
 
-// Normalised-slip magic formula: force = mu Fz sin(C atan(B rho)), B such that the peak lies at
-// rho = 1, rho the slip over the slip of the peak; its direction is that of the slip (similarity).
+// Normalised-slip magic formula: force = mu Fz sin(C atan(B rho)), with rho = slip / slip of the
+// peak, and B such that the peak is at rho = 1; the direction is that of the slip (similarity).
 struct Tyre {
   double radius_m = 0.3;
   double nominal_load_n = 2000.0;
@@ -69,7 +69,7 @@ struct Tyre {
   double rolling_resistance = 0.012;  // [E] of the load, at TyreThermal::working_c
 };
 
-// Steering: a motor with ratio to the road wheels, left positive.
+// Steering: a motor that is geared to the road wheels, left positive.
 struct Steering {
   double ratio = 19.5;                         // motor : road wheel [T]; [U] AV-24 15
   double delay_s = 0.040;                      // [A] [T]
@@ -83,11 +83,12 @@ struct Brakes {
   double lag_s = 0.100;              // [O] dummy AV-24 configuration
   double delay_s = 0.0;              // command to first movement; [A] 0.040, not from a car
   double pressure_max_kpa = 9000.0;  // [A]
-  // Whole axle. Both axles 0.65 [P]; 54 % in front [A] (brakeBias; the bias knob of the AV-24's
-  // dash goes from 50 to 58 %). The same pressure in both circuits: the front wheels lock first.
+  // Per whole axle. Both axles 0.65 [P]; 54 % in front [A] (brakeBias; the bias knob of the AV-24's
+  // dash goes from 50 to 58 %). Both circuits have the same pressure, so the front wheels lock
+  // first.
   double front_nm_per_kpa = 0.351;
   double rear_nm_per_kpa = 0.299;
-  // Share of each axle's torque that works: a fault lowers it.
+  // Share of each axle's torque that remains: a fault lowers it.
   double front_remaining = 1.0, rear_remaining = 1.0;
 };
 
@@ -96,7 +97,7 @@ struct EnginePoint {
 };
 inline constexpr std::size_t kEnginePoints = 18;
 
-// Throttles of the dyno sheet; at the last one the share is 1.
+// Throttles of the dyno sheet; the share at the last one is 1.
 inline constexpr std::array<double, 6> kDynoThrottles{0.30, 0.50, 0.65, 0.70, 0.80, 1.00};
 struct PartThrottle {
   double rpm;
@@ -124,7 +125,7 @@ struct Engine {
                                                         {6500.0, 422.0},
                                                         {6780.0, 395.1},
                                                         {7200.0, 365.0}}};
-  // Part throttle, dyno [U]: all of 3565 to 6780 rpm but for 30 % above 5080 rpm, and 30 % from
+  // Part throttle, dyno [U]: all of 3565 to 6780 rpm except 30 % above 5080 rpm, and 30 % from
   // 2550 rpm on; the rest [E].
   std::array<PartThrottle, kPartThrottleRows> part_throttle{
       {{2550.0, {0.5710, 0.80, 0.92, 0.96, 0.99, 1.0}},
@@ -144,20 +145,20 @@ struct Engine {
   double friction_nm_per_rpm = 0.004;  // [E]
   double inertia_kgm2 = 0.08;          // [E]
   double idle_rpm = 1500.0;            // [E]
-  double launch_rpm = 2800.0;          // held by the slipping clutch below this speed [E]
+  double launch_rpm = 2800.0;          // minimum engine speed, held by the slipping clutch [E]
   double throttle_lag_s = 0.050;       // [O] dummy AV-24 configuration
-  double throttle_delay_s = 0.0;       // command to first movement, as of the brakes
+  double throttle_delay_s = 0.0;       // command to first movement, as for the brakes
   double crank_s = 1.0;                // starter to running [E]
-  double power = 1.0;                  // share of what burns that is left: a fault lowers it
+  double power = 1.0;  // remaining share of the combustion torque: a fault lowers it
 };
 
-// Its mass is within Chassis::mass_kg as long as the tank is full, and leaves it as it burns; where
-// it lies in the car is not modelled. An empty tank stops the engine.
+// Chassis::mass_kg includes the fuel of a full tank; the car gets lighter as it burns. The position
+// of the fuel in the car is not modelled. An empty tank stops the engine.
 struct Fuel {
   double start_kg = 50.0;        // in the tank at the start [E]
   double heating_jpkg = 42.7e6;  // petrol
-  // Of what the fuel gives, before friction: 0.31 kg/kWh at full power, as a turbo engine that runs
-  // rich [E].
+  // Share of the fuel's energy that becomes work, before friction: 0.31 kg/kWh at full power, like
+  // a turbo engine that runs rich [E].
   double efficiency = 0.30;
 };
 
@@ -168,8 +169,8 @@ struct Drivetrain {
   double final_drive = 3.0;                                                      // [U] [A]
   double efficiency = 0.93;                                                      // [E]
   double shift_s = 0.080;                  // torque is cut [E]
-  double lockout_s = 0.300;                // after a shift none is accepted [E]
-  double shift_delay_s = 0.0;              // from the wanted gear to the begin of its shift
+  double lockout_s = 0.300;                // no further shift is accepted for this time [E]
+  double shift_delay_s = 0.0;              // from the gear command to the begin of the shift
   double differential_nms_per_rad = 40.0;  // limited slip: torque per difference of speed [E]
   double differential_max_nm = 400.0;      // [E]
 };
@@ -179,50 +180,51 @@ struct TyreBody {
   double heat_capacity_jpk, surface_m2;
 };
 
-// tyre_thermal.hpp has the law and where its numbers come from. Unvalidated.
+// tyre_thermal.hpp has the equations and the sources of the numbers. Unvalidated.
 struct TyreThermal {
   double ambient_c = 25.0;
   double working_c = 79.0, hot_c = 110.0;               // full grip between them; 175 F, [E]
-  double ruined_c = 150.0;                              // the loss by heat is whole [E]
-  TyreBody front{7'000.0, 0.84}, rear{10'000.0, 1.13};  // by their size [E]
-  double still_air_w_per_m2k = 11.0;                    // at rest, and radiation
-  double moving_air_w_per_m2k = 6.15;                   // at 1 m/s; grows with the speed to the 0.8
+  double ruined_c = 150.0;                              // full loss of grip by heat [E]
+  TyreBody front{7'000.0, 0.84}, rear{10'000.0, 1.13};  // from their size [E]
+  double still_air_w_per_m2k = 11.0;                    // at rest, with radiation
+  double moving_air_w_per_m2k = 6.15;                   // at 1 m/s; grows with speed^0.8
   double rubber_m2k_per_w = 0.017;     // from the middle of the rubber to its surface
-  double slip_heat_share = 0.4;        // of the friction power: what the tyre keeps
-  double rolling_heat_share = 0.9;     // of the power of rolling resistance
-  double rolling_fall_per_k = 0.0125;  // of rolling resistance as the tyre warms
+  double slip_heat_share = 0.4;        // share of the friction power that the tyre keeps
+  double rolling_heat_share = 0.9;     // share of the power of rolling resistance
+  double rolling_fall_per_k = 0.0125;  // decrease of rolling resistance as the tyre warms
   double cold_grip_loss = 0.4;         // share of grip lost at ambient [E]
   double hot_grip_loss = 0.0;          // share of grip lost at ruined_c
 };
 
-// The four that follow are used by Structure::kCompliantBrush alone.
+// Only Structure::kCompliantBrush uses the following four.
 
-// What the brush tyre has beside Tyre, both axles alike; Tyre's shape is not used.
+// Parameters of the brush tyre in addition to Tyre, the same for both axles; Tyre::shape is not
+// used.
 struct Brush {
-  double stiffest_load = 3.0;     // load at which a tyre is stiffest, over the nominal one [E]
-  double sliding_friction = 0.8;  // of a tyre that slides far, over the peak's [E]
-  double sliding_slips = 3.0;     // half of that loss: so many peak slips beyond the peak [E]
-  double trail_m = 0.03;          // pneumatic, at nominal load without slip [E]
+  double stiffest_load = 3.0;     // load of the largest stiffness, over the nominal load [E]
+  double sliding_friction = 0.8;  // friction far beyond the peak, over that at the peak [E]
+  double sliding_slips = 3.0;     // peak slips beyond the peak for half of that loss [E]
+  double trail_m = 0.03;          // pneumatic trail at nominal load without slip [E]
 };
 
 struct Suspension {
   double roll_inertia_kgm2 = 265.0;  // [A]
-  // Springs, anti-roll bars and the tyres' walls in series: 0.5 degree per g [E].
+  // Springs, anti-roll bars and tyre walls in series: 0.5 degree per g [E].
   double front_nm_per_rad = 122e3, rear_nm_per_rad = 98e3;
   double front_nms_per_rad = 2100.0, rear_nms_per_rad = 1700.0;  // a quarter of critical [E]
   double front_centre_m = 0.02, rear_centre_m = 0.04;            // height of the roll centres [E]
 };
 
-// Between steering motor and road wheels.
+// Compliance between steering motor and road wheels.
 struct SteeringCompliance {
-  double rad_per_nm = 9e-5;     // at the road wheels, per moment of both of them [E]
-  double caster_trail_m = 0.0;  // beside the tyre's own [E]
+  double rad_per_nm = 9e-5;     // at the road wheels, per total moment of both [E]
+  double caster_trail_m = 0.0;  // in addition to the pneumatic trail [E]
   double lag_s = 0.02;          // [E]
 };
 
 struct BrakeHydraulics {
-  double dead_band_kpa = 150.0;  // until the pads touch [E]
-  double release_lag_s = 0.16;   // pressure falls slower than Brakes::lag_s lets it rise [E]
+  double dead_band_kpa = 150.0;  // pressure until the pads touch [E]
+  double release_lag_s = 0.16;   // lag of falling pressure, longer than Brakes::lag_s [E]
 };
 
 struct Params {
@@ -230,7 +232,7 @@ struct Params {
   Chassis chassis;
   Aero aero;
   Tyre front{.radius_m = 0.301,         // [T]
-             .nominal_load_n = 1700.0,  // [A], as all that follow
+             .nominal_load_n = 1700.0,  // [A], as all of the following
              .mu_long = 1.2,
              .mu_lat = 1.5,
              .shape = 1.5,
@@ -251,7 +253,7 @@ struct Params {
   Suspension suspension;
   SteeringCompliance compliance;
   BrakeHydraulics hydraulics;
-  // Below this speed the spring that a tyre is at standstill is damped: the car comes to rest.
+  // Below this speed the tyre acts as a damped spring, so that the car comes to rest.
   double low_speed_mps = 3.0;
   double low_speed_damping_nspm = 4'000.0;  // per tyre, at standstill [E]
   double substep_s = 0.001;

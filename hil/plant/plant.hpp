@@ -1,24 +1,25 @@
-// The modelled car: a double-track AV-21 as a function from state to state. Params::structure says
-// by which equations of tyre, body, steering and brakes; what is said here holds for all of them.
-//   in     what the drive-by-wire tells its actuators, and the road under the car
-//   out    the next state; observe() says everything that a sensor or a judge may ask of a state
+// Plant model of the car: a double-track AV-21 as a function from state to state. Params::structure
+// selects the equations of tyre, body, steering and brakes; the following holds for all of them.
+//   in     commands of the drive-by-wire to its actuators, and the road under the car
+//   out    the next state; observe() returns every quantity of a state for sensors and graders
 //   frames Map: x east, y north, z up, yaw from east, counter-clockwise. Body: ISO 8855 at the
-//          centre of gravity; velocities, yaw rate and forces lie in the plane of the road. Banking
-//          positive where the left side is lower, climb positive uphill: the roll is minus the
-//          banking, its pitch minus the climb (Euler angles in the order yaw, pitch, roll). Gravity
-//          pulls to the left with g sin(bank) cos(climb) and back with g sin(climb); the heading
-//          turns with (r + climb' sin(bank)) / (cos(bank) cos(climb)); the road carries the weight
-//          and what bends the path out of its plane.
+//          centre of gravity; velocities, yaw rate and forces are in the plane of the road. Banking
+//          is positive where the left side is lower, climb is positive uphill: roll is minus the
+//          banking, pitch is minus the climb (Euler angles in the order yaw, pitch, roll). Gravity
+//          acts to the left with g sin(bank) cos(climb) and backwards with g sin(climb); the
+//          heading changes with (r + climb' sin(bank)) / (cos(bank) cos(climb)); the road carries
+//          the weight and the force that bends the path out of its plane.
 //   method classical Runge-Kutta, one step of substep_s; the discrete parts (command delay, gear
-//          box, wheels that lock) change between two substeps
-//   wind   drag and downforce follow the air's speed along the car; the side force is that of the
-//          wind across it (what the car's own slip angle adds in still air is left to the tyres)
-//   low speed  the tyres carry their deflection as a state (relaxation length): a spring at
-//          standstill, so the car holds on a bank, does not creep and needs no division by speed.
-//          The clutch slips below engine.launch_rpm: the engine is held at that speed and its
-//          torque goes through. A gear change cuts torque for shift_s and engages with matched
-//          speed.
-//   errors none: a state that is finite stays finite for finite inputs; inputs are clamped
+//          box, locked wheels) change between two substeps
+//   wind   drag and downforce follow the speed of the air along the car; the side force is that of
+//          the cross wind (the part of the car's own slip angle in still air is included in the
+//          tyres)
+//   low speed  the deflection of the tyres is a state (relaxation length): a spring at standstill,
+//              so the car holds on a bank, does not creep and needs no division by speed. The
+//              clutch slips below engine.launch_rpm: the engine is held at that speed and its
+//              torque is transmitted. A gear change cuts torque for shift_s and engages with
+//              matched speed.
+//   errors none: a finite state stays finite for finite inputs; inputs are clamped
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -40,38 +41,39 @@ struct Actuation {
   double steering_motor_rad = 0.0;                         // set point at the motor, left positive
   double throttle_fraction = 0.0;                          // 0..1
   double brake_kpa = 0.0;                                  // set point of both axles
-  bool front_brake_lost = false, rear_brake_lost = false;  // the circuit holds no pressure
+  bool front_brake_lost = false, rear_brake_lost = false;  // no pressure in the circuit
   std::uint8_t gear = 0;  // wanted gear, 0 neutral; reached one step at a time
   bool ignition = false;  // false stops the engine
-  bool starter = false;   // turns a standing engine
+  bool starter = false;   // turns a stopped engine
 };
 
-// The road under the car, as it lies along and across the car. Default: level, dry.
+// Road surface under the car, in directions along and across the car. Default: level, dry.
 struct Surface {
   double bank_rad = 0.0, climb_rad = 0.0;
-  double bank_rate_rad_per_s = 0.0, climb_rate_rad_per_s = 0.0;  // as the car moves
-  double height_m = 0.0;  // Map z of the centre of gravity; nothing depends on it
+  double bank_rate_rad_per_s = 0.0, climb_rate_rad_per_s = 0.0;  // by the motion of the car
+  double height_m = 0.0;  // Map z of the centre of gravity; has no effect
   double grip = 1.0;      // scales every friction coefficient
-  double wind_east_mps = 0.0, wind_north_mps = 0.0;  // of the air over ground, where it blows to
+  double wind_east_mps = 0.0, wind_north_mps = 0.0;  // air over ground, where it blows to
 };
 
-// Room of the delay lines: no delay may reach this many substeps.
+// Capacity of the delay lines: every delay must be shorter than this many substeps.
 inline constexpr std::size_t kDelaySlots = 640;
 
 enum class ShiftPhase : std::uint8_t { kReady, kShiftingUp, kShiftingDown, kLockedOut };
 
-// The continuous part of the state; doubles only, so that the integrator sees a vector.
+// The continuous part of the state: only doubles, so that the integrator can treat it as a vector.
 struct Motion {
   double x_m = 0.0, y_m = 0.0, yaw_rad = 0.0;  // yaw is not wrapped
   double vx_mps = 0.0, vy_mps = 0.0, yaw_rate_rad_per_s = 0.0;
   Wheels wheel_rad_per_s{};
-  Wheels stretch_long_m{}, stretch_lat_m{};       // deflection of each contact patch
-  double load_ax_mps2 = 0.0, load_ay_mps2 = 0.0;  // specific force that the springs settled to
+  Wheels stretch_long_m{}, stretch_lat_m{};  // deflection of each contact patch
+  // specific force to which the springs have settled
+  double load_ax_mps2 = 0.0, load_ay_mps2 = 0.0;
   double steering_motor_rad = 0.0, throttle_fraction = 0.0;
   double brake_front_kpa = 0.0, brake_rear_kpa = 0.0;
   double odometer_m = 0.0;
-  // Of Structure::kCompliantBrush, else zero. Roll against the road, left side up positive, which
-  // no sensor sees; what the road wheels are turned beside what the motor says.
+  // Only Structure::kCompliantBrush, else zero. Roll relative to the road, left side up positive,
+  // which no sensor measures; angle of the road wheels beyond that of the motor.
   double roll_rad = 0.0, roll_rate_rad_per_s = 0.0;
   double steering_flex_rad = 0.0;
 };
@@ -80,9 +82,9 @@ struct Motion {
 struct State {
   Motion motion;
   std::array<bool, world::kCorners> locked{true, true, true, true};  // held by friction
-  // Rings of commands under way, all written at the same place.
+  // Ring buffers of delayed commands, with a common write position.
   std::array<double, kDelaySlots> steering_delay_rad{};
-  std::array<float, kDelaySlots> throttle_delay{}, brake_delay_kpa{};  // finer than what is sent
+  std::array<float, kDelaySlots> throttle_delay{}, brake_delay_kpa{};  // finer than the commands
   std::array<std::uint8_t, kDelaySlots> gear_delay{};
   std::uint16_t delay_next = 0;
   std::uint8_t gear = 0, target_gear = 0;
@@ -102,7 +104,7 @@ inline double mass_kg(const Params& params, const State& state) {
   return params.chassis.mass_kg - state.fuel_used_kg;
 }
 
-// Everything that is true of a state, for sensors, the drive-by-wire model and the judge.
+// All true quantities of a state, for sensors, the drive-by-wire model and graders.
 struct Truth {
   double x_m = kUnset, y_m = kUnset, yaw_rad = kUnset;  // Map; yaw wrapped
   double vx_mps = kUnset, vy_mps = kUnset, yaw_rate_rad_per_s = kUnset;
@@ -112,13 +114,14 @@ struct Truth {
   double heading_rate_rad_per_s = kUnset;                                // of the map yaw
   double bank_rad = kUnset;
   double speed_mps = kUnset;
-  std::array<double, 3> rate_rad_per_s{kUnset, kUnset, kUnset};       // body x, y, z
-  std::array<double, 3> specific_force_mps2{kUnset, kUnset, kUnset};  // what an accelerometer feels
-  Wheels wheel_speed_mps{};                                           // circumferential
+  std::array<double, 3> rate_rad_per_s{kUnset, kUnset, kUnset};  // body x, y, z
+  // as an accelerometer measures it
+  std::array<double, 3> specific_force_mps2{kUnset, kUnset, kUnset};
+  Wheels wheel_speed_mps{};                        // circumferential
   Wheels load_n{}, force_long_n{}, force_lat_n{};  // of the tyres, in the wheel's frame
   Wheels slip_ratio{}, slip_angle_rad{};
   Wheels tyre_c{};
-  double friction_use = kUnset;  // largest share of its friction that a tyre uses, 0..1
+  double friction_use = kUnset;  // largest used share of the friction of a tyre, 0..1
   double steering_motor_rad = kUnset, road_wheel_rad = kUnset;
   double throttle_fraction = kUnset;
   double brake_front_kpa = kUnset, brake_rear_kpa = kUnset;
@@ -130,21 +133,21 @@ struct Truth {
   double odometer_m = 0.0;
 };
 
-// Where the car is on a track and how far its corners are from the walls.
+// Position of the car on a track, and distances of its corners from the walls.
 struct Road {
   Surface surface;
   double s_m = kUnset, n_m = kUnset;
-  double heading_error_rad = kUnset;  // yaw over the direction of the reference line
+  double heading_error_rad = kUnset;                           // yaw relative to the reference line
   double wall_gap_left_m = kUnset, wall_gap_right_m = kUnset;  // of the nearest corner
-  bool contact = false;  // a corner is in a wall: what follows means nothing
+  bool contact = false;  // a corner is in a wall: later states are meaningless
 };
 
-// Standing with the engine off, brakes free, tyres at working temperature.
+// State at standstill: engine off, brakes free, tyres at working temperature.
 State standing(const Params& params, double x_m, double y_m, double yaw_rad);
-// Rolling straight ahead at `speed_mps` with matched wheels, in `gear`, engine running.
+// State rolling straight ahead at `speed_mps` with matched wheel speeds, in `gear`, engine running.
 State rolling(const Params& params, const State& at, double speed_mps, std::uint8_t gear);
 
-// Runs the tank dry; the engine stops at the next substep.
+// Empties the tank; the engine stops at the next substep.
 void empty_tank(const Params& params, State& state);
 
 // `dt_s` is a whole number of substeps.
@@ -153,8 +156,8 @@ State step(const Params& params, const State& state, const Actuation& actuation,
 
 Truth observe(const Params& params, const State& state, const Surface& surface);
 
-// `hint_s_m`: station a moment ago, to search near it. In the pit lane the wall on its side is the
-// far edge of the lane.
+// `hint_s_m`: a recent station, near which the search starts. In the pit lane, the wall on its side
+// is the far edge of the lane.
 Road road_at(const Params& params, const world::TrackMap& track, const State& state,
              std::optional<double> hint_s_m = std::nullopt);
 

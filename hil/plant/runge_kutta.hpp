@@ -1,7 +1,7 @@
-// One classical Runge-Kutta step of order 4 for a state that is a struct of doubles.
+// Classical Runge-Kutta step of order 4 for a state that is a struct of doubles.
 //   in     the state, its derivative as a function of the state, the step
-//   out    the state one step on
-//   errors none; order 4 only where the derivative is smooth
+//   out    the state after one step
+//   errors none; order 4 only if the derivative is smooth
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -11,7 +11,7 @@
 
 namespace pitwall::plant {
 
-// From + dt Rate, entry by entry.
+// from + dt_s * rate, member by member.
 template <class State>
 State ahead(const State& from, const State& rate, double dt_s) {
   using Vector = std::array<double, sizeof(State) / sizeof(double)>;

@@ -1,16 +1,17 @@
-// Single-track models as pure functions: for ghosts, sweeps and as a yardstick of the double track.
-//   in     state, rate of the steering angle and longitudinal acceleration (both are bounded by the
-//          model's own limits), parameters
-//   out    derivative; the state one Runge-Kutta step on
+// Single-track models as pure functions, for ghost cars, parameter sweeps and as a reference for
+// the double-track model.
+//   in     state, rate of the steering angle and longitudinal acceleration (both limited by the
+//          model), parameters
+//   out    derivative; the state after one Runge-Kutta step
 //   source M. Althoff and G. Wuersching, CommonRoad: Vehicle Models (2020): kinematic single track
 //          (KS, reference point the rear axle) and single track (ST, centre of gravity; linear
 //          tyres, loads by longitudinal acceleration), with its constraints of steering and
-//          acceleration. ST divides by speed: it means nothing at standstill, is stiff below a few
-//          metres a second, and is no model of reversing
-//   low speed  blended_derivative() is ours: kinematic below kBlendFrom_mps and in reverse, ST from
-//          kBlendTo_mps, in between their mean by a cubic weight of speed: neither a step nor
-//          a kink. The kinematic part carries slip angle and yaw rate along what the steering
-//          angle says and draws them there within kSettle_s
+//          acceleration. ST divides by speed: it is undefined at standstill, stiff below a few
+//          metres a second, and no model of reversing
+//   low speed  blended_derivative() is our own: kinematic below kBlendFrom_mps and in reverse, ST
+//              from kBlendTo_mps, in between a mean with a cubic weight of speed, without step or
+//              kink. The kinematic part moves slip angle and yaw rate to the values of the steering
+//              angle with the time constant kSettle_s
 //   errors none: blended_step() stays finite for finite inputs; its steps may be up to 10 ms with
 //          tyres up to twice as stiff as the AV-21's
 // SPDX-License-Identifier: Apache-2.0
@@ -22,11 +23,11 @@
 namespace pitwall::plant {
 
 struct SingleTrackLimits {
-  double angle_min_rad = 0.0, angle_max_rad = 0.0;  // of the steered wheel
+  double angle_min_rad = 0.0, angle_max_rad = 0.0;  // angle of the steered wheel
   double angle_rate_min_rad_per_s = 0.0, angle_rate_max_rad_per_s = 0.0;
   double speed_min_mps = 0.0, speed_max_mps = 0.0;
-  double accel_max_mps2 = 0.0;  // either way; forwards less above the switching speed,
-  double switching_mps = 0.0;   // as power is bounded
+  double accel_max_mps2 = 0.0;  // in both directions; forwards it falls above switching_mps
+  double switching_mps = 0.0;   // above it power limits the acceleration
 };
 
 struct SingleTrackParams {
@@ -34,7 +35,7 @@ struct SingleTrackParams {
   double height_m = 0.0;
   double mass_kg = 0.0, yaw_inertia_kgm2 = 0.0;
   double friction = 0.0;
-  double gravity_mps2 = kGravity_mps2;  // the published figures were made with 9.81
+  double gravity_mps2 = kGravity_mps2;  // the published figures use 9.81
   double front_stiffness_per_rad = 0.0, rear_stiffness_per_rad = 0.0;  // per friction and load
   SingleTrackLimits limits;
 };
@@ -58,13 +59,13 @@ struct SingleTrackState {
 inline constexpr double kBlendFrom_mps = 2.0, kBlendTo_mps = 8.0;
 inline constexpr double kSettle_s = 0.05;
 
-// What of an input the limits let through.
+// The input, limited by `limits`.
 SingleTrackInput constrained(const SingleTrackLimits& limits, const SingleTrackInput& input,
                              double angle_rad, double speed_mps);
 
 KinematicState kinematic_derivative(const SingleTrackParams& params, const KinematicState& state,
                                     const SingleTrackInput& input);
-// Needs a speed other than zero.
+// The speed must not be zero.
 SingleTrackState single_track_derivative(const SingleTrackParams& params,
                                          const SingleTrackState& state,
                                          const SingleTrackInput& input);
@@ -76,7 +77,8 @@ KinematicState kinematic_step(const SingleTrackParams& params, const KinematicSt
 SingleTrackState blended_step(const SingleTrackParams& params, const SingleTrackState& state,
                               const SingleTrackInput& input, double dt_s);
 
-// The double track's car at small slip angles, without downforce and with rigid steering.
+// Single-track parameters of a double-track car at small slip angles, without downforce and with
+// rigid steering.
 SingleTrackParams single_track_of(const Params& params);
 
 }  // namespace pitwall::plant

@@ -1,8 +1,8 @@
-// Force of one tyre from its slip.
+// Magic-formula tyre model: force of one tyre from its slip.
 //   in     slip ratio (positive drives forward) and sine of the slip angle (positive pushes to the
 //          left) of the contact patch, load, friction scale
-//   out    force in the wheel's plane and across it, newton; share of the friction in use, 0..1
-//          (1 at the peak and beyond)
+//   out    force along and across the wheel plane, newton; used share of the friction, 0..1 (1 at
+//          the peak and beyond)
 //   source Pacejka, Tire and Vehicle Dynamics (2012), 4.3.1 (magic formula) and the similarity
 //          method with normalised slip; peak at normalised slip 1
 // SPDX-License-Identifier: Apache-2.0

@@ -1,11 +1,11 @@
-// Budget for busy waiting: a quarter of all time, and not much at once. The kernel stops a
+// Budget for busy waiting: a quarter of all time, at most kMost at once. The kernel stops a
 // real-time thread that is never idle (sched_rt_runtime_us: 50 ms of every second), and on a
 // machine with one processor other threads need it.
-//   in     instants that do not run backwards, what was spent
+//   in     times that never decrease, the time spent busy
 //   out    whether there is credit
 //   invariants
-//          between any two instants no more than kMost and a quarter of the time between them is
-//          spent, but for the last wait that was begun with credit
+//          between any two instants at most kMost plus a quarter of the time between them is spent,
+//          apart from the last wait that began with credit
 //   errors none
 // SPDX-License-Identifier: Apache-2.0
 #pragma once

@@ -1,7 +1,7 @@
 // Histogram of the lateness of frames in microseconds, of fixed size.
-//   in     lateness of one frame at a time; what is early counts as on time
+//   in     lateness of one frame at a time; early frames count as on time
 //   out    quantiles (upper edge of a cell), latest and earliest exactly
-//   units  Duration; cells of 1 us up to 20 ms, later ones are kept as a maximum only
+//   units  Duration; cells of 1 us up to 20 ms; of larger values only the maximum is kept
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

@@ -1,11 +1,10 @@
-// What a CAN log holds: span, channels, and for each identifier how often and how regularly it
-// comes.
+// Summary of a CAN log: time span, channels, and for each identifier its count and regularity.
 //   in     CanLog, or its frames in blocks
 //   out    one row for each channel and identifier, in this order; as text or as one JSON object
-//   units  frames per second; gaps between two frames of a row in nanoseconds, negative where
-//          a stamp goes back; calendar time in UTC
+//   units  frames per second; gaps between two frames of a row in nanoseconds, negative if a stamp
+//          decreases; calendar time in UTC
 //   invariants
-//          the counts of all rows together are the frames of the log
+//          the counts of all rows add up to the number of frames of the log
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -35,7 +34,7 @@ struct IdRow {
 struct LogSummary {
   UtcTime first{}, last{};  // the earliest and the latest stamp
   std::uint64_t frames = 0;
-  std::vector<std::uint64_t> frames_of_channel;  // of channels behind the last: none
+  std::vector<std::uint64_t> frames_of_channel;  // one per channel
   std::uint64_t extended = 0, remote = 0, fd = 0, sent = 0, received = 0;
   std::vector<IdRow> rows;
 };
@@ -52,7 +51,7 @@ class LogSummaryBuilder {
 };
 
 LogSummary summary_of(const CanLog& log);
-// The frames of the log itself are not looked at: they may have been taken in blocks.
+// The frames in `log` itself are not used: they may have been taken in blocks.
 std::string to_text(const LogSummary& summary, const CanLog& log, std::string_view file_name);
 std::string to_json(const LogSummary& summary, const CanLog& log, std::string_view file_name);
 

@@ -1,21 +1,22 @@
-// Player of a timeline at its due times: sleep to an absolute deadline, then hand every frame and
-// datagram that is due within kGroup to its track in one call. Nothing lies between waking up and
-// sending: no look at a clock, no encoding, no memory that is new.
+// Player of a timeline at its due times: sleeps until an absolute deadline, then passes every frame
+// and datagram that is due within kGroup to its track in one call. Between waking up and sending it
+// neither reads a clock nor encodes nor allocates.
 //
 //   due      |a b|  c        |d e f|            a, b and d, e, f: one call each
-//   wake      ^     ^         ^  (what became due during the call goes along with the next one)
-//   calls    sleep, send per track in turn, clock; without the sleep when the next one is due
+//   wake      ^     ^         ^  (records that become due during the call go with the next one)
+//   calls    sleep, send per track in turn, clock; no sleep if the next record is due already
 //
-//   in     Timeline; a rim that has now(), wait_until(), send(track, first, count), stopped();
-//          where it has prepare(track, end, pass), it is called while there is time, and the
-//          records of the track before `end` go out next in that pass
-//   out    PlayReport: counts, lateness (sent minus due; negative up to kGroup), what was dropped
+//   in     Timeline; a rim with now(), wait_until(), send(track, first, count), stopped(); if it
+//          has prepare(track, end, pass), that is called while there is time, and the records of
+//          the track before `end` are sent next in that pass
+//   out    PlayReport: counts, lateness (sent minus due; negative up to kGroup), dropped records
 //   units  nanoseconds
 //   invariants
-//          a track keeps its order, and none is ahead of another by more than kGroup of due time,
-//          also when the player is late; what is due at the same time goes in the order of tracks
-//   errors a full queue is retried for kMaxRetry, then it is dropped and counted; any
-//          other refusal of the kernel drops and counts it at once
+//          a track keeps its order, and no track is ahead of another by more than kGroup of due
+//          time, even if the player is late; records due at the same time are sent in the order of
+//          the tracks
+//   errors a full queue is retried for kMaxRetry, then the record is dropped and counted; any other
+//          refusal of the kernel drops and counts it at once
 //   cost   O(1) per record and track; allocates in its constructor only
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
@@ -30,15 +31,15 @@
 
 namespace pitwall::replay {
 
-inline constexpr Duration kGroup = microseconds(20);        // below what a wake-up costs
+inline constexpr Duration kGroup = microseconds(20);        // less than the duration of a wake-up
 inline constexpr Duration kRetryPause = microseconds(200);  // a frame at 1 Mbit/s takes about 110
 inline constexpr Duration kMaxRetry = milliseconds(50);
 inline constexpr std::size_t kListedDrops = 20;
 
 enum class LatePolicy : std::uint8_t {
-  kCatchUp,  // late frames go out at once, in order; the schedule stays where it was
-  kDrop,     // what is later than PlayOptions::late_limit is not sent; the clock is read once more
-  kAbort,    // it ends the replay; likewise
+  kCatchUp,  // late frames are sent at once, in order; the schedule does not shift
+  kDrop,     // records later than PlayOptions::late_limit are not sent; reads the clock once more
+  kAbort,    // such a record ends the replay; reads the clock once more
 };
 
 struct PlayOptions {
@@ -47,7 +48,7 @@ struct PlayOptions {
   Duration late_limit = milliseconds(100);  // of kDrop and kAbort
 };
 
-// What a rim's send() says: leading frames that were taken, and whether the rest may be later.
+// Result of a rim's send(): number of leading records taken, and whether the queue was full.
 struct TrackOutcome {
   std::size_t taken = 0;
   bool full = false;
@@ -55,7 +56,7 @@ struct TrackOutcome {
 
 struct DroppedRecord {
   unsigned pass = 0;
-  std::size_t track = 0, record = 0;  // the frame or datagram so far from the track's first
+  std::size_t track = 0, record = 0;  // indices of the track, and of the record in it
   Duration late{};
 };
 
@@ -71,11 +72,11 @@ struct PlayCount {
 struct PlayReport {
   PlayCount frames, datagrams;
   std::uint64_t calls = 0, waits = 0, retries = 0;
-  FixedVector<DroppedRecord, kListedDrops> dropped_list;  // the first of them
+  FixedVector<DroppedRecord, kListedDrops> dropped_list;  // the first kListedDrops
   bool aborted = false;                                   // by LatePolicy::kAbort
   bool stopped = false;                                   // by the rim
   Duration took{};
-  Duration seam_error{};  // the worst of: gap between two passes as sent minus as planned
+  Duration seam_error{};  // largest error of a gap between two passes: sent minus planned
   LatenessHistogram lateness;
 
   std::uint64_t dropped() const { return frames.dropped() + datagrams.dropped(); }
@@ -98,8 +99,8 @@ class Player {
   }
 
  private:
-  // Where a track is in its pass: records before `next` are done with, those before `recorded` are
-  // in the histogram.
+  // Position of a track in its pass: records before `next` are finished, those before `recorded`
+  // are in the histogram.
   struct Cursor {
     std::size_t next = 0, recorded = 0;
   };
@@ -142,7 +143,7 @@ class Player {
     return first;
   }
 
-  // Afterwards now_ is the deadline or later; the clock is read only where lateness is judged.
+  // Afterwards now_ is the deadline or later; the clock is read only if lateness is checked.
   void wait_until(Instant deadline) {
     if (now_ < deadline) {
       rim_.wait_until(deadline);
@@ -156,7 +157,8 @@ class Player {
     const Track& plan = timeline_.tracks[track];
     Cursor& cursor = cursors_[track];
     if (judges_lateness()) refuse_late(track);
-    const Duration until = cursors_.size() == 1 ? now_ - start_ : due;  // the others wait for it
+    // with several tracks no track may run ahead of the others
+    const Duration until = cursors_.size() == 1 ? now_ - start_ : due;
     const Duration limit = until + kGroup;
     std::size_t end = cursor.next;
     while (end < plan.due.size() && plan.due[end] <= limit) ++end;
@@ -185,7 +187,7 @@ class Player {
     }
   }
 
-  // Due times never decrease: those that are too late are the first ones.
+  // Due times never decrease, so the records that are too late are the first ones.
   void refuse_late(std::size_t track) {
     const Track& plan = timeline_.tracks[track];
     const Cursor& cursor = cursors_[track];
@@ -201,7 +203,7 @@ class Player {
   void drop(std::size_t track, std::uint64_t& counter) {
     Cursor& cursor = cursors_[track];
     ++counter;
-    static_cast<void>(  // those beyond are in the count
+    static_cast<void>(  // further ones are only counted
         report_.dropped_list.push({pass_, track, cursor.next, lateness(track, cursor.next)}));
     cursor.recorded = ++cursor.next;
   }
@@ -232,7 +234,7 @@ class Player {
   Rim& rim_;
   std::vector<Cursor> cursors_;
   PlayReport report_;
-  unsigned pass_ = 0, last_pass_ = 0;  // being played; of the last one that was sent
+  unsigned pass_ = 0, last_pass_ = 0;  // present pass; pass of the last record that was sent
   Instant start_{}, now_{};
   Duration last_late_{};
 };

@@ -1,8 +1,8 @@
-// UDP output of the bench's receivers: the bytes of each, one UDP port each, for the car and for
-// whoever else has receivers of the same kind (the guardian).
-//   in     samples of hil/sensors, `at` in scenario time; now, likewise
-//   out    datagrams to 127.0.0.1:port and port + 1 of every listener
-//   errors open(): Problem; a datagram that was not taken is counted by the socket
+// UDP output of the bench's receivers: the byte stream of each unit, for the car and for every
+// other listener with receivers of the same kind (the guardian).
+//   in     samples of hil/sensors with `at` in scenario time; now, in scenario time too
+//   out    datagrams to 127.0.0.1, two ports per listener: port for unit 0, port + 1 for unit 1
+//   errors open(): Problem; the socket counts datagrams that the system did not accept
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -19,7 +19,7 @@ namespace pitwall::bench {
 
 class ReceiverPort {
  public:
-  // One port per listener: where unit 0 of that listener is heard.
+  // One port per listener, for unit 0; unit 1 uses the next port.
   static Result<ReceiverPort, Problem> open(std::vector<std::uint16_t> first_ports,
                                             ReceiverEncoder encoder);
 

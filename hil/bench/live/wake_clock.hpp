@@ -1,9 +1,10 @@
-// Periodic timer of the live bench, with statistics of its lateness. A late wake-up is caught up at
-// once and counted; no multiple is left out.
-//   in     bench time, which is kept from here; none: the wall clock
-//   out    RealTime: lateness of the wake-ups that were slept for, what bench time stood for, and
-//          what the host took meanwhile
-//   cost   one sleep per period; memory for every lateness is reserved at construction
+// Periodic timer of the live bench, with statistics of its lateness. After a late wake-up the next
+// ones follow at once until the timer is on time again; none is skipped, and the late ones are
+// counted.
+//   in     the bench time that this timer drives; nullopt: the wall clock
+//   out    RealTime: lateness of the wake-ups that were slept for, pauses of bench time with their
+//          causes, processor time stolen by the host
+//   cost   one sleep per period; memory for all lateness values is reserved at construction
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -22,9 +23,9 @@ class WakeClock {
 
   void start();
   Instant started() const { return start_; }
-  // Sleeps until `now` of the scenario, a multiple of the period.
+  // Sleeps until the scenario time `now`, a multiple of the period.
   void sleep_until(Instant now);
-  // No more wake-ups: time goes on by itself.
+  // Ends the control of bench time: it then runs freely.
   void end();
   RealTime report();
 

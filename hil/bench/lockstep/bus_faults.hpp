@@ -1,12 +1,14 @@
-// Faults of the CAN bus itself, and the state of the car's controller.
-//   in     the faults of the plan; at each step of the rig the bus and now; a restart that the car
-//          asks for
-//   out    a bus that is disturbed, stalled or babbled on; the car's LinkObservation
+// Faults of the CAN bus itself, and the observed state of the car's CAN controller.
+//   in     the faults of the plan; the bus and the time at each step of the rig; restarts of the
+//          controller by the car
+//   out    a bus with bit errors, a stalled controller or a babbling node; the car's
+//          LinkObservation
 //   invariants
-//          bus_errors: each bit is seen wrong with probability `value`. bus_transmitter: this share
-//          of the car's frames is destroyed. transmit_stall: the car's controller sends nothing
-//          until the car restarts it, as where a driver's queue hangs. bus_babble: a stranger sends
-//          identifier 0 so that it fills this share of the bus; at 1 nobody else is heard
+//          bus_errors: each bit is corrupted with probability `value`. bus_transmitter: the share
+//          `value` of the car's frames is destroyed. transmit_stall: the car's controller sends
+//          nothing until the car restarts it, like a hung driver queue. bus_babble: an unknown node
+//          fills the share `value` of the bus with frames of identifier 0; at 1 no other node can
+//          send
 //   errors none
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
@@ -28,7 +30,7 @@ class BusFaults {
   void car_restarts_controller(Instant now) { restarted_at_ = now; }
 
  private:
-  double value_of(faults::BenchFaultKind kind, Instant now) const;  // 0: none is active
+  double value_of(faults::BenchFaultKind kind, Instant now) const;  // 0: no such fault is active
 
   std::vector<faults::BenchFault> plan_;
   std::optional<Instant> restarted_at_;

@@ -1,10 +1,11 @@
-// Clock faults: a car whose clock does not run as the receivers': lockstep has one clock, so it is
-// what the receivers say of the time that is shifted, of all units alike.
-//   in     the faults of the plan; samples as the receivers make them; now
-//   out    the same with other stamps
+// Clock faults: a difference between the car's clock and GPS time. Lockstep has a single clock, so
+// the faults shift the time stamps of all receiver units alike.
+//   in     the faults of the plan; samples of the receivers; now
+//   out    the same samples with shifted stamps
 //   invariants
-//          gps_time_step: by `value` seconds while it lasts. clock_skew: the car's clock runs fast
-//          by `value` parts per million, so GPS time falls back from the start of the fault on
+//          gps_time_step: a shift by `value` seconds while the fault is active. clock_skew: the
+//          car's clock runs fast by `value` parts per million, so GPS time lags more and more from
+//          the start of the fault
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

@@ -1,10 +1,12 @@
-// The guardian as a node of the lockstep bench, and what the scenario does to the two processes of
-// the car: the shared record is a value here, a process that is stopped or killed is not stepped.
-//   in     frames that its port of the bus heard, the receivers' samples, the car's outputs
-//   out    frames for the bus; the car's view of the guardian; which of the processes runs now
+// Guardian as a node of the lockstep bench, with the faults of both processes of the car (car and
+// guardian). The shared memory record is a plain value here; a stopped or killed process is not
+// stepped.
+//   in     frames that the guardian's bus port received, samples of the receivers, outputs of the
+//          car
+//   out    frames for the bus; the car's view of the guardian; which process runs now
 //   invariants
-//          a computer that is paused goes on with all that waits for it; one that is killed for a
-//          time is started anew at its end and not armed, as in faults/bench_fault.hpp
+//          a paused computer continues with all inputs that wait for it. A computer that was killed
+//          for a duration restarts at the end, not armed, as in faults/bench_fault.hpp
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -21,13 +23,13 @@ namespace pitwall::bench {
 
 class GuardianNode {
  public:
-  // present: also where no fault needs it.
+  // present: include the guardian even if no fault needs it.
   GuardianNode(const pipeline::CarParams& params, std::vector<faults::BenchFault> processes,
                bool present);
 
   bool present() const { return present_; }
   bool car_runs(Instant now) const;
-  // True once for every time that the car's process is started anew.
+  // True once for each restart of the car process.
   bool car_restarts(Instant now);
   bool armed_from_the_start() const { return run_ == kFirstRun; }
 
@@ -50,7 +52,7 @@ class GuardianNode {
   bool present_, was_killed_ = false;
   std::unique_ptr<guardian::State> state_;
   std::unique_ptr<pipeline::Reported> reported_;
-  guardian::Status published_;  // as a dead guardian leaves it
+  guardian::Status published_;  // stays as it is when the guardian dies
   std::vector<can::ReceivedFrame> inbox_;
   guardian::Output output_;
   std::uint64_t run_ = kFirstRun;

@@ -1,13 +1,13 @@
-// The lockstep bench: car, bus and rig in one process and one thread, in virtual time. The same
+// Lockstep bench: car, bus and rig in one process and one thread, in virtual time. The same
 // scenario, build and seed give the same bytes of event log.
 //
 //   t      car: read what the bus delivered by t, step, offer frames
 //   t+1ms  rig: one plant step, offer frames; bus advances        (ten times per tick)
 //   t+10ms car: ...
-// The guardian, where there is one, is stepped every 5 ms, before the car.
+// The guardian, if present, is stepped every 5 ms, before the car.
 //
-//   in     scenario, Setup of the car, a sink for the event log (may drop everything)
-//   out    RunResult; wall time is for the caller to measure
+//   in     scenario, Setup of the car, a sink for the event log (it may discard everything)
+//   out    RunResult; the caller measures the wall time
 //   errors Problem of the scenario or of an unknown signal; nothing else stops a run
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
@@ -33,19 +33,19 @@ using StepFunction = std::function<pipeline::Outputs(const pipeline::Setup&, pip
 struct LockstepOptions {
   recording::Sink log = {};            // empty: no event log, no digest
   StepFunction step = pipeline::step;  // the car; a benchmark or a test may wrap it to measure it
-  // Called after every tick of the car, e.g. by a test that watches for something.
-  // While its process is stopped or dead, with its last outputs.
+  // Called after every tick of the car, e.g. by a test. While the car process is stopped or dead,
+  // it is called with the last outputs.
   std::function<void(const pipeline::Outputs&, const Rig&, Instant)> watch = {};
-  Follow follow = {};  // called after every tick of the car, once it was judged
-  // Called after that, before the rig goes on: for faults at a moment that only the run knows.
+  Follow follow = {};  // called after every tick of the car, after grading
+  // Called after that, before the rig advances: for faults at a time that depends on the run.
   std::function<void(Rig&, Instant)> break_rig = {};
-  // Asked at the end of every tick; true ends the run there, as if it had never been longer.
+  // Called at the end of every tick; true ends the run there, as if it had been that short.
   std::function<bool(const RunView&)> over = {};
-  // Called with what the car sends to the pit wall, when it sends.
+  // Called with each telemetry snapshot that the car sends to the pit wall.
   std::function<void(const telemetry::Snapshot&, Instant)> watch_telemetry = {};
-  // The guardian is there where the scenario stops or kills a process; here: in any case.
+  // The guardian takes part if the scenario stops or kills a process; true: always.
   bool guardian = false;
-  // Asked before every tick of the car: if true, its process is as dead as one that a fault killed.
+  // Called before every tick of the car; true: the car process counts as killed by a fault.
   std::function<bool()> car_is_dead = {};
   // Called after every tick of the guardian.
   std::function<void(const GuardianNode&, Instant)> watch_guardian = {};

@@ -1,16 +1,17 @@
-// Radio and base station of lockstep: the car's end of the radio with its adapter, the base's end,
-// and the radio channel of the scenario between them, in virtual time. What the operator says is in
-// the scenario.
+// Radio link and base station of the lockstep bench, in virtual time: the car's endpoint with its
+// adapter, the base's service, and the radio channel of the scenario between them. The operator's
+// commands come from the scenario.
 //   in     scenario, Setup, faults; time; Inputs before and Outputs after each tick of the car
-//   out    Inputs as the rim of the real car fills them; the base's service, as the program has it
+//   out    Inputs, filled like those of the real car; the service of the base, as in its program
 //   invariants
-//          one seed, one run. base_killed: the base is gone, and begins as another run at the
-//          fault's end; it knows the newest stamp of its car. base_replaced: the one that begins is
-//          a spare one, at the second address that the car was told, which knows nothing.
-//          base_moved: the base is at an address that the car was not told; what goes to another
-//          is lost. base_paused: it hears nothing and says nothing; what came meanwhile waits for
-//          it. A car that is stopped likewise. The base's clock is not the car's
-//   errors what the operator said in vain is in refusals()
+//          one seed gives one run. base_killed: the base stops, and restarts as a new run at the
+//          end of the fault, with the stored newest stamp of its car. base_replaced: at the end of
+//          the fault a spare base without stored state starts at the second address of the car's
+//          list. base_moved: the base has an address that the car's list lacks; datagrams to other
+//          addresses are lost. base_paused: the base neither receives nor sends; what arrives
+//          meanwhile waits for it. The same holds for a stopped car. The clock of the base differs
+//          from that of the car
+//   errors refused operator commands are in refusals()
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -35,7 +36,7 @@
 
 namespace pitwall::bench {
 
-// What a base is told with fixed parameters: the budgets of the car file hold at both ends.
+// Configuration of one link endpoint: both ends use the radio budgets of the car file.
 telemetry::LinkEndpointConfig conduit_of(const pipeline::RadioParams& params,
                                          const telemetry::KeyFile& keys, std::uint8_t paths);
 
@@ -43,37 +44,38 @@ class VirtualStation {
  public:
   VirtualStation(const scenario::Scenario& scenario, const pipeline::Setup& setup,
                  const FaultPlan& faults);
-  // Its parts know each other's places.
+  // Not copyable: its parts hold references to each other.
   VirtualStation(const VirtualStation&) = delete;
   VirtualStation& operator=(const VirtualStation&) = delete;
 
-  // The base and the air, once per step of the rig.
+  // Advances base and radio channel; to be called once per step of the rig.
   void advance(Instant at);
-  // The car's rim: before its step, and after it.
+  // Fills the radio inputs of the car; to be called before its step.
   void receive(pipeline::Inputs& in);
-  // What was sent, if anything was due.
+  // To be called after the step of the car. Returns the sent snapshot, if one was due.
   std::optional<telemetry::Snapshot> publish(
       const pipeline::Car& car, const pipeline::Inputs& in, const pipeline::Outputs& out,
       const std::array<world::ReceiverTraffic, world::kGnssUnits>& receivers);
-  // The car's process begins anew: it has heard nothing yet.
+  // Restarts the car's endpoint without any received state.
   void restart_car();
 
   RadioChannel& channel() { return channel_; }
   const RadioChannel& channel() const { return channel_; }
   telemetry::CarEndpoint& car() { return *car_; }
   const telemetry::CarEndpoint& car() const { return *car_; }
-  // None while it is dead.
+  // nullptr while the base is not running.
   service::CarService* base() { return base_.get(); }
   Instant base_time(Instant at) const { return at + kBaseAhead; }
 
   const std::vector<std::string>& refusals() const { return refusals_; }
   const std::vector<telemetry::CommandId>& commands() const { return commands_; }
-  const std::vector<telemetry::Event>& events() const { return events_; }  // that the base heard
-  std::uint64_t paths_received() const { return paths_received_; }  // that the car means to drive
+  const std::vector<telemetry::Event>& events() const { return events_; }  // received by the base
+  // planned paths of the car that the base received
+  std::uint64_t paths_received() const { return paths_received_; }
 
  private:
   static constexpr Duration kBaseAhead = seconds(12'345);
-  static constexpr Duration kBaseTurn = milliseconds(10);  // of its loop, when nothing is due
+  static constexpr Duration kBaseTurn = milliseconds(10);  // period of the base's loop
 
   struct Waiting {
     telemetry::PathId path = 0;
@@ -100,13 +102,13 @@ class VirtualStation {
   std::optional<telemetry::CarEndpoint> car_;
   std::unique_ptr<service::CarService> base_;
   inputs::TextOperator operator_{inputs::kScriptPerson};
-  std::uint64_t issued_ = 0, events_received_ = 0, paths_reported_ = 0;  // of this base
+  std::uint64_t issued_ = 0, events_received_ = 0, paths_reported_ = 0;  // of the present base
   std::optional<pipeline::RadioAdapter> adapter_;
   pipeline::TickLog log_;
   std::deque<Waiting> to_car_, to_base_;
   std::uint16_t car_port_ = 40'000;
-  telemetry::Stamp newest_stamp_ = 0;  // as the base's file has it
-  bool spare_ = false;                 // the base that there is, or comes next
+  telemetry::Stamp newest_stamp_ = 0;  // as in the file of the base
+  bool spare_ = false;                 // whether the present or next base is the spare one
   Instant advanced_{};
   std::size_t next_text_ = 0;
   std::vector<std::string> refusals_;

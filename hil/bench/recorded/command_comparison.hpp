@@ -1,21 +1,21 @@
-// Modes and commands of a run that was played to a live car, against those of the recording.
+// Comparison of the modes and commands of a live replay with those of the recording.
 //   in     both traces; tolerances
-//   out    what differs, signal by signal, as Comparison has it: how often, where first, where most
+//   out    the differences by signal, as in Comparison: how often, the first, the largest
 //   units  those of the CAN database; times since the first tick of each run
 //   invariants
-//          a live car cannot repeat a run to the bit: nobody holds its ticks to those of the
-//          recording. Two things may differ, and the tolerances are made of them and of nothing
-//          that was measured:
-//            when   a frame that came just before a tick may come just after it, and the first
-//                   ticks of both runs are brought together to one tick: two ticks. What just
-//                   misses one plan is acted on with the next, so commands may follow a planning
-//                   period later (command_lag): shown in lockstep, where inputs alone are moved
-//                   (tests/hil/bench/recorded/moved_inputs_test.cpp)
-//            how    of inputs that are one tick newer or older, a command is another one by what
-//                   its slew limit lets it change in a tick, and by one step of its signal
+//          a live car does not repeat a run to the bit, because its ticks are not tied to those of
+//          the recording. Two things may differ, and the tolerances follow from them alone, not
+//          from measurements:
+//            time    a frame that came just before a tick may come just after it, and the first
+//                    ticks of both runs are aligned to one tick only: two ticks. An input that just
+//                    misses one plan takes effect with the next one, so commands may follow one
+//                    planning period later (command_lag): shown in lockstep, where only the inputs
+//                    are moved (tests/hil/bench/recorded/moved_inputs_test.cpp)
+//            value   with inputs one tick newer or older, a command differs by what its slew limit
+//                    allows in one tick, plus one step of its signal
 //          a command is compared with the nearest value of the other run within command_lag. The
-//          gear has no tolerance of its own. Modes follow each other in the same order, each within
-//          two ticks and one recorded state of the other run's
+//          gear has no tolerance of its own. Modes follow in the same order; each mode change is
+//          within two ticks plus the interval of recorded states of that in the other run
 //          commands that only one run has are a difference
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
@@ -44,8 +44,8 @@ CommandTolerances tolerances_of(const pipeline::CarParams& params, const can::Da
 
 struct CommandComparison {
   std::vector<SignalDifference> differences;
-  std::uint64_t commands = 0, modes = 0;  // compared
-  Duration compared{};                    // of the run, from its first tick
+  std::uint64_t commands = 0, modes = 0;  // number compared
+  Duration compared{};                    // compared part of the run, from its first tick
 };
 CommandComparison compare(const CommandTrace& recorded, const CommandTrace& again,
                           const CommandTolerances& tolerances);

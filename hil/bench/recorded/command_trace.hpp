@@ -1,11 +1,11 @@
-// Modes and actuator commands of a recorded run, over the run's own time.
+// Trace of a recorded run: its modes and actuator commands over the time of the run.
 //   in     a RecordedRun, from its first tick; the CAN database of its bus
-//   out    changes of the mode, each command of each actuator, and what of the run's inputs no bus
-//          and no receiver brings
+//   out    changes of the mode; each command of each actuator; inputs that came neither by the bus
+//          nor by a receiver
 //   units  time since the first tick; commands in the units of the database
 //   invariants
-//          in the order of the run; the mode is the one of the recorded state, every other tick
-//   errors those of RecordedRun; a command that is too short for its message
+//          in the order of the run; the mode is that of the recorded state, at every second tick
+//   errors those of RecordedRun; Problem for a command that cannot be decoded
 //   cost   the whole run is read; 16 bytes a command
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
@@ -41,24 +41,25 @@ struct CommandSample {
   double value = 0.0;
 };
 
-// Ticks with an input that came neither from the bus nor from a receiver nor as a command.
+// Numbers of ticks with an input that came neither by bus nor receiver nor as a command.
 struct OtherInputs {
-  std::uint64_t guardian = 0;    // it drove, or had stopped the car
-  std::uint64_t controller = 0;  // trouble of the CAN controller, or a bus that lost frames
-  std::uint64_t joystick = 0;    // fresh samples of it
-  std::uint64_t silence = 0;     // of a base station that had been heard, for kBaseSilence
+  std::uint64_t guardian = 0;  // it drives, or has stopped the car
+  // controller not error-active, or new error frames, restarts, losses
+  std::uint64_t controller = 0;
+  std::uint64_t joystick = 0;  // new joystick samples
+  std::uint64_t silence = 0;   // base silent for longer than kBaseSilence after its first packet
 };
 inline constexpr Duration kBaseSilence = milliseconds(200);
 
 struct CommandTrace {
-  std::vector<CommandSample> modes;  // changes, the first one included
+  std::vector<CommandSample> modes;  // the first mode and each change
   std::array<std::vector<CommandSample>, kActuators> commands;
   std::vector<scenario::OperatorText> operator_texts;  // commands and stops
   OtherInputs others;
-  std::optional<Duration> first_frame;  // of any frame that the car said
+  std::optional<Duration> first_frame;  // of the first frame that the car sent
   Duration length{};                    // from the first tick to the last
   std::uint64_t ticks = 0;
-  bool armed_at_start = false;  // the first tick asks for it: the car was started with --arm
+  bool armed_at_start = false;  // the first tick requests it: the car was started with --arm
 };
 
 Result<CommandTrace, Problem> trace_of(RecordedRun& run, const can::Database& database);

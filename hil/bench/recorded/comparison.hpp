@@ -1,13 +1,14 @@
-// What a car that is driven again says otherwise than in the recording, signal by signal.
-//   in     a tick of the recording and the same one driven again; the CAN database; tolerances
-//   out    for each signal that differs: how often, where first, where most; what was not compared
-//   units  of the database, of the registry
+// Comparison of a replayed car with its recording, signal by signal.
+//   in     a tick of the recording and the same tick driven again; the CAN database; tolerances
+//   out    each signal that differs: how often, the first difference, the largest; fields that were
+//          not compared
+//   units  of the database, of the telemetry registry
 //   invariants
-//          frames are matched by identifier and place among those of a tick: one that only one side
-//          says is a difference of its message, and so are bits that belong to no signal
-//          a group of telemetry that only one side ever tells is a difference
-//          without a tolerance a value differs where its bits do; NaN equals NaN
-//   cost   O(fields) a tick with a state; frames of equal bytes are not decoded
+//          frames are matched by identifier and order within a tick. A frame that only one side
+//          sends is a difference of its message, and so are differing bits that belong to no signal
+//          a telemetry group that only one side ever has is a difference
+//          without a tolerance, values differ if their bits differ; NaN equals NaN
+//   cost   O(fields) for a tick with a state; equal frames are not decoded
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -27,19 +28,19 @@ struct Divergence {
   std::uint64_t tick = 0;
   Instant at{};
   double recorded = kUnset, again = kUnset;
-  double size() const;  // NaN where one side has no number
+  double size() const;  // NaN if one side has no number
 };
 
 struct SignalDifference {
   std::string signal;  // "steering_cmd.steering_motor_cmd", "ego.vx"
   std::uint64_t values = 0;
   Divergence first, largest;
-  std::string context;  // of the first: what the car did then, by the recording
+  std::string context;  // of the first difference: position, speed, mode in the recording
 };
 
 struct CompareRules {
-  std::map<std::string, double> tolerance{};  // by signal; absolute, others have none
-  std::set<std::string> ignored{};            // signals, or whole messages and groups
+  std::map<std::string, double> tolerance{};  // absolute, by signal; 0 for all others
+  std::set<std::string> ignored{};            // signals, or whole messages or groups
 };
 
 class Comparison {
@@ -48,9 +49,9 @@ class Comparison {
 
   void add(const RecordedTick& recorded, const AgainTick& again, const FieldSet& measured);
 
-  // By their first divergence; of one tick, in the order in which they were met.
+  // In order of the first divergence; within one tick, in the order of detection.
   std::vector<SignalDifference> differences() const;
-  // Rules that named nothing which was compared.
+  // Rules that matched nothing that was compared.
   std::vector<std::string> unused_rules() const;
   std::uint64_t ticks() const { return ticks_; }
   std::uint64_t frames() const { return frames_; }
@@ -73,9 +74,10 @@ class Comparison {
   std::set<std::string> used_;
   std::map<std::string, SignalDifference> found_;
   std::vector<std::string> order_;
-  std::map<telemetry::Group, SignalDifference> new_groups_;  // told now, not in that tick's state
+  // sent in the replay, not in the recorded state of the tick
+  std::map<telemetry::Group, SignalDifference> new_groups_;
   telemetry::GroupSet recorded_groups_;
-  std::string context_;  // by the newest recorded state
+  std::string context_;  // from the newest recorded state
   FieldSet measured_;
   std::uint64_t ticks_ = 0, frames_ = 0, values_ = 0;
 };

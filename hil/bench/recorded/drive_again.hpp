@@ -1,12 +1,13 @@
-// The car's pipeline, driven again by what a recorded run was given: the same code as in the car,
-// in the run's own time.
+// Replay of a recorded run in the car's pipeline: the same code as in the car, with the recorded
+// inputs, in the time of the run.
 //   in     Setup; the ticks of a RecordedRun, in order
-//   out    what the car says now, and its state wherever the recording has one
+//   out    the frames that the car sends now, and its state at each tick where the recording has
+//          one
 //   invariants
-//          the same build with the same files says the same, to the bit; only what the process
-//          measures of itself (times, sockets, the radio) is not made again: those fields are found
-//          by telemetry that is made twice, with other measurements
-//   errors Problem: a tick that no car of this build can have had
+//          the same build with the same files gives the same result, to the bit. Only what the
+//          process measures of itself (times, sockets, the radio) is not reproduced. Those fields
+//          are found by a second telemetry snapshot with different measurements
+//   errors Problem: a tick that a car of this build cannot have had
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -29,16 +30,16 @@ using FieldSet = std::bitset<telemetry::kFieldCount>;
 
 struct AgainTick {
   std::vector<can::Frame> sent;
-  std::optional<RecordedState> state;  // where the recorded tick has one
+  std::optional<RecordedState> state;  // if the recorded tick has one
 };
 
 class DriveAgain {
  public:
-  // `setup` outlives it.
+  // `setup` must outlive the object.
   explicit DriveAgain(const pipeline::Setup& setup);
 
   Result<AgainTick, Problem> tick(const RecordedTick& recorded);
-  // Fields that the process measures, as far as they have shown.
+  // The fields measured by the process that were found so far.
   const FieldSet& measured() const { return measured_; }
 
  private:
@@ -51,12 +52,12 @@ class DriveAgain {
   FieldSet measured_;
 };
 
-// The car and the track that a run was driven with: the files that it names, or others. `remarks`
-// tells where a file is not the one of the run, by its SHA-256.
+// Car and track file of a run: those that the recording names, or given ones. setup_of() adds a
+// remark if the SHA-256 of a file is not that of the run.
 struct RunFiles {
-  std::string car, track;  // empty: those that the recording names
+  std::string car, track;  // empty: the file that the recording names
 };
-// Whether its car watched a base station.
+// True if the car of the run supervised the link to a base station.
 bool has_base(const RecordedRun& run);
 RunFiles files_of(const RecordedRun& run, const RunFiles& given);
 Result<pipeline::Setup, Problem> setup_of(const RecordedRun& run, const RunFiles& files,

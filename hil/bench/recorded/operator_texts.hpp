@@ -1,11 +1,13 @@
-// Commands and stops that a recorded car had from its operator, as text commands of a base station.
+// Operator commands and stops that a recorded car received, as text commands for a base station.
 //   in     the inputs of each tick, in order
-//   out    texts with the time at which the car had them; a stop that is let go is a "release"
-//   units  times as the caller counts them
+//   out    texts with the time at which the car received them; the end of a stop request is
+//          "release"
+//   units  times since the origin that the caller chooses
 //   invariants
-//          every text overrides the gates of a base station that can be overridden, with a reason
-//          a console must hold the authority for commands: authority() says from when until when,
-//          and how often "take" has to be said meanwhile
+//          every text except a stop overrides the gates of a base station that can be overridden,
+//          with a reason
+//          a console must hold the authority for commands: authority_for() gives the time span of
+//          the claim, and kEvery the interval at which "take" is repeated
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -32,9 +34,9 @@ struct AuthorityClaim {
   static constexpr Duration kEvery = milliseconds(500);
   Duration from{}, until{};
 };
-// Of texts in the order of time, at least one.
+// `texts` in order of time, at least one.
 AuthorityClaim authority_for(const std::vector<scenario::OperatorText>& texts);
-// The claims among the texts, in the order of time; without texts none.
+// The texts with the claims inserted, in order of time; empty if there are no texts.
 std::vector<scenario::OperatorText> with_authority(std::vector<scenario::OperatorText> texts);
 
 }  // namespace pitwall::bench

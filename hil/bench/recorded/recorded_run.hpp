@@ -1,14 +1,14 @@
-// A car's own recording as its ticks, in their order: what each was given, what it said and, every
-// other time, its state.
+// Reader of a car's own recording, tick by tick: the inputs of each tick, the frames it sent and,
+// for every second tick, its state.
 //   in     the folder of a black box, or one of its segments
-//   out    ticks as the car had them: instants of its clock, frames, bytes of its receivers
+//   out    ticks with instants of the car's clock, frames, bytes of its receivers
 //   invariants
-//          ticks come without a gap, from the first of the run: a car driven again has its state
-//          from the start. A car that was started again begins another run, in a file of its own:
-//          the first one ends there, which remarks() tells
-//   errors Problem with file or tick: not a car's recording, one from before ticks were recorded, a
-//          tick that is missing or of which something is missing. What a killed car left cut off at
-//          the end is told by remarks()
+//          ticks come without a gap, from the first of the run, so that a replay has the state from
+//          the start. A restarted car begins another run in a file of its own: the first run ends
+//          there, with a remark
+//   errors Problem with file or tick: not a recording of a car, one from before ticks were
+//          recorded, a tick that is missing or incomplete. A file that was cut off when the car was
+//          killed gives a remark
 //   cost   one segment in memory
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
@@ -36,7 +36,7 @@ struct ReceiverBytes {
 };
 
 struct RecordedState {
-  Instant at{};  // when it was made
+  Instant at{};  // time of the state
   telemetry::Values values;
   telemetry::GroupSet groups;
 };
@@ -47,20 +47,20 @@ struct RecordedTick {
   std::vector<can::ReceivedFrame> received;
   std::vector<ReceiverBytes> receivers;
   std::vector<can::Frame> sent;
-  std::optional<RecordedState> state;  // afterwards
+  std::optional<RecordedState> state;  // after the tick
 };
 
 class RecordedRun {
  public:
   static Result<RecordedRun, Problem> open(const std::string& path);
 
-  // The next tick; none: the recording is over.
+  // The next tick; nullopt at the end of the recording.
   Result<std::optional<RecordedTick>, Problem> next();
-  Instant begun() const { return begun_; }  // of the first tick that was read
-  // The value of a key that the car wrote in front; empty: it has none.
+  Instant begun() const { return begun_; }  // time of the first tick that was read
+  // The metadata of the car for this key; empty if there is none.
   std::string metadata(const std::string& key) const;
   const std::vector<std::string>& remarks() const { return remarks_; }
-  // Bytes of all segments, and how many of them were read.
+  // Bytes of all segments, and the number of bytes read so far.
   std::size_t size() const { return size_; }
   std::size_t done() const;
 
@@ -71,7 +71,7 @@ class RecordedRun {
     std::size_t unit = 0;
     std::optional<recorder::ChannelFields> fields;
   };
-  struct Segment;  // a file with its reader: the reader refers to the bytes
+  struct Segment;  // a file with its reader, which refers to its bytes
 
   Result<bool, Problem> open_next();
   std::optional<recording::McapMessage> next_message();
@@ -85,15 +85,15 @@ class RecordedRun {
   std::vector<std::string> files_;
   std::size_t opened_ = 0, remarked_ = 0, size_ = 0, done_before_ = 0;
   std::shared_ptr<Segment> segment_;
-  std::optional<recording::McapMessage> waiting_;  // of the segment, read already
+  std::optional<recording::McapMessage> waiting_;  // first message of the segment, already read
   recorder::ClockMap clock_;
   std::map<std::uint16_t, Place> places_;
   recording::Metadata run_;
   std::vector<std::string> remarks_;
-  RecordedTick collected_;                // what came since the newest tick
-  std::optional<RecordedTick> finished_;  // has its record; its state may follow
-  bool is_over_ = false;                  // another run begins
-  std::uint64_t number_ = 0;              // of the next tick
+  RecordedTick collected_;                // inputs and frames since the newest tick
+  std::optional<RecordedTick> finished_;  // complete except for the state, which may follow
+  bool is_over_ = false;                  // another run has begun
+  std::uint64_t number_ = 0;              // number of the next tick
   Instant begun_{};
 };
 

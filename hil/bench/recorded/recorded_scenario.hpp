@@ -1,11 +1,13 @@
-// Scenario file made of a recorded run: where, which car, what race control and the operator said,
-// and what is expected of the car when it is driven in that world again.
-//   in     the facts of the run, the names of recording, car and track file
-//   out    text that hil/scenario reads; its header names the source and what no recording tells
+// Scenario file made from a recorded run: place, car, race control, operator, and what is expected
+// of the car in this scenario.
+//   in     the facts of the run; the names of the recording, car and track files
+//   out    text that hil/scenario reads; its header names the source and what a recording does not
+//          hold
 //   invariants
-//          another world is never the recorded one: other noise, a modelled plant. So expected are
-//          each mode within kModeSlack of when it was, no mode that was not, the highest speed
-//          within kSpeedShare, and the line within what the run left it and kLineSlack_m
+//          a simulated run is never the recorded one: the noise differs and the plant is a model.
+//          The expectations are therefore: each mode within kModeSlack of its recorded time, no
+//          mode that the run did not have, the highest speed within kSpeedShare, and the distance
+//          from the line at most kLineSlack_m above the largest of the run
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

@@ -1,15 +1,17 @@
-// Another car of the same race in our track's coordinates, by the GNSS of both cars.
-//   in     one recording with the receivers' bytes of both: sources "own:/gnss/0", "rival:/gnss/0"
+// Position of another car of the same race in the coordinates of our track, from the GNSS of both
+// cars.
+//   in     one recording with the receiver bytes of both: sources "own:/gnss/0", "rival:/gnss/0"
 //          and so on, as traffic::merge() labels them; our Setup: track, datum, receivers
-//   out    a row for each of our positions that lies between two of the rival's: station and offset
-//          of both, and the gap
+//   out    one row for each of our positions between two positions of the rival: station and offset
+//          of both cars, and the gap
 //   units  m, s; stations along the track's reference line
 //   invariants
-//          positions are those of the antennas, by one receiver of each car: the first that has one
-//          the gap is the shorter way along the line, positive where the rival is ahead; in seconds
-//          it is what we need for it at our speed, and unset below kGapLeast_mps
-//          between positions of the rival farther apart than kRivalGap nothing is told
-//   errors Problem: a car without a receiver's position
+//          positions are those of the antennas, from one receiver per car: the first one with
+//          positions
+//          the gap is the shorter way along the line, positive if the rival is ahead; in seconds it
+//          is divided by our speed, and unset below kGapLeast_mps
+//          there is no row between positions of the rival that are more than kRivalGap apart
+//   errors Problem: a car without a position of a receiver
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -37,7 +39,7 @@ struct RivalRow {
 
 struct RivalRows {
   std::vector<RivalRow> rows;
-  std::size_t own_positions = 0, rival_positions = 0;  // that could be used
+  std::size_t own_positions = 0, rival_positions = 0;  // usable positions
 };
 
 Result<RivalRows, Problem> rival_of(const traffic::Recording& both, const pipeline::Setup& setup);

@@ -1,7 +1,8 @@
-// Requests of a client of the bench server, one line of JSON each: PROTOCOL.md.
+// Requests of a client of the bench server, one JSON object per line, as PROTOCOL.md describes
+// them.
 //   in     a line
 //   out    the request
-//   errors Problem with the member as place; nothing is guessed
+//   errors Problem with the member as place; missing values are not guessed
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -15,12 +16,12 @@
 
 namespace pitwall::bench_server {
 
-inline constexpr std::uint64_t kSeedMax = 1'000'000'000;  // as `run --seed` takes it
+inline constexpr std::uint64_t kSeedMax = 1'000'000'000;  // same limit as `run --seed`
 inline constexpr std::size_t kNameMax = 200;
 
 struct StartRequest {
   std::string scenario;
-  std::optional<std::uint64_t> seed;  // instead of the file's
+  std::optional<std::uint64_t> seed;  // replaces the seed of the file
   bool live = false;
   std::string by;
 };

@@ -1,14 +1,14 @@
-// Bench server without sockets and processes: which scenarios there are, the run that goes on, what
-// each client is told.
-//   in     lines of clients; lines that the run tells of itself; how its process ended
-//   out    lines for the client that asked, lines for all; a run to start, a request to stop it
+// Bench server without sockets and processes: list of scenarios, state of the current run, messages
+// for each client.
+//   in     lines of clients; progress lines of the run; how its process ended
+//   out    lines for the requesting client, lines for all; a run to start, a request to stop it
 //   invariants
 //          one run at a time; a second start is refused with a reason
-//          a client that joins is told everything that the others know: the scenarios, the newest
-//          run, its plan, its events, its newest state, its result
-//          a process that ends without a result has crashed, and that is said
-//   bound  kEventsKept events of a run are kept for clients that join
-//   errors of clients: told to that client, counted
+//          a new client receives everything that the others have: the scenarios, the newest run,
+//          its plan, its events, its newest state, its result
+//          a process that ends without a result counts as crashed, and the reason says so
+//   bound  the newest kEventsKept events of a run are kept for new clients
+//   errors client errors are sent to that client and counted
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -25,7 +25,7 @@
 
 namespace pitwall::bench_server {
 
-// A process to be started.
+// A run whose process has to be started.
 struct Start {
   std::uint64_t run = 0;  // from 1
   std::string file;
@@ -40,8 +40,8 @@ struct Answer {
 };
 
 struct BenchServerCounters {
-  std::uint64_t refused = 0;    // lines of clients
-  std::uint64_t malformed = 0;  // lines of runs
+  std::uint64_t refused = 0;    // refused lines of clients
+  std::uint64_t malformed = 0;  // malformed lines of runs
 };
 
 // How a process ended: exit code, or the signal that ended it.
@@ -53,17 +53,17 @@ class BenchServer {
  public:
   static constexpr std::size_t kEventsKept = 2'000;
 
-  // `identity`: of this process, so that a client knows a server that was started anew.
+  // `identity` of this process, by which a client detects a restarted server.
   explicit BenchServer(std::vector<Listed> scenarios, std::string identity = "server")
       : scenarios_(std::move(scenarios)), identity_(std::move(identity)) {}
 
   std::vector<std::string> greeting() const;
   Answer receive(std::string_view line);
 
-  // `folder`: where the run leaves its files.
+  // `folder`: output folder of the run.
   std::vector<std::string> started(std::string folder);
   std::vector<std::string> not_started(const Problem& problem);
-  // One line of the run's own; nothing where it is none.
+  // Takes one progress line of the run; returns no line if it is malformed.
   std::vector<std::string> progressed(std::string_view line);
   std::vector<std::string> ended(const Ending& ending);
 

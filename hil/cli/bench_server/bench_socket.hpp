@@ -1,12 +1,12 @@
-// Socket of the bench server: clients in, runs as child processes, their progress out.
-//   in     socket path; the command that runs a scenario; the folder for what runs leave
-//   out    PROTOCOL.md
+// Socket of the bench server: serves clients and runs each scenario as a child process.
+//   in     socket path; the command that runs a scenario; the output folder of the runs
+//   out    messages of PROTOCOL.md
 //   invariants
-//          a run is a process of its own: one that crashes leaves the server and its clients alone.
+//          each run is a process of its own: its crash does not affect the server and its clients.
 //          It ends with the server, however that ends
-//          a stop is SIGTERM, and SIGKILL to the whole run after kStopLimit
-//   bound  kMaxClients; who is one too many is told and hung up on
-//   errors Problem of the socket or the folder; everything later is told to clients
+//          a stop sends SIGTERM, and after kStopLimit SIGKILL to the whole run
+//   bound  kMaxClients; a further client gets an error message and is disconnected
+//   errors open(): Problem of the socket or the folder; later errors are sent to clients
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -29,7 +29,7 @@ inline constexpr std::size_t kMaxClients = 16;
 
 struct ServerPlan {
   std::string socket, scenarios, runs;
-  // Program and arguments for a run; its report folder and its progress file.
+  // Program and arguments of a run, with its report folder and its progress file.
   std::function<std::vector<std::string>(const Start&, const std::string& report,
                                          const std::string& progress)>
       command;
@@ -41,7 +41,7 @@ class BenchSocket {
 
   static Result<BenchSocket, Problem> open(ServerPlan plan);
 
-  // One turn: waits until the deadline or until something happens or `stop` is readable.
+  // One turn: waits until the deadline, an event or a readable `stop`, then handles all events.
   void serve(Instant deadline, int stop = -1);
   const BenchServer& server() const { return server_; }
   std::size_t clients() const { return clients_.size(); }

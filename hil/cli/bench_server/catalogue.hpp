@@ -1,12 +1,11 @@
-// List of the scenarios: every file of a folder and of the folders in it, as a person chooses among
-// them.
+// List of the scenarios in a folder and its subfolders, for the user to choose from.
 //   in     the folder
 //   out    one row per file, by its id: the path in the folder without ".yaml". The description is
-//          the comment that the file begins with
+//          the comment at the beginning of the file
 //   invariants
-//          a file that is no scenario is listed with what is wrong with it; it cannot be started
-//   bound  kMaxScenarios, in the order of their ids
-//   errors Problem where there is no such folder
+//          an invalid scenario file is listed with its problem and cannot be started
+//   bound  the first kMaxScenarios in order of their ids
+//   errors Problem if the folder does not exist
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -24,16 +23,17 @@ inline constexpr std::size_t kMaxScenarios = 1'000;
 
 struct Listed {
   std::string id{}, file{}, name{}, description{};
-  std::string problem{};  // why it cannot be started; empty: it can
+  std::string problem{};  // why it cannot be started; empty: valid
   double duration_s = kUnset;
   std::uint64_t seed = 0;
-  bool lockstep = false, live = false;  // which bench carries out all of its faults
+  // whether this mode supports all of its faults and expectations
+  bool lockstep = false, live = false;
   std::vector<std::string> faults{}, expect{};
 };
 
 Result<std::vector<Listed>, Problem> list_scenarios(const std::string& folder);
 
-// Of one file's text.
+// The row of one file, from its text.
 Listed listed(const std::string& id, const std::string& file, const std::string& text);
 std::string description_of(std::string_view text);
 

@@ -1,10 +1,10 @@
-// Reader of a file of lines while another process writes it.
-//   in     its path; the file may not be there yet
-//   out    whole lines, each once, in order
+// Reader of a line file that another process is still writing.
+//   in     its path; the file may not exist yet
+//   out    complete lines, each once, in order
 //   invariants
-//          a line without an end is no line: it may still be written. One longer than
-//          kLineMax_bytes is skipped and counted
-//   errors a file that is not there has no lines
+//          a line without its line end is not returned, because it may still grow. A line longer
+//          than kLineMax_bytes is skipped and counted
+//   errors a missing file gives no lines
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -18,7 +18,7 @@ namespace pitwall::bench_server {
 class ProgressTail {
  public:
   static constexpr std::size_t kLineMax_bytes = 128 * 1024;
-  // What a turn reads at most: a lockstep run tells a thousand lines a second.
+  // Maximum per call of read(): a lockstep run writes a thousand lines a second.
   static constexpr std::size_t kTurnMax_bytes = 1 << 20;
 
   explicit ProgressTail(std::string path) : path_(std::move(path)) {}

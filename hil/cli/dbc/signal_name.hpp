@@ -1,7 +1,7 @@
-// A signal of a CAN database, found by its name on the command line.
-//   in      "MESSAGE.SIGNAL"; the database, which outlives what is found
+// Lookup of a signal of a CAN database by its name on the command line.
+//   in      "MESSAGE.SIGNAL"; the database, which must outlive the result
 //   out     message and signal
-//   errors  Problem with the names that are nearest to what was written
+//   errors  Problem with the most similar names
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -21,8 +21,7 @@ struct FoundSignal {
 
 Result<FoundSignal, Problem> find_signal(const can::Database& database, std::string_view words);
 
-// Letters that are put in, left out or replaced to make one text of the other; case is no
-// difference. O(a * b).
+// Levenshtein distance: number of letters inserted, deleted or replaced, ignoring case. O(a * b).
 std::size_t edit_distance(std::string_view a, std::string_view b);
 
 }  // namespace pitwall::cli

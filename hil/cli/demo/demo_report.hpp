@@ -1,7 +1,8 @@
-// Report of a demo, car by car: the bench's verdicts, what the base heard, what candump saw.
-//   in     a car's folder as its run left it, the exit code of its run
-//   out    lines for a person; JSON for programs; whether all held
-//   errors Problem with the file that is missing or none
+// Report of a demo, car by car: verdicts of the bench, packets that the base received, frames that
+// candump recorded.
+//   in     the folder of a car as its run left it, the exit code of its run
+//   out    text lines; JSON for programs; whether all passed
+//   errors Problem with the file that is missing or invalid
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -28,7 +29,8 @@ struct CarReport {
   BaseFigures base;
   std::size_t dumped = 0;  // frames
 
-  // The run passed, and the base has heard this car, and candump where there is SocketCAN.
+  // True if the run passed, the base received this car and, with SocketCAN, candump recorded
+  // frames.
   bool held() const {
     return run_code == 0 && base.packets > 0 && (dumped > 0 || car.bus == DemoBus::kSocket);
   }
@@ -40,7 +42,8 @@ Result<CarReport, Problem> read_report(const DemoCar& car, int run_code);
 std::string to_text(const CarReport& report);
 std::string to_json(const CarReport& report);
 
-// Several cars at one base: each was heard, and none of what reached its station was another's.
+// True if the base received packets of every car and refused none, so that no station got packets
+// of another car.
 bool are_apart(std::span<const CarReport> reports);
 std::string apart_text(std::span<const CarReport> reports);
 

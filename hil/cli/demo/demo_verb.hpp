@@ -1,15 +1,17 @@
-// `pitwall-hil demo`: the whole system at work. Base station on this machine; car and bench on real
-// SocketCAN, in a guest where this kernel has no CAN; the radio between them over the serial line.
-// Of several cars each has its guest, keys, folder and station; they share the base's process.
+// Subcommand `pitwall-hil demo`: a run of the whole system. The base station runs on this machine;
+// car and bench use real SocketCAN, in a guest if this kernel has no CAN; the radio between them
+// goes over the serial line. With several cars, each has its own guest, keys, folder and station;
+// they share the process of the base.
 //
 //   --headless        the base station writes its screen to a file instead of this terminal
-//   --cars N          so many cars at one base, each with a bench of its own (default 1)
+//   --cars N          number of cars at one base, each with a bench of its own (default 1)
 //   --web PORT        TCP port of the console (default 8080)
 //   --duration S      seconds of scenario time (default 180)
-//   --json FILE       everything that is printed, for programs
-//   --out FOLDER      event log, candump, summaries (default out/demo); of several cars
-//                     a folder for each in it
-//   out    exit code 0: every expectation held, no frame was lost; 1: not so; 2: it could not run
+//   --json FILE       the printed results as JSON
+//   --out FOLDER      event log, candump, summaries (default out/demo); with several cars a
+//                     subfolder for each
+//   out    exit code 0: every expectation passed and no frame was lost; 1: otherwise; 2: it could
+//          not run
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

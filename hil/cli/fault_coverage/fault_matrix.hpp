@@ -1,11 +1,11 @@
-// Fault coverage: which monitor notices a fault, how fast, and where the car ends: the scenarios of
-// faults run one by one, and the matrix of what came out.
+// Fault coverage matrix: for each fault the monitor that detects it, the delay, and where the car
+// ends. The fault scenarios run one by one.
 //   in     loaded scenarios, named "f01_...", each with at least one `detects`
-//   out    rows, holes, a table, JSON
+//   out    rows, uncovered faults, a table, JSON
 //   invariants
-//          a row fails if an expectation of its scenario does, if the car ends in a wall, or if it
-//          detects nothing. A fault of the catalogue without a scenario is a hole, which
-//          is a failure too
+//          a row fails if an expectation of its scenario fails, if the car ends in a wall, or if
+//          nothing is detected. A fault of the catalogue without a passed scenario is uncovered,
+//          which is a failure too
 //   errors Problem of a scenario
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
@@ -23,31 +23,31 @@
 namespace pitwall::fault_coverage {
 
 struct Detection {
-  std::string by;  // a monitor's name, or a condition
+  std::string by;  // name of a monitor, or a condition
   std::optional<Duration> delay;
   Duration deadline{};
   bool passed = false;
-  std::string reason;  // why not
+  std::string reason;  // why it failed
 };
 
 struct FaultRow {
   std::string id;  // "F01"
   std::string scenario;
   std::vector<Detection> detections;
-  std::string outcome;              // where the car ended, in words
-  std::vector<std::string> failed;  // other expectations, and what else is wrong
+  std::string outcome;              // where the car ended, as text
+  std::vector<std::string> failed;  // other expectations that failed
   double simulated_s = 0.0;
 
   bool passed() const;
 };
 
-// Of a scenario by its name, "F01"; "-" where it is not of the catalogue.
+// Catalogue id of a scenario by its name, "F01"; "-" if it is not in the catalogue.
 std::string id_of(const std::string& scenario);
 
-// The monitors in `off` see nothing.
+// The monitors in `off` are switched off.
 Result<FaultRow, Problem> run_fault(const bench::Loaded& loaded, world::MonitorSet off);
 
-// Ids of the catalogue for which there is no row that passed, in its order.
+// Ids of the catalogue without a passed row, in catalogue order.
 std::vector<std::string> holes(const std::vector<FaultRow>& rows);
 
 std::string to_text(const std::vector<FaultRow>& rows);

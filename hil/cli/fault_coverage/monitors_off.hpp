@@ -1,9 +1,9 @@
-// Switching-off of monitors, to prove that each is needed. Here alone: nothing of the car's program
-// writes what it reads of this.
-//   in     parameters of a loaded car; the monitors that see nothing in its run
-//   out    the parameters of every module that has monitors
+// Switching-off of monitors, to prove that each is needed. Only this module writes these
+// parameters; the car program only reads them.
+//   in     parameters of a loaded car; the monitors to switch off in its run
+//   out    the parameters of every module with monitors
 //   invariants
-//          what was switched off before is replaced
+//          the new set replaces the previous one
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

@@ -1,10 +1,10 @@
-// Proof that each monitor is needed: without it a scenario fails by what the car does, in a run in
-// which nobody asks what the monitors see.
+// Proof that each monitor is needed: without it, a scenario fails by the behaviour of the car, in a
+// run that ignores what the monitors report.
 //   in     loaded scenarios that pass with every monitor; a monitor
-//   out    per scenario that asks for the monitor, the first expectation that fails without it
+//   out    for each scenario that requires the monitor, the first expectation that fails without it
 //   invariants
-//          no `seen_...` counts, of this monitor or another: a fault that is only reported proves
-//          nothing. A contact that the scenario does not name counts
+//          no `seen_...` signal counts, of this monitor or another: a fault that is only reported
+//          proves nothing. A contact that the scenario does not expect counts
 //   errors Problem of a scenario
 //   cost   a run ends at the first expectation that fails
 // SPDX-License-Identifier: Apache-2.0
@@ -23,7 +23,7 @@
 
 namespace pitwall::fault_coverage {
 
-// A monitor whose absence changes nothing that the car does, and why it is there.
+// A monitor that does not change the behaviour of the car, with its purpose.
 struct InformsOnly {
   world::Monitor monitor;
   std::string_view reason;
@@ -52,29 +52,29 @@ static_assert(informs_only(world::Monitor::kChecksum) == nullptr &&
                   informs_only(world::Monitor::kModule) == nullptr,
               "the car acts on what these see");
 
-// Whether a scenario asks for this monitor.
+// True if the scenario has a `detects` expectation for this monitor.
 bool asks(const scenario::Scenario& scenario, world::Monitor monitor);
 
-// Whether an expectation is about what the car does, not about what its monitors see.
+// True if the expectation is about the behaviour of the car, not about its monitors.
 bool is_consequence(const scenario::Expectation& expectation);
 
 struct Consequence {
   std::string scenario, expectation, reason;
 };
 
-// What fails without the monitor; none: the scenario passes without it.
+// What fails without the monitor; nullopt: the scenario passes without it.
 Result<std::optional<Consequence>, Problem> consequence_without(world::Monitor monitor,
                                                                 const bench::Loaded& loaded);
 
 struct Proof {
   world::Monitor monitor{};
-  std::vector<std::string> asked;     // scenarios
-  std::vector<Consequence> failed{};  // at most one for each of them
+  std::vector<std::string> asked;     // scenarios that require the monitor
+  std::vector<Consequence> failed{};  // at most one per scenario
 
   bool proven() const { return !failed.empty(); }
 };
 
-// What a person has to mend; empty: the monitor is proven, or informs only.
+// What remains to be fixed; empty: the monitor is proven, or informs only.
 std::string open_point(const Proof& proof);
 
 std::string to_text(const std::vector<Proof>& proofs);

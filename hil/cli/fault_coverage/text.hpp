@@ -1,4 +1,4 @@
-// Lists of words for a person and for JSON.
+// Lists of words as text and as JSON.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

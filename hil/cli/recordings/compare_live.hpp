@@ -1,12 +1,12 @@
-// `pitwall-hil compare RECORDING --live`: the recording is played to pitwall-vehicle over its bus
-// and its receivers' ports, and the modes and commands of the car are compared within the
+// Live comparison, `pitwall-hil compare RECORDING --live`: replays the recording to pitwall-vehicle
+// over its bus and its receiver ports, and compares modes and commands of the car within the
 // tolerances of hil/bench/recorded/command_comparison.
-//   in     the recording; CAN interface, which exists, or unix:PATH, whose hub is started
-//   out    exit code 0: same modes, and commands within tolerance; 1: something differs; what of
-//          the recorded inputs was not played; the car's new recording in a new folder under
-//          `folder`
-//   errors exit code 2 and a line: a recording that cannot be played, no such interface, a car that
-//          does not start
+//   in     the recording; an existing CAN interface, or unix:PATH, whose hub is started
+//   out    exit code 0: same modes, and commands within tolerance; 1: something differs. The
+//          recorded inputs that were not replayed; the new recording of the car in a new folder
+//          under `folder`
+//   errors exit code 2 and a line: a recording that cannot be replayed, no such interface, a car
+//          that does not start
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

@@ -1,7 +1,8 @@
-// `pitwall-hil compare`: a car's own recording, driven again by this build and compared with what
-// the car said, signal by signal. With --live it is played to the car's process instead.
-//   errors exit code 2 and a line: no such recording, a tick that is missing, a file of the car
-//          that is wrong; 1: it says something else
+// Subcommand `pitwall-hil compare`: replays a car's own recording in the pipeline of this build and
+// compares the result with the recording, signal by signal. With --live the car process replays it
+// instead.
+//   errors exit code 2 and a line: no such recording, a missing tick, an invalid file of the car;
+//          1: differences found
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

@@ -1,5 +1,5 @@
-// Differences of a comparison with a recording, as text and as JSON.
-//   in     differences; the instant that their times count from
+// Differences between a replay and its recording, as text and as JSON.
+//   in     differences; the instant at which their times begin
 //   units  seconds of the run
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
@@ -12,7 +12,7 @@
 
 namespace pitwall::cli {
 
-// Three lines each: how many values, the first, the largest.
+// Three lines each: number of values, the first, the largest.
 std::string differences_text(std::span<const bench::SignalDifference> differences, Instant begun);
 std::string differences_json(std::span<const bench::SignalDifference> differences, Instant begun);
 

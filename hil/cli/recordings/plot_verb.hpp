@@ -1,7 +1,7 @@
-// `pitwall-hil plot`: signals of a CAN log or a recording as an SVG file or a page, by the car's
-// own database or by another one.
-//   errors exit code 2 and a line: an unreadable log or database, an unknown signal or channel, a
-//          part of the log that is empty, another suffix; 1: a signal that never comes
+// Subcommand `pitwall-hil plot`: plots signals of a CAN log or a recording as an SVG file or an
+// HTML page, decoded with the car's own database or another one.
+//   errors exit code 2 and a line: an unreadable log or database, an unknown signal or channel, an
+//          empty part of the log, an unknown suffix; 1: a signal without any value
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

@@ -1,5 +1,5 @@
-// A recording that may be a folder of segments, as one.
-//   in     a file of any format that read_recording() knows, or the folder of a black box
+// Reader of a recording: one file, or a folder of segments as one recording.
+//   in     a file of any format that read_recording() reads, or the folder of a black box
 //   errors Problem with the file
 // SPDX-License-Identifier: Apache-2.0
 #pragma once

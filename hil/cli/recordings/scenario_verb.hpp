@@ -1,7 +1,8 @@
-// `pitwall-hil scenario from RECORDING`: a car's own recording as a scenario file.
+// Subcommand `pitwall-hil scenario from RECORDING`: makes a scenario file from a car's own
+// recording.
 //   out    the scenario, on standard output or in a file
-//   errors exit code 2 and a line: no such recording, a tick that is missing, a car that never
-//          knew where it was, a file that cannot be written
+//   errors exit code 2 and a line: no such recording, a missing tick, a car that never had a
+//          position, a file that cannot be written
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

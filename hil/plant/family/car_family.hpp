@@ -1,17 +1,18 @@
-// Family of modelled cars: those of plant files, and as many as are wanted that are drawn.
+// Family of modelled cars: those of plant files, and any number of randomly drawn ones.
 //   in     seed and number of the car; plant files for the first members
-//   out    parameters of the plant, and what kind of car they make
+//   out    parameters of the plant, and the traits of the car
 //   invariants
-//          a drawn car has the traits that it states: friction, understeer and all others are
-//          drawn evenly over kFamilyRanges, each from a random stream of its own, and the
-//          parameters are solved for them. What no trait moves is the AV-21's. Yaw inertia goes
-//          with mass and wheelbase squared; the split of the weight stays; the stiffness of the
-//          rear tyres' carcass stays, so that with less friction the peak comes at less slip; the
-//          front tyres' peak slip angle makes the understeer, with rigid steering all of it, else
-//          the half that the compliance of the steering does not make
-//          both structures are drawn, each for every second car or so. The AV-21's tyres brake
-//          better behind than in front, so that its front wheels always lock first; those of
-//          compliant cars have the friction along that they have across, and brake balance decides
+//          a drawn car has the traits that it states: friction, understeer and all others are drawn
+//          uniformly over kFamilyRanges, each from a random stream of its own, and the parameters
+//          are solved for them. All other parameters are those of the AV-21. Yaw inertia scales
+//          with mass and wheelbase squared; the weight distribution stays; the carcass stiffness of
+//          the rear tyres stays, so that with less friction the peak is at a smaller slip; the peak
+//          slip angle of the front tyres sets the understeer, all of it with rigid steering, else
+//          the half that the compliance of the steering does not cause
+//          each structure is drawn with probability 1/2. The AV-21's rear tyres have more
+//          longitudinal friction than its front tyres, so that its front wheels always lock first;
+//          the tyres of compliant cars have the same friction in both directions, and brake balance
+//          decides
 //   errors none
 //   cost   a drawn car runs the plant for some seconds of its time (understeer_of)
 // SPDX-License-Identifier: Apache-2.0
@@ -29,12 +30,12 @@
 namespace pitwall::plant {
 
 struct CarTraits {
-  double friction = 0.0;                 // grip_limit(): lateral, level, slow, over gravity
+  double friction = 0.0;  // grip_limit() on a level road at standstill, lateral, divided by gravity
   double understeer_rad_per_mps2 = 0.0;  // understeer_of()
   double mass_kg = 0.0, wheelbase_m = 0.0;
   double steering_delay_s = 0.0, brake_delay_s = 0.0, throttle_delay_s = 0.0;
   double brake_front_share = 0.0;  // of the braking torque
-  double relaxation_m = 0.0;       // of the front tyres; drawn cars have the same behind
+  double relaxation_m = 0.0;       // of the front tyres; the rear tyres of drawn cars have the same
   double differential_nms_per_rad = 0.0;
   Structure structure = Structure::kDoubleTrack;
 };
@@ -43,9 +44,9 @@ struct TraitRange {
   double CarTraits::*trait;
   double low, high;
 };
-// Friction, understeer, mass and wheelbase: what cars of the series and their set-ups span; brake
-// balance: that of the knob on the AV-24's dash, and as much again to the front; differential: from
-// an open one to the AV-21's.
+// Friction, understeer, mass and wheelbase: range of the cars of the series and their set-ups;
+// brake balance: range of the bias knob of the AV-24, extended by the same amount to the front;
+// differential: from an open one to that of the AV-21.
 inline constexpr TraitRange kFamilyRanges[] = {
     {&CarTraits::friction, 1.0, 1.5},          {&CarTraits::understeer_rad_per_mps2, 0.0, 0.0025},
     {&CarTraits::mass_kg, 700.0, 900.0},       {&CarTraits::wheelbase_m, 2.8, 3.2},
@@ -63,12 +64,12 @@ CarTraits traits_of(const Params& params);
 
 FamilyCar drawn_car(std::uint64_t seed, std::uint64_t number);
 
-// First the cars of the files as they are, then drawn ones, until there are `count`. The drawn car
-// at a place depends on seed and place alone.
+// First the cars of the files unchanged, then drawn ones, `count` in total. The drawn car at an
+// index depends only on seed and index.
 std::vector<FamilyCar> car_family(std::span<const PlantFile> files, std::uint64_t seed,
                                   std::size_t count);
 
-// One line.
+// One line of text.
 std::string to_string(const FamilyCar& car);
 
 }  // namespace pitwall::plant

@@ -1,10 +1,10 @@
-// What the tyres of a modelled car can do at most, and how much of it a car uses.
-//   in     parameters; speed, curvature and banking, or a state as plant::observe() tells it
+// Grip limit of a modelled car: the largest tyre forces, and the share of them in use.
+//   in     parameters; speed, curvature and banking, or a state as plant::observe() returns it
 //   out    largest force of each axle and acceleration of the car; share of the friction ellipse
 //   invariants
-//          lateral acceleration: of the axle that lets go first, with the load transfer that this
-//          acceleration makes; braking: of the axle that locks first with the car's own brake
-//          balance, rolling straight. Aerodynamic drag comes on top and is not counted
+//          lateral acceleration: of the axle that loses grip first, with the load transfer of this
+//          acceleration; braking: of the axle that locks first with the car's own brake balance,
+//          rolling straight. Aerodynamic drag is not included
 //   errors none
 //   cost   grip_limit(): some ten evaluations of the plant's forces
 // SPDX-License-Identifier: Apache-2.0
@@ -26,16 +26,16 @@ struct AxleForces {
 };
 
 struct GripLimit {
-  AxleForces lateral, longitudinal;  // each at the limit of its own: an ellipse's half axes
-  double lateral_mps2 = 0.0;         // specific force across the car, in the plane of the road
+  AxleForces lateral, longitudinal;  // each at its own limit: the half axes of an ellipse
+  double lateral_mps2 = 0.0;         // lateral specific force, in the plane of the road
   double braking_mps2 = 0.0;
 };
 
-// `grip` scales every friction coefficient, as that of the road.
+// `grip` scales every friction coefficient, like the grip of the road.
 GripLimit grip_limit(const Params& params, const Turn& turn, double grip = 1.0);
 
-// Of the axle that uses more, with the loads that its wheels have now: 1 at the ellipse. `grip` is
-// that of the road; temperature is counted by the law of the plant.
+// Used share of the friction ellipse, of the axle that uses more, with the present wheel loads:
+// 1 at the limit. `grip` is that of the road; the effect of temperature is included.
 double axle_use(const Params& params, const Truth& truth, double grip = 1.0);
 
 }  // namespace pitwall::plant

@@ -1,9 +1,9 @@
-// Understeer of a modelled car, measured as on a skid pad.
+// Understeer gradient of a modelled car, measured as on a skid pad.
 //   in     parameters of the car
 //   out    understeer gradient K: road-wheel angle = curvature (wheelbase + K v^2), in rad per m/s2
-//   method the plant is driven with the angle held and its speed kept, in neutral, until it turns
-//          steadily, at a lateral acceleration at which tyres are linear. So K holds all of the
-//          model: tyres, loads, compliance and the moment of the differential
+//   method the plant runs in neutral with constant steering angle and speed until the turn is
+//          steady, at a lateral acceleration in the linear range of the tyres. So K includes the
+//          whole model: tyres, loads, compliance and the moment of the differential
 //   errors none
 //   cost   about a thousand substeps
 //   source ISO 4138, method with constant speed; Pacejka, Tire and Vehicle Dynamics (2012), 1.3.3

@@ -1,7 +1,7 @@
-// Numbers of a binary file at an offset, in either byte order.
-//   in     bytes; an offset that the caller has checked to lie inside
+// View of a binary record that reads numbers at an offset, in either byte order.
+//   in     bytes; an offset that the caller has checked to be inside
 //   out    unsigned numbers of 8 to 64 bits
-//   errors CHECK where it lies outside: our own mistake
+//   errors CHECK fails for an offset outside: a mistake of our own code
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

@@ -1,7 +1,8 @@
-// Days and times of the calendar, as the headers of logs have them.
+// Conversion between UTC time and calendar dates and times, as headers of logs contain them.
 //   in     year, month and day of the Gregorian calendar; text of a time of day
 //   out    nanoseconds since 1970-01-01T00:00:00Z, and back
-//   errors a day that does not exist, or outside 1970 to 2254 (int64 nanoseconds end later)
+//   errors nullopt for a day that does not exist or is outside 1970 to 2254 (int64 nanoseconds end
+//          later)
 //   source H. Hinnant, chrono-Compatible Low-Level Date Algorithms (days_from_civil)
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
@@ -34,7 +35,7 @@ std::optional<UtcTime> utc_of(const CalendarDay& day, std::int64_t ns_of_day);
 bool read_time_of_day(TextLine& line, std::int64_t& out_ns);
 // "2017-09-30T15:06:13.191000000Z"
 std::string calendar_text(UtcTime at);
-// The same as Vector's ASC has it: "Sat Sep 30 15:06:13.191 2017", to the millisecond.
+// The same in the format of Vector ASC: "Sat Sep 30 15:06:13.191 2017", with milliseconds.
 std::string asc_date_text(UtcTime at);
 
 }  // namespace pitwall::replay

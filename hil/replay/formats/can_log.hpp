@@ -1,14 +1,15 @@
-// A recorded CAN log in memory, whatever file it came from, and the builder that each reader fills.
+// Recorded CAN log in memory, independent of the file format, and the builder that each reader
+// fills.
 //
-//   in     frames in the order of the file; places of records that do not read
-//   out    frames, names of channels, counters of all that is no frame, and remarks: the place of
-//          each record that was left out (line and column of a text, byte offset of a binary file)
-//   units  stamps in nanoseconds on the calendar clock of the recording; 0 is 1970 where the file
-//          has no date
+//   in     frames in the order of the file; places of unreadable records
+//   out    frames, names of channels, counters of everything else, and remarks: the place of each
+//          record that was left out (line and column of a text, byte offset of a binary file)
+//   units  stamps in nanoseconds on the calendar clock of the recording; 0 is 1970 if the file has
+//          no date
 //   invariants
-//          whatever a file holds is a frame, is counted, or is told in a remark
-//   errors LogBuilder::finish() is a Problem where records were left out and nothing was read, and
-//          where there are more frames than the caller's watch allows
+//          every record of a file becomes a frame, is counted, or has a remark
+//   errors LogBuilder::finish() returns a Problem if records were left out and nothing was read,
+//          and if a CanLog reaches the caller's max_frames
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -47,15 +48,15 @@ struct LoggedFrame {
 };
 
 struct LogCounters {
-  std::uint64_t bad_records = 0;    // lines or objects that do not read: left out, with a remark
-  std::uint64_t cut_tails = 0;      // the last record, where it may not be whole: left out
-  std::uint64_t error_frames = 0;   // reports of a controller, not traffic
-  std::uint64_t other_records = 0;  // what is well-formed and no CAN frame: events, statistics
-  std::uint64_t comments = 0;       // lines
+  std::uint64_t bad_records = 0;    // unreadable lines or objects: left out, with a remark
+  std::uint64_t cut_tails = 0;      // the last record, if it may be incomplete: left out
+  std::uint64_t error_frames = 0;   // error reports of a controller, not traffic
+  std::uint64_t other_records = 0;  // well-formed records other than CAN frames: events, statistics
+  std::uint64_t comments = 0;       // comment lines
   std::uint64_t blank_lines = 0;
   std::uint64_t drop_lines = 0;       // DROPCOUNT lines of candump
-  std::uint64_t recorder_drops = 0;   // frames that the recorder itself lost, as it says
-  std::uint64_t backward_stamps = 0;  // frames stamped earlier than the one before
+  std::uint64_t recorder_drops = 0;   // frames that the recorder reports as lost
+  std::uint64_t backward_stamps = 0;  // frames with an earlier stamp than the one before
 
   bool operator==(const LogCounters&) const = default;
 };
@@ -69,21 +70,21 @@ struct CanLog {
   std::vector<std::string> channels;  // in order of first appearance
   std::vector<LoggedFrame> frames;
   LogCounters counters;
-  std::vector<LogRemark> remarks;      // on the first kListedRemarks records that were left out
-  std::uint64_t remarks_left_off = 0;  // on further ones
-  std::vector<std::string> notes;      // how the file as a whole was understood
+  std::vector<LogRemark> remarks;      // for the first kListedRemarks records that were left out
+  std::uint64_t remarks_left_off = 0;  // remarks beyond kListedRemarks
+  std::vector<std::string> notes;      // how the whole file was interpreted
 };
 
-// All that a user has to be told of a log, one line each; empty for a clean one.
+// Messages for the user about a log, one line each; empty if there are none.
 std::string to_text(const CanLog& log, std::string_view file_name);
 
-// Lengths that a CAN FD frame can have.
+// True for a permitted data length of CAN FD.
 constexpr bool is_fd_length(std::size_t n) {
   return n <= 8 || n == 12 || n == 16 || n == 20 || n == 24 || n == 32 || n == 48 || n == 64;
 }
-// Bytes of data by the data length code; 9 to 15 are 8 bytes in a classic frame.
+// Data length of a data length code; 9 to 15 mean 8 bytes in a classic frame.
 std::size_t length_of_code(unsigned code, bool fd);
-// The least code for so many bytes.
+// Smallest data length code for this many bytes.
 unsigned code_of_length(std::size_t length);
 
 class LogBuilder {
@@ -91,32 +92,32 @@ class LogBuilder {
   LogBuilder(std::string_view format, std::string_view file_name, const LogWatch& watch = {},
              std::size_t file_bytes = 0);
 
-  // For each record, before it is read: tells the watch how far the file has been read. False: no
-  // more fits, and finish() says so.
+  // To be called before each record is read: reports the progress to the watch. Returns false if no
+  // further frame is allowed; finish() then returns a Problem.
   bool reach(std::size_t byte) {
     if (byte >= next_report_) report(byte);
     return log_.frames.size() < watch_.max_frames;
   }
-  // About so many frames are to come: memory for them.
+  // Reserves memory for about this many frames.
   void expect(std::size_t frames);
-  // No blocks from now on: what is still to come can change the frames.
+  // Stops the delivery of blocks: later records may still change the frames.
   void hold_frames() { is_holding_ = true; }
-  // The index of a channel; nothing if its name is too long or there are too many of them.
+  // The index of a channel; nullopt if its name is too long or there are too many channels.
   std::optional<std::uint8_t> channel(std::string_view name);
-  // Channels that a format numbers from 1 are can0 and up, as python-can and can-utils have it.
+  // Channels numbered from 1 become can0 and up, as in python-can and can-utils.
   std::optional<std::uint8_t> numbered_channel(std::uint64_t number);
-  // Nothing, or why it is no CAN frame; then it has not been added.
+  // Adds a frame. Returns nullopt, or the reason why it is not a valid CAN frame and was not added.
   std::optional<std::string_view> add(const LoggedFrame& logged);
 
   void leave_out_line(std::size_t line, std::size_t column, std::string_view what);
   void leave_out_byte(std::size_t offset, std::string_view what);
   void cut_line(std::size_t line);
   void cut_byte(std::size_t offset, std::string_view what);
-  void note(std::string_view text);  // once, however often it is said
+  void note(std::string_view text);  // added only once
 
   LogCounters& counters() { return log_.counters; }
   std::uint64_t added() const { return added_; }
-  std::vector<LoggedFrame>& frames() { return log_.frames; }  // without those of earlier blocks
+  std::vector<LoggedFrame>& frames() { return log_.frames; }  // without frames of earlier blocks
   Result<CanLog, Problem> finish() &&;
 
  private:

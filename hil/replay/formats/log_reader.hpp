@@ -1,8 +1,8 @@
-// The one way into the product for a CAN log of any format: recognised, unpacked, read.
-//   in     the bytes of a file, whatever it is called
+// Reader of CAN logs of any format: recognises, decompresses and reads. The only entry for logs.
+//   in     the bytes of a file; its name has no influence on the format
 //   out    CanLog with its counters, remarks and notes
-//   errors Problem that names what the file looks like and lists what is read, or the first place
-//          that does not read where nothing does
+//   errors Problem with the apparent format and the list of readable formats, or with the first
+//          unreadable place if nothing is readable
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

@@ -1,10 +1,10 @@
-// What a recorded file is, by its content and never by its name.
+// Recognition of the format of a recorded file by its content, never by its name.
 //   in     the beginning of a file, or all of it
-//   out    a FileFormat; its name, as a message says it ("a Vector BLF log")
+//   out    a FileFormat; its name as messages use it ("a Vector BLF log")
 //   invariants
 //          a magic number at the beginning decides; without one, the format that most of the first
 //          lines look like
-//   errors none: what nobody knows is kUnknownText or kUnknownBinary
+//   errors none: an unknown format is kUnknownText or kUnknownBinary
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -20,14 +20,14 @@ enum class FileFormat : unsigned char {
   kTrc,
   kPcap,
   kPcapng,
-  kGzip,  // of any of them
+  kGzip,  // of any of these formats
   // Recordings of more than CAN.
   kMcap,
   kLcm,
   kSqlite,     // a ROS 2 bag, among others
-  kNovatel,    // a receiver's byte stream
-  kVectorNav,  // likewise
-  // What is known by name only.
+  kNovatel,    // byte stream of a receiver
+  kVectorNav,  // byte stream of a receiver
+  // Recognised, but not readable.
   kMf4,
   kMdf3,
   kRosbag1,
@@ -53,9 +53,9 @@ enum class FileFormat : unsigned char {
 FileFormat recognise(std::string_view bytes);
 
 std::string_view name_of(FileFormat format);
-// What a user can do with a file of this format, as a sentence; empty: nothing is known.
+// Advice for the user of a file of this format, as a sentence; empty: none.
 std::string_view advice_on(FileFormat format);
-// The CAN logs that are read, for messages.
+// The readable formats of CAN logs, for messages.
 std::string_view formats_that_are_read();
 
 }  // namespace pitwall::replay

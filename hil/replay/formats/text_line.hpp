@@ -1,11 +1,11 @@
-// Lines of a text log, and one line read from left to right.
+// Splitter of a text log into lines, and parser of one line from left to right.
 //
-//   in     the whole text; ends of lines are LF, CR LF or CR, also mixed; a byte order mark of
-//          UTF-8 at the beginning is passed over
-//   out    lines without their ends; whether a line has one; numbers, words and bytes of a line
+//   in     the whole text; lines end with LF, CR LF or CR, also mixed; a UTF-8 byte order mark at
+//          the beginning is skipped
+//   out    lines without their ends; whether a line has an end; numbers, words and bytes of a line
 //   invariants
 //          nothing is copied or allocated
-//   errors the first thing that does not fit: a column and a reason
+//   errors the first syntax error: a column and a reason
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -18,7 +18,7 @@
 
 namespace pitwall::replay {
 
-// One line; `what` is set at the first thing that does not fit, `at` is where.
+// One line; `what` is the reason of the first syntax error, `at` its position.
 struct TextLine {
   std::string_view text;
   std::size_t at = 0;
@@ -40,16 +40,16 @@ struct TextLine {
 class TextLines {
  public:
   explicit TextLines(std::string_view text);
-  bool next();  // false behind the last line
+  bool next();  // false after the last line
   std::string_view line() const { return line_; }
   std::size_t number() const { return number_; }
   bool has_end() const { return has_end_; }
-  std::size_t position() const { return begin_; }  // bytes up to the next line
+  std::size_t position() const { return begin_; }  // byte offset of the next line
 
  private:
   std::string_view text_, line_;
-  std::size_t begin_ = 0;  // of the next line
-  std::size_t feed_ = 0;   // the next LF at or behind it; looked for once
+  std::size_t begin_ = 0;  // offset of the next line
+  std::size_t feed_ = 0;   // offset of the next LF at or after it; searched once
   std::size_t number_ = 0;
   bool has_end_ = false;
 };
@@ -66,16 +66,16 @@ inline int hex_value(char c) { return kHexValues[static_cast<unsigned char>(c)];
 inline bool is_digit(char c) { return c >= '0' && c <= '9'; }
 inline char lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
 bool is_blank(std::string_view line);
-bool starts_with_word(std::string_view text, std::string_view lower_word);  // any case
+bool starts_with_word(std::string_view text, std::string_view lower_word);  // ignoring case
 
-// Digits of a base up to a value; fails without a digit and beyond the value.
+// Reads a number of the given base, at most `most`; fails without a digit and above `most`.
 bool read_unsigned(TextLine& line, unsigned base, std::uint64_t most, std::uint64_t& out);
-// "12.345678": whole and fraction in units of `unit_ns`; '.' or ',' between them; at most
-// kMaxFractionDigits behind it. Fails beyond kMaxStampSeconds.
+// Reads "12.345678" in units of `unit_ns`, with '.' or ',' before the fraction; at most
+// kMaxFractionDigits after it. Fails above kMaxStampSeconds.
 inline constexpr int kMaxFractionDigits = 9;
 inline constexpr std::int64_t kMaxStampSeconds = 8'999'999'999;  // the year 2255
 bool read_decimal(TextLine& line, std::int64_t unit_ns, std::int64_t& out_ns);
-// Two hex digits; `reason` is said otherwise.
+// Reads two hex digits; fails with `reason`.
 bool read_hex_byte(TextLine& line, std::uint8_t& out, const char* reason);
 
 }  // namespace pitwall::replay

@@ -1,9 +1,9 @@
-// What a replay needs of a car's database and manifest, read from their files.
-//   in     the path of a manifest, whose database lies beside it unless another one is given; the
-//          path of a DBC file; names of nodes
-//   out    rules of restamping; the nodes of the database with what they send
-//   errors Problem: a file that does not read, a contradiction, a node that the database has not or
-//          that sends nothing, with those that send
+// Loader of the database and manifest of a car for a replay.
+//   in     the path of a manifest, whose database is in the same folder unless another one is
+//          given; the path of a DBC file; names of nodes
+//   out    rules of restamping; the nodes of the database with the messages they send
+//   errors Problem: an unreadable file, a contradiction, a node that is not in the database or
+//          sends nothing, with the list of sending nodes
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -17,16 +17,16 @@
 
 namespace pitwall::replay {
 
-// `dbc_file` empty: the one that the manifest names, in the manifest's folder.
+// `dbc_file` empty: the file that the manifest names, in the folder of the manifest.
 Result<RestampRules, Problem> load_restamp_rules(const std::string& manifest_file,
                                                  const std::string& dbc_file);
 
-// Read leniently: a message of a flawed database still has its sender. Where a message has more
-// than one, each of them sends it.
+// Reads leniently: a message of a flawed database still has its sender. If a message has several
+// senders, each of them sends it.
 Result<std::vector<SendingNode>, Problem> load_nodes(const std::string& dbc_file,
                                                      std::span<const std::string> left_out);
 
-// The database of a manifest, as a path.
+// Path of the database of a manifest.
 Result<std::string, Problem> database_of(const std::string& manifest_file);
 
 }  // namespace pitwall::replay

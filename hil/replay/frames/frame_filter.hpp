@@ -1,9 +1,8 @@
-// Filter of the frames that a replay plays, by identifier and by the node that sends them.
-//   in     identifiers that are wanted, identifiers and nodes that are not; frames in the order of
-//          the log
+// Filter of the frames of a replay, by identifier and by sending node.
+//   in     wanted identifiers, unwanted identifiers and nodes; frames in the order of the log
 //   out    whether a frame is played; how many were left out
-//   errors problem(): an identifier of the filter that no frame had, or a node that sent none, with
-//          those that there are
+//   errors problem(): an identifier of the filter that no frame had, or an unwanted node that sent
+//          no frame, with the list of those that occur
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -27,7 +26,7 @@ struct MessageId {
   auto operator<=>(const MessageId&) const = default;
 };
 
-// A node of a database and what it sends.
+// A node of a database and the messages it sends.
 struct SendingNode {
   std::string name;
   std::vector<MessageId> messages{};
@@ -35,14 +34,14 @@ struct SendingNode {
 };
 
 struct FrameFilterOptions {
-  std::vector<std::uint32_t> ids{};      // only these; none: all
-  std::vector<std::uint32_t> not_ids{};  // but these
-  std::vector<SendingNode> nodes{};      // of the database, all of them
+  std::vector<std::uint32_t> ids{};      // only these; empty: all
+  std::vector<std::uint32_t> not_ids{};  // all except these
+  std::vector<SendingNode> nodes{};      // all nodes of the database
 };
 
 class FrameFilter {
  public:
-  static constexpr std::size_t kMostListed = 40;  // identifiers that an error names
+  static constexpr std::size_t kMostListed = 40;  // largest number of identifiers in an error
 
   explicit FrameFilter(FrameFilterOptions options);
 
@@ -50,7 +49,7 @@ class FrameFilter {
   bool has_seen_any() const { return !seen_.empty(); }
   std::uint64_t left_out() const { return left_out_; }
 
-  // Of the frames that takes() was asked about.
+  // Concerns the frames given to takes().
   std::optional<Problem> problem() const;
 
  private:
@@ -61,8 +60,8 @@ class FrameFilter {
   std::optional<Problem> node_problem() const;
 
   FrameFilterOptions options_;
-  std::set<MessageId> of_other_nodes_;  // sent by the nodes that are left out
-  // Of each identifier that came: whether it is played.
+  std::set<MessageId> of_other_nodes_;  // messages of the nodes that are left out
+  // For each identifier that occurred: whether it is played.
   std::map<MessageId, bool> seen_;
   std::uint64_t left_out_ = 0;
 };

@@ -1,11 +1,11 @@
-// Rules of restamping, by the manifest of a car: which messages have a rolling counter or a
+// Rules of restamping from the manifest of a car: which messages have a rolling counter or a
 // checksum, and how their senders count.
-//   in     manifest and database, which do not contradict each other; recorded frames of one bus
-//   out    a rule for each such message; the range in which its counter runs
+//   in     manifest and database, which must not contradict each other; recorded frames of one bus
+//   out    a rule for each such message; the range of its counter
 //   errors Problem: a contradiction, or a manifest without counters and checksums
-//   source where a counter wraps is said by its protection profile; of any other counter it is what
-//          the recording shows: the wrap to 0 or 1 that is seen most often, at least twice; else
-//          all values of the field
+//   source the protection profile of a message defines where its counter wraps. Without a profile
+//          the recording decides: the most frequent wrap to 0 or 1, if it occurs at least twice;
+//          else the counter uses all values of the field
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -31,7 +31,7 @@ struct RestampRule {
   can::ProtectionRule protection{};
 
   std::uint32_t counter_of(const can::Frame& frame) const;
-  // Counter and checksum, over what the frame has there. The frame has the length of the rule.
+  // Overwrites counter and checksum of the frame, which must have the length of the rule.
   void stamp(can::Frame& frame, std::uint32_t counter) const;
 };
 
@@ -42,9 +42,9 @@ struct RestampRules {
   static Result<RestampRules, Problem> make(const can::Manifest& manifest,
                                             const can::Database& database);
   static constexpr std::size_t kNone = SIZE_MAX;
-  // The place of its rule; kNone: it has neither counter nor checksum.
+  // Index of the rule of a frame; kNone: it has neither counter nor checksum.
   std::size_t place_of(const can::Frame& frame) const;
-  // Of another length than its message, or a remote frame: it cannot be stamped.
+  // False for a frame of another length than its message, or a remote frame: it cannot be stamped.
   static bool fits(const RestampRule& rule, const can::Frame& frame);
 };
 
@@ -55,7 +55,7 @@ struct CounterRange {
   std::uint32_t length() const { return top - bottom + 1; }
 };
 
-// How the senders of one bus counted.
+// Observed counting of the senders of one bus.
 class CounterHistory {
  public:
   explicit CounterHistory(const RestampRules& rules) : rules_(&rules), seen_(rules.rules.size()) {}
@@ -67,7 +67,8 @@ class CounterHistory {
   struct Seen {
     bool ever = false;
     std::uint32_t last = 0;
-    std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> wraps{};  // from, to: times
+    // from, to: number of occurrences
+    std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> wraps{};
   };
   static constexpr std::uint32_t kBelievedWraps = 2;
 

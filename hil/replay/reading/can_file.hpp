@@ -1,7 +1,9 @@
-// The CAN frames of a file of any format that is read: mapped, with a line of progress.
-//   in     a path; whether progress was asked for
+// Reader of the CAN frames of a file of any readable format. The file is memory-mapped; a progress
+// line is shown.
+//   in     a path; whether the user asked for progress
 //   out    the log
-//   errors Problem: no such file, no log or recording, more frames than fit into memory at once
+//   errors Problem: no such file, not a log or recording, more frames than allowed in memory at
+//          once
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

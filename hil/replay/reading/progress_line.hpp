@@ -1,11 +1,11 @@
-// A line on standard error that says how far long work on a file is, and how long it will take.
-//   in     how much is done of how much, as often as it is known; whether the user asked for it
-//   out    on a terminal one line that is written over and cleared at the end, at most four times a
-//          second; elsewhere, where it was asked for, a line of its own once a second; otherwise
-//          nothing. Work that is over within half a second says nothing on a terminal
-//   units  parts are bytes; the rest of the time is that of the work so far, in proportion
+// Progress line on standard error for long work on a file, with the remaining time.
+//   in     the done and the total amount, as often as they are known; whether the user asked for it
+//   out    on a terminal one line that is overwritten and cleared at the end, at most four times a
+//          second; elsewhere, if the user asked for it, a new line once a second; otherwise
+//          nothing. On a terminal nothing is shown for work shorter than half a second
+//   units  amounts are bytes; the remaining time is extrapolated from the time so far
 //   invariants
-//          without a terminal and without --progress standard error has no byte of it
+//          without a terminal and without --progress nothing is written to standard error
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -23,10 +23,10 @@ namespace pitwall::replay {
 inline constexpr const char* kProgressHelp =
     "say how far it is once a second, also where standard error is no terminal";
 
-// "reading a.log: 43 % of 2.0 GiB, 12 s left"; without the time where nothing is done yet.
+// "reading a.log: 43 % of 2.0 GiB, 12 s left"; without the time if nothing is done yet.
 std::string progress_text(std::string_view what, std::size_t done, std::size_t all, Duration spent);
 
-// When a line is due: pure, the caller has the clock.
+// Decides when a line is due. Pure: the caller has the clock.
 class ProgressPace {
  public:
   ProgressPace(Duration silence, Duration pause) : silence_(silence), pause_(pause) {}
@@ -42,11 +42,11 @@ class ProgressLine {
   using Clock = std::function<Instant()>;
   ProgressLine(std::string what, bool is_asked_for);
   ProgressLine(std::string what, bool is_asked_for, Clock clock);
-  ProgressLine(const ProgressLine&) = delete;  // the function below refers to it
+  ProgressLine(const ProgressLine&) = delete;  // the result of function() refers to it
   ProgressLine& operator=(const ProgressLine&) = delete;
   ~ProgressLine();
 
-  // Empty where nothing is to be shown: then reading has nothing to do for it.
+  // The progress function; empty if nothing is to be shown, so that reading has no extra cost.
   ReadProgress function();
 
  private:

@@ -1,7 +1,7 @@
 // Owner of the bytes that the records of a recording refer to.
-//   in     whole files and decompressed blocks, taken over as they are; single messages, copied
-//   out    spans that stay valid as long as the pool or the pool that absorbed it lives, wherever
-//          it is moved to
+//   in     whole files and decompressed blocks, taken over without a copy; single messages, copied
+//   out    spans that stay valid as long as the pool, or the pool that absorbed it, exists, even
+//          after moves
 //   cost   a copy allocates once per mebibyte
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
@@ -54,7 +54,7 @@ class BytePool {
   static constexpr std::size_t kBlockBytes = std::size_t{1} << 20;
 
   std::vector<std::shared_ptr<const void>> blocks_;
-  std::string* open_ = nullptr;  // the block that copies go to
+  std::string* open_ = nullptr;  // the block for copies
 };
 
 }  // namespace pitwall::traffic

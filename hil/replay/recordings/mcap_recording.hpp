@@ -1,12 +1,13 @@
-// Recordings in MCAP: our own (the car's black box, the base's) and bags of ROS 2.
+// Reader of MCAP recordings: our own (black box of the car, recording of the base) and ROS 2 bags.
 //   in     the whole file; its name for remarks
-//   out    /can/in and /can/out of ours, can_msgs/msg/Frame and ros2_socketcan_msgs/msg/FdFrame of
-//          bags: CAN. /gnss/N of ours: a receiver. What is encoded as "cdr": ROS 2. All else as it
-//          is, under its encoding
-//   units  stamps: log time, when the message was taken down
-//   errors Problem for what is no MCAP file. A cut or damaged file gives what can be read of it;
-//          each chunk, message and byte range that is left out is a remark with its place
-//   cost   O(bytes); of an uncompressed file nothing is copied
+//   out    CAN frames: /can/in and /can/out of our recordings, can_msgs/msg/Frame and
+//          ros2_socketcan_msgs/msg/FdFrame of bags. Receiver bytes: /gnss/N of our recordings. ROS
+//          2 messages: encoding "cdr". Everything else is unchanged, under its encoding
+//   units  stamps: log time, when the recorder received the message
+//   errors Problem if it is not an MCAP file. Of a cut or damaged file the readable part is
+//          returned; each chunk, message and byte range that is left out has a remark with its
+//          place
+//   cost   O(bytes); an uncompressed file is not copied
 //   source https://mcap.dev/spec; protocol/recorder/channels.hpp
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
