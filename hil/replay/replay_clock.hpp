@@ -1,17 +1,19 @@
-// Clock that a replay goes by, as --clock names it: the wall clock, or the bench time of the
-// programs that it plays to. A machine that holds one of them up then stretches the replay as it
-// stretches the car.
+// Clock of a replay, chosen by --clock: the wall clock, or the bench time of the programs under
+// test. With bench time, a machine that stalls one of these programs delays the replay by the same
+// time as the car.
 //
 //   wall clock   0 . . . 10 . . . 20 . . . 30 . . . 40
 //   bench time   0 . . . 10 . . . . . . . . . 10 . . 20     the car had no processor from 10 to 30
 //   replay       a . b . c  . . . . . . . . . . d . e
 //
-//   in     "wall", or the file in which bench time is kept, in /dev/shm: the one that the programs
-//          were started with. Where nobody keeps it, the replay does, as a bench would
-//   out    bench time as the clock of this program, from open() on; from begin() to end() it waits
-//          for the calling thread, too. For how long it stood, and for whom
-//   errors Problem: no such file can be opened, another program came first, no room to take turns
-//   cost   where the replay keeps the time, a thread that wakes up every millisecond
+//   in     "wall", or the clock file of bench time in /dev/shm, the one that the programs were
+//          started with. If no other process keeps that clock, the replay keeps it, as a bench does
+//   out    bench time as the clock of this program, from open() on. From begin() to end() bench
+//          time also waits for the calling thread. How long bench time paused, and for which
+//          program
+//   errors Problem: the file cannot be opened, another program keeps the clock already, or there is
+//          no room for another waiting thread
+//   cost   if the replay keeps the clock, one thread that wakes up every millisecond
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -31,8 +33,8 @@ class ReplayClock {
 
   bool is_wall() const { return file_.empty(); }
   Result<bool, Problem> begin();
-  // From begin() to here; `longest_at` since then. Nothing by the wall clock. Of a time that
-  // another keeps only the total is known.
+  // Pauses from begin() to this call; `longest_at` counts from begin(). Empty with the wall clock.
+  // If another process keeps the clock, only the total is known.
   std::optional<transport::ClockWaits> end();
 
  private:
@@ -43,7 +45,8 @@ class ReplayClock {
   Instant begun_{}, wall_begun_{};
 };
 
-// "bench time stood 3 times, 0.25 s in all, at the longest 79 ms at 13.67 s for pitwall-vehicle".
+// Example: "bench time stood 3 times, 0.25 s in all, at the longest 79 ms at 13.67 s for
+// pitwall-vehicle".
 std::string to_text(const transport::ClockWaits& waits);
 std::string to_json(const transport::ClockWaits& waits);
 

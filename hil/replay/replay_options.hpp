@@ -1,6 +1,6 @@
 // Command-line options of `pitwall-hil replay`.
 //   in     the arguments after the verb
-//   out    what to play and how; files that are named are not read here
+//   out    what to play and how; the named files are not read here
 //   errors Problem with the argument as place: an unknown option, a missing value, a value that the
 //          option does not allow, no file or more than one
 // SPDX-License-Identifier: Apache-2.0
@@ -22,11 +22,11 @@ struct ReplayOptions {
   std::string file;
   TimelineOptions timeline;
   PlayOptions play;
-  std::optional<Duration> lead{};  // nothing: as measured
+  std::optional<Duration> lead{};  // empty: as measured
   std::string json_file;
   std::string clock = transport::kWallClock;
   bool progress = false;
-  std::string dbc_file, manifest_file;  // of --overlay; of --restamp
+  std::string dbc_file, manifest_file;  // for --overlay; for --restamp
   std::vector<std::string> overlaid{};  // nodes of the database
 };
 

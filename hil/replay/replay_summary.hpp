@@ -1,8 +1,8 @@
 // Summary of a replay as text and as JSON.
-//   in     the report of the player, the timeline that was played, what became of the streams, what
-//          the kernel granted, for how long bench time stood
-//   out    a few lines of text, or one JSON object
-//          frames and datagrams apart; what was not played
+//   in     the report of the player, the timeline that was played, the counters of the streams, the
+//          real-time rights that the kernel granted, the pauses of bench time
+//   out    a few lines of text, or one JSON object: frames and datagrams separately, and what was
+//          not played
 //   units  microseconds in both
 // SPDX-License-Identifier: Apache-2.0
 #pragma once

@@ -1,30 +1,30 @@
-// The player's rim on this machine: real clock, real sockets.
+// Clock and sockets of the player: the real-time implementation of what Player requires.
 //
 //   deadline              |
 //   sleep    ...........|  (lead before it)
-//   wake             ....|  somewhere here: late by what a sleep is usually late
-//   look                  |  at the clock, until it is time
+//   wake             ....|  within this range, late by the usual lateness of a sleep
+//   look                  |  busy wait on the clock until the deadline
 //
-// A sleep ends late, by 50 to 100 us in a guest and a few on a quiet host, and not always by the
-// same. So it is set to end early by the lead, and what is left is spent looking at the clock; gaps
-// shorter than the lead are not slept through at all. In a guest a system call takes as long as a
-// short frame on the wire, so signals are looked at only where there is time.
+// A sleep ends late, by 50 to 100 us in a guest and a few us on a quiet host, and by a varying
+// amount. So each sleep is set to end early by the lead, and the rest is a busy wait on the clock;
+// there is no sleep in gaps shorter than the lead. In a guest a system call takes as long as a
+// short frame on the wire, so signals are polled only where there is time.
 //
-// Each track of frames has a CAN socket, each track of datagrams a UDP socket, a TCP port or a
-// serial device of its own; ROS 2 topics share a participant. A stream takes a record whole or
-// refuses it at once, and what it could not write yet goes out with the next record, or while the
+// Each track of frames has a CAN socket of its own, each track of datagrams a UDP socket, a TCP
+// port or a serial device; ROS 2 topics share a participant. A stream takes a record whole or
+// refuses it at once. Bytes that it could not write yet go out with the next record, or while the
 // rim waits.
 //
-//   in     timeline, which stays where it is as long as the rim; the lead (measured, or
-//          given; 0: plain sleeps)
-//   out    now(), wait_until(), send(), stopped() as Player asks for them
+//   in     timeline, which must not move while the rim exists; the lead (measured, or given;
+//          0: plain sleeps)
+//   out    now(), wait_until(), send(), stopped(), as Player requires
 //   errors open(): Problem. While playing: SendOutcome only
-//   bound  a datagram that the kernel took may still be lost: a full receive queue drops it, which
-//          only its owner can count. That nobody listens the kernel tells, and unheard() says. Of a
-//          topic DDS keeps the newest 64 messages for a reader that is behind; what it then misses
-//          only the reader can count
-//   cost   the lead is time of the processor that nobody else gets, once per wake-up; where that
-//          would be more than a quarter of all time (BusyBudget), sleeps are plain for a while
+//   bound  a datagram that the kernel took may still be lost in a full receive queue, which only
+//          the owner of the queue can count. If no socket listens, the kernel reports it, and
+//          unheard() counts it. DDS keeps the newest 64 messages of a topic for a slow reader; only
+//          the reader can count what it misses
+//   cost   one lead of busy waiting per wake-up; if that would exceed a quarter of all time
+//          (BusyBudget), sleeps are plain for a while
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -48,7 +48,7 @@ namespace pitwall::replay {
 inline constexpr Duration kMaxLead = microseconds(200);
 inline constexpr std::size_t kMaxStreams = 16;
 
-// A TCP port or a serial device: what became of its bytes.
+// Result of a TCP port or a serial device: the counters of its bytes.
 struct StreamReport {
   std::string target;
   transport::StreamSenderCounters counters;
@@ -56,31 +56,31 @@ struct StreamReport {
 
 class SocketRim {
  public:
-  // Everything is laid out for the kernel here. The stop signal is installed.
+  // Prepares all sockets and frames, and installs the stop signal.
   static Result<SocketRim, Problem> open(const Timeline& timeline);
 
-  // How late sleeps of this thread are nearly always at most, up to kMaxLead; takes 40 ms.
+  // Usual upper limit of the lateness of a sleep of this thread, at most kMaxLead; takes 40 ms.
   static Duration measured_lead();
   void set_lead(Duration lead);
 
-  // Until each TCP port has a caller and each topic a reader, at most so long.
+  // Waits until each TCP port has a client and each topic a reader, at most `patience`.
   void wait_for_callers(Duration patience);
-  // Until the streams have written what they have and the readers of topics have it, at most so
-  // long; what a stream has left then is lost.
+  // Waits until the streams have written their bytes and the readers of topics have received
+  // theirs, at most `patience`; what a stream has left then is lost.
   void finish(Duration patience);
 
   Instant now();
   void wait_until(Instant deadline);
   TrackOutcome send(std::size_t track, std::size_t first, std::size_t count);
-  // Restamps the frames of the track before `end`, which have gone, for the pass.
+  // Restamps the frames of the track before `end`, which are already sent, for pass `pass`.
   void prepare(std::size_t track, std::size_t end, unsigned pass);
   bool stopped() const { return stopped_; }
-  // The last error of the kernel but a full queue, for people; empty: none.
+  // Text of the last kernel error other than a full queue; empty if there was none.
   std::string last_error() const;
-  // Datagrams of a track that nobody listened to, as far as the kernel said so.
+  // Datagrams of a track that no socket received, as far as the kernel reported it.
   std::uint64_t unheard(std::size_t track) const;
   std::vector<StreamReport> streams() const;
-  // Of the topics, those that nobody reads now.
+  // The topics that have no reader now.
   std::vector<std::string> unread_topics() const;
 
  private:
@@ -88,7 +88,7 @@ class SocketRim {
     transport::CanSender sender;
     transport::PreparedFrames frames;
     const Track* track;
-    std::size_t prepared = 0;  // frames before it are those of `pass`
+    std::size_t prepared = 0;  // frames before this index are stamped for `pass`
     unsigned pass = 0;
   };
   struct Line {
@@ -124,14 +124,14 @@ class SocketRim {
   template <class Done>
   void serve_until(Instant give_up, Done&& done);
 
-  std::unique_ptr<dds::Domain> domain_;  // none: no track is a topic
-  std::vector<Sender> senders_;          // of each track
-  std::vector<std::size_t> streams_;     // those of them that are streams
+  std::unique_ptr<dds::Domain> domain_;  // null: no track is a topic
+  std::vector<Sender> senders_;          // one per track
+  std::vector<std::size_t> streams_;     // indices of the senders that are streams
   transport::StopSignal stop_;
   Duration lead_{};
-  Duration half_look_{};  // of what one look at the clock takes
-  Instant read_{};        // what the clock last said
-  Instant looked_{};      // for signals
+  Duration half_look_{};  // half the duration of one clock reading
+  Instant read_{};        // the last clock reading
+  Instant looked_{};      // time of the last poll for signals
   BusyBudget budget_;
   bool stopped_ = false;
   int last_error_ = 0;

@@ -1,10 +1,11 @@
 // Timeline of a log or a recording: one sequence of frames per bus and one of datagrams per
 // receiver, ready for a socket.
-//   in     CanLog or traffic::Recording, which recorded source goes where, speed, what to leave out
+//   in     CanLog or traffic::Recording, the target of each recorded source, speed, what to leave
+//          out
 //   out    frames or datagrams of each track in the order of the recording, with due times from the
-//          start; what of a recording is not played, and why
+//          start; which sources of a recording are not played, and why
 //   units  nanoseconds since the start of a pass
-//   errors Problem: a source or an identifier that is named and does not occur, or nothing to send
+//   errors Problem: a named source or identifier does not occur, or there is nothing to send
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -29,10 +30,10 @@
 
 namespace pitwall::replay {
 
-// Datagrams one behind the other.
+// Datagrams in one buffer, one after the other.
 struct Datagrams {
   std::vector<std::uint8_t> bytes{};
-  std::vector<std::size_t> ends{};  // of datagram i in the bytes
+  std::vector<std::size_t> ends{};  // end of datagram i in the bytes
 
   std::size_t size() const { return ends.size(); }
   std::span<const std::uint8_t> operator[](std::size_t i) const {
@@ -41,16 +42,15 @@ struct Datagrams {
   }
 };
 
-// Frames of a bus, or datagrams where there is a target of bytes: records of a stream, samples of a
-// ROS 2 topic.
+// Frames of a bus; or, if `to` is set, datagrams: records of a stream or samples of a ROS 2 topic.
 struct Track {
   std::string target;                    // the interface, or `to` as text
-  std::vector<can::Frame> frames{};      // as they go out in the first pass
+  std::vector<can::Frame> frames{};      // as sent in the first pass
   std::vector<std::uint8_t> fd_flags{};  // of frames[i], as logged
   std::vector<Duration> due{};           // of frame or datagram i; never decreasing
   std::optional<ByteTarget> to{};
   Datagrams datagrams{};
-  RestampPlan restamp{};  // of the frames, for the passes that follow
+  RestampPlan restamp{};  // counters and checksums of the frames in later passes
 };
 
 struct LeftOut {
@@ -63,37 +63,40 @@ struct Timeline {
   Duration pass{};  // from the first frame or datagram of one pass to the first of the next
   std::uint64_t frames = 0, datagrams = 0;
   std::vector<LeftOut> left_out{};         // sources that are not played
-  std::uint64_t filtered = 0;              // frames of a pass that ids and nodes leave out
+  std::uint64_t filtered = 0;              // frames per pass that the filter leaves out
   std::uint64_t restamped = 0, unfit = 0;  // frames of a pass, as RestampPlan counts them
 
-  std::optional<dds::DomainConfig> dds{};  // where the topics are
+  std::optional<dds::DomainConfig> dds{};  // domain of the topics
 
   std::uint64_t size() const { return frames + datagrams; }
 };
 
 struct TimelineOptions {
   double speed = 1.0;
-  std::string interface {};  // for every channel that the map does not name; empty: its own name
+  // For every channel that `map` does not name; empty: the recorded name.
+  std::string interface {};
   std::vector<std::pair<std::string, std::string>> map{};       // recorded name, name to send on
   std::vector<std::pair<std::string, ByteTarget>> receivers{};  // of a recording
-  std::optional<dds::DomainConfig> dds{};  // for the ROS 2 topics of a recording; none: not played
-  Duration from{}, until{INT64_MAX};       // what is played, since the first stamp; without its end
-  Duration longest_gap{INT64_MAX};       // a longer one is skipped: the next frame follows at once
-  std::vector<std::string> topics{};     // sources or channels: only these; none: all
-  std::vector<std::uint32_t> ids{};      // of frames: only these; none: all
-  std::vector<std::uint32_t> not_ids{};  // of frames: but these
-  std::vector<SendingNode> nodes{};  // of a database; the frames of those left out are not played
-  std::shared_ptr<const RestampRules> restamp{};  // none: frames as they were recorded
+  // For the ROS 2 topics of a recording; empty: they are not played.
+  std::optional<dds::DomainConfig> dds{};
+  Duration from{}, until{INT64_MAX};     // part to play, [from, until) since the first stamp
+  Duration longest_gap{INT64_MAX};       // longer gaps are skipped: the next frame follows at once
+  std::vector<std::string> topics{};     // only these sources or channels; empty: all
+  std::vector<std::uint32_t> ids{};      // only frames with these identifiers; empty: all
+  std::vector<std::uint32_t> not_ids{};  // no frames with these identifiers
+  std::vector<SendingNode> nodes{};      // of a database; the filter leaves their frames out
+  std::shared_ptr<const RestampRules> restamp{};  // null: frames as recorded
 };
 
-// A stamp that goes back is due with the frame before it: the order of the log is kept. Due times
-// are computed from the start, not from frame to frame, so speed brings no drift. Passes follow
-// each other with the mean gap of the log. From, until and gaps are those of the log, before speed.
+// A record with an earlier stamp than the one before is due together with it: the order of the log
+// is kept. Due times are computed from the start, not from frame to frame, so the speed causes no
+// drift. Passes follow each other with the mean gap of the log. `from`, `until` and `longest_gap`
+// are times of the log, before the speed is applied.
 Result<Timeline, Problem> make_timeline(const CanLog& log, const TimelineOptions& options);
 
-// The same of a recording, in its total order; tracks stand in the order of its sources. A CAN
-// source whose name is that of no interface needs `map` or `interface`; /can/out, which the car
-// said itself, is played where `map` names it only. Receivers go to their target of `receivers`,
+// The same for a recording, in its total order; tracks are in the order of its sources. A CAN
+// source needs `map` or `interface` if its name is not that of an interface. /can/out, which the
+// car itself sent, is played only if `map` names it. Receivers go to their target in `receivers`,
 // in datagrams of at most transport::kMaxDatagramBytes; ROS 2 topics keep their name and type.
 Result<Timeline, Problem> make_timeline(const traffic::Recording& recording,
                                         const TimelineOptions& options);

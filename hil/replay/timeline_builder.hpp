@@ -1,10 +1,9 @@
-// Builder of a timeline: frames and datagrams are put into their tracks in the order in which they
-// are to be played.
-//   in     tracks; frames and bytes with the stamp that they were recorded at
-//   out    finish(): the timeline; tracks with nothing to play are not in it
+// Builder of a timeline: frames and datagrams are added to their tracks in playing order.
+//   in     tracks; frames and bytes with their recorded stamps
+//   out    finish(): the timeline, without empty tracks
 //   units  stamps: nanoseconds on the calendar clock of the recording
-//   errors finish() is a Problem where nothing is left to play, where an identifier of the filter
-//          does not occur, or where it takes too long
+//   errors finish() returns a Problem if nothing is left to play, if an identifier of the filter
+//          does not occur, if a pass takes more than a year, or if no frame could be restamped
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -19,16 +18,16 @@ namespace pitwall::replay {
 
 class TimelineBuilder {
  public:
-  // Nothing, or which of the options cannot be.
+  // Which of the options is not allowed; empty if all are.
   static std::optional<Problem> problem_of(const TimelineOptions& options);
 
-  // `name`: what problems call the recording; `first`: its first stamp.
+  // `name`: name of the recording in problems; `first`: its first stamp.
   TimelineBuilder(std::string name, UtcTime first, const TimelineOptions& options);
 
-  // The track of an interface, which may be that of an earlier source; one of bytes.
+  // Track of an interface, which an earlier source may share; new track of bytes.
   std::size_t bus(const std::string& interface);
   std::size_t bytes(const ByteTarget& to);
-  // The track of a topic, which may be that of an earlier source; nothing: it has another type.
+  // Track of a topic, which an earlier source may share; empty if that source has another type.
   std::optional<std::size_t> topic(const RosTopic& to);
 
   void add(std::size_t track, UtcTime at, const can::Frame& frame, std::uint8_t fd_flags);
@@ -38,7 +37,7 @@ class TimelineBuilder {
   Result<Timeline, Problem> finish() &&;
 
  private:
-  // Nothing: it is not played.
+  // Empty if the record is not played.
   std::optional<Duration> due_of(UtcTime at);
   bool is_in_time(UtcTime at);
   Problem nothing_left() const;
@@ -49,10 +48,10 @@ class TimelineBuilder {
   TimelineOptions options_;
   Timeline out_;
   FrameFilter filter_;
-  std::vector<CounterHistory> histories_{};  // of each track where frames are restamped
+  std::vector<CounterHistory> histories_{};  // of each track; empty without restamping
   UtcTime origin_, begin_, end_, latest_;
-  UtcTime newest_;                // of all that was added
-  Duration elapsed_{}, first_{};  // of the recording, without what is left out
+  UtcTime newest_;                // newest stamp of all added records
+  Duration elapsed_{}, first_{};  // time of the recording without skipped gaps
   bool too_long_ = false, ended_ = false;
 };
 

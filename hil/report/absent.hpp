@@ -1,4 +1,4 @@
-// Placeholder of a plot that cannot be drawn: never an empty frame.
+// Placeholder for a plot that cannot be drawn: its title and the reason, instead of an empty frame.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

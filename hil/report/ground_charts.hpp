@@ -1,7 +1,7 @@
 // Charts over the track: map of the track, cross-track error over the lap and by speed, g-g
 // diagram.
-//   in     RunData; the track, where it is known: without it the map has no walls
-//   out    HTML: one plot each, or the sentence why there is none
+//   in     RunData; the track, if it is known: without it the map has no walls
+//   out    HTML: one plot each, or a sentence that says why there is none
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -13,15 +13,15 @@
 
 namespace pitwall::report {
 
-// `no_walls`: why there is no track, where there is none.
+// `no_walls`: the reason if there is no track.
 std::string map_chart(const RunData& run, const world::TrackMap* track,
                       const std::string& no_walls);
 std::string station_chart(const RunData& run);
 std::string acceleration_chart(const RunData& run);
 
-// As the bench grades: of every row of the truth.
+// Computed as the bench grades it: over every row of the ground truth.
 grading::CrossTrack cross_track_of(const RunData& run);
-// Bars and table, with the figures of the paper's real car beside them.
+// Bars and table, beside the figures of the real car in the paper.
 std::string bracket_chart(const grading::CrossTrack& statistics);
 std::string bracket_table(const grading::CrossTrack& statistics);
 

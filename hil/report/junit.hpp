@@ -1,9 +1,9 @@
-// The verdicts of a run as JUnit XML, which every CI server reads: one test case per expectation.
+// JUnit XML of the verdicts of a run, for CI servers: one test case per expectation.
 //   in     RunData
-//   out    one <testsuite>; a violated expectation is a <failure> with margin and time, what is
-//          wrong with the bench or its log is an <error> in a case of its own
+//   out    one <testsuite>; a violated expectation is a <failure> with margin and time; each fault
+//          of the bench or its log is an <error> in a test case of its own
 //   invariants
-//          failures + errors == 0 exactly where the outcome is kPass
+//          failures + errors == 0 exactly if the outcome is kPass
 //   source the JUnit schema of Jenkins and Apache Ant
 // SPDX-License-Identifier: Apache-2.0
 #pragma once

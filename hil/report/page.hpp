@@ -1,9 +1,10 @@
-// The report of one run as one HTML page that needs no network: style, script and plots are in it.
-//   in     RunData; the track, where it is known
+// Report of one run as one HTML page that needs no network: it contains style, script and plots.
+//   in     RunData; the track, if it is known
 //   out    the page; its script only adds the read-out under the pointer
 //   invariants
-//          the same log, result and track give the same bytes: no clock, no machine, no path
-//   source readable at 1280 x 800; colour is never the only sign
+//          the same log, result and track give the same bytes: the page contains no time of day, no
+//          machine name and no path
+//   source readable at 1280 x 800; nothing is marked by colour alone
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -14,7 +15,7 @@
 
 namespace pitwall::report {
 
-// `no_walls`: why there is no track, where there is none.
+// `no_walls`: the reason if there is no track.
 std::string page(const RunData& run, const world::TrackMap* track, const std::string& no_walls);
 
 }  // namespace pitwall::report

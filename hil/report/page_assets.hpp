@@ -1,5 +1,5 @@
-// Style and script of the report's page. The script only adds the read-out under the pointer: it
-// reads values back from the plots themselves, so no number is in the page twice.
+// Style sheet and script of the report page. The script only adds the read-out under the pointer.
+// It reads the values back from the plots, so that no number is in the page twice.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -7,7 +7,7 @@
 
 namespace pitwall::report {
 
-// Of what Plot draws, in a page or in a file of its own.
+// Style of what Plot draws, inside a page or in a separate SVG file.
 inline constexpr std::string_view kPlotStyle = R"css(
 svg { display: block; max-width: 100%; }
 svg text { font: 12px "DejaVu Sans", Verdana, system-ui, sans-serif; fill: #3a454f; }

@@ -1,11 +1,11 @@
-// One plot as SVG: axes, lines, dots, bars, bands, marks. Drawn at a fixed size in pixels, so that
+// One plot as SVG: axes, lines, dots, bars, bands, marks. It has a fixed size in pixels, so that
 // text keeps its size.
-//   in     values in the units of the axes; what lies outside an axis is drawn at its edge
-//   out    svg(): an element that needs nothing from outside. Everything that shows data has the
-//          class "mark"; data-* attributes say how pixels become values, for the read-out
+//   in     values in the units of the axes; values outside an axis are drawn at its edge
+//   out    svg(): an element without external references. Every element that shows data has the
+//          class "mark"; data-* attributes give the scale from pixels to values, for the read-out
 //   invariants
 //          the same calls give the same bytes
-//   errors NaN makes a gap; nothing fails
+//   errors none; NaN makes a gap
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -21,7 +21,7 @@ namespace pitwall::report {
 struct Colour {
   std::string_view css;
 };
-// Okabe and Ito: told apart by people who do not see all colours.
+// Palette of Okabe and Ito, which people with colour blindness can distinguish.
 inline constexpr Colour kBlue{"#0072b2"}, kVermillion{"#c74d00"}, kGreen{"#00795a"},
     kPurple{"#9c4f80"}, kOrange{"#b97400"}, kSky{"#56b4e9"}, kInk{"#1b232b"}, kGrey{"#66727e"},
     kPale{"#d5dbe1"};
@@ -31,9 +31,10 @@ struct Axis {
   std::string label;
 };
 
-// From the least to the greatest of all values, with some air; `least_span` where they are equal.
+// Axis from the smallest to the largest of all values, with a margin; its span is `least_span` if
+// they are equal.
 Axis axis_over(std::span<const Line> lines, std::string label, double least_span);
-// Steps of 1, 2 or 5 times a power of ten; about `count` of them.
+// About `count` ticks, in steps of 1, 2 or 5 times a power of ten.
 std::vector<double> ticks_of(double from, double to, int count);
 
 struct Bar {
@@ -48,30 +49,30 @@ class Plot {
  public:
   enum class Kind { kTime, kPlane, kBars };
 
-  // `name`: for programs, a word; `title`: for people.
+  // `name`: identifier for programs, one word; `title`: for readers.
   Plot(std::string name, std::string title, Kind kind, Size size, Axis x, Axis y);
 
   struct Mark {
     Colour colour = kBlue;
-    std::string name, unit;  // for the legend and the read-out; no name: in neither
+    std::string name, unit;  // for the legend and the read-out; without a name it is in neither
     double width = 1.5;
     bool dashed = false;
   };
   void line(std::span<const Point> points, const Mark& mark);
   void dots(std::span<const Point> points, const Mark& mark, double size);
   void bars(std::span<const Bar> bars, const Mark& mark);
-  // Behind the lines, over the whole height.
+  // Drawn behind the lines, over the whole height.
   void band(double from_x, double to_x, Colour colour, const std::string& label);
   void level(double y, Colour colour, const std::string& label);
   void circle(double radius_x, Colour colour);
   void sign(double x, double y, std::string_view symbol, Colour colour, const std::string& label);
-  void x_names(std::vector<std::string> names);  // instead of numbers, at 0.5, 1.5, ...
+  void x_names(std::vector<std::string> names);  // replace the numbers, at 0.5, 1.5, ...
   struct Name {
     double at = 0.0;
     std::string text;
   };
-  void y_names(
-      std::vector<Name> names);  // instead of numbers and label; those outside are left out
+  // Replace the numbers and the label; names outside the axis are left out.
+  void y_names(std::vector<Name> names);
 
   std::string svg() const;
 
@@ -97,7 +98,7 @@ class Plot {
   std::string behind_, marks_;
 };
 
-// Which of a few things held when, one row each, on the time axis of the other plots.
+// Row of a chart of states over time: when each state held, on the time axis of the other plots.
 struct Lane {
   std::string name;
   struct Piece {
@@ -106,12 +107,12 @@ struct Lane {
     Colour fill = kPale;
   };
   std::vector<Piece> pieces;
-  std::string absent;  // why there are none, where there are none
+  std::string absent;  // the reason, if there are no pieces
 };
 std::string lanes_svg(const std::string& name, const std::string& title,
                       std::span<const Lane> lanes, double width, double end_s);
 
-// A histogram without axes, for a row of a table.
+// Histogram without axes, for a table cell.
 std::string small_histogram(std::span<const std::uint64_t> counts, double width, double height,
                             double mark_share);
 

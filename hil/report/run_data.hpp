@@ -2,8 +2,8 @@
 //   in     bytes of an event log (hil/bench/run_record.hpp); text of a result file
 //          (bench::to_json(RunResult)), or none
 //   out    RunData; times are seconds since the start of the run
-//   errors nothing here fails: what is wrong with the log or the result is a sentence in
-//          `infrastructure`, and everything that could be read is there
+//   errors none: each fault of the log or of the result is a sentence in `infrastructure`, and
+//          everything readable is there
 //   cost   O(bytes)
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
@@ -25,7 +25,7 @@ namespace pitwall::report {
 
 struct Facts {
   std::string scenario, seed, mode, source, database, revision, fingerprint, bus, track_file;
-  double duration_s = kUnset;  // as the scenario wanted it
+  double duration_s = kUnset;  // as the scenario states it
 };
 
 template <class S>
@@ -46,17 +46,17 @@ struct Event {
 
 struct FaultSpan {
   std::string kind;
-  double from_s = 0.0, to_s = kUnset;  // to the end where nothing is said
+  double from_s = 0.0, to_s = kUnset;  // NaN: until the end of the run
   std::uint32_t can_id = 0;
 };
 
 struct VerdictRow {
   std::string text, place, reason;
   bool pass = false;
-  double margin = kUnset, first_violation_s = kUnset;  // margin: NaN where no number is known
+  double margin = kUnset, first_violation_s = kUnset;  // margin is NaN if there is no number
 };
 
-// From the result file; NaN where it says nothing.
+// From the result file; NaN if the file has no such value.
 struct ResultFigures {
   std::string refused_to_arm;
   std::string ending;  // where the car was at the end
@@ -65,18 +65,18 @@ struct ResultFigures {
   double to_car = kUnset, from_car = kUnset, lost = kUnset, bus_losses = kUnset;
   double gate_refusals = kUnset, bus_refusals = kUnset;
   std::optional<bench::RealTime> real_time;
-  std::vector<std::string> remarks;  // what else a reader must know
+  std::vector<std::string> remarks;  // further notes for the reader
 };
 
 struct LogHealth {
   std::uint64_t bytes = 0, read_bytes = 0;
   recording::McapEnd end = recording::McapEnd::kReading;
   recording::McapReaderCounters counters;
-  std::uint64_t missing = 0;      // messages that their channel's own numbers say were there
-  std::uint64_t undecodable = 0;  // messages that are not what their channel says
+  std::uint64_t missing = 0;      // messages missing by the sequence numbers of their channel
+  std::uint64_t undecodable = 0;  // messages that do not fit the schema of their channel
 };
 
-// kContact: the car hit a wall, and the scenario does not name it.
+// kContact: the car hit a wall, and the scenario does not name that contact.
 enum class Outcome : std::uint8_t { kPass, kFail, kInfrastructure, kContact };
 
 struct RunData {
@@ -85,7 +85,7 @@ struct RunData {
   std::vector<At<bench::CarSample>> car;  // empty: not recorded
   std::vector<At<BusFrame>> can;
   std::vector<At<bench::LossSample>> losses;
-  std::vector<At<Event>> events;  // but verdicts
+  std::vector<At<Event>> events;  // all except verdicts
   std::vector<FaultSpan> faults;
   std::vector<VerdictRow> verdicts;
   std::optional<ResultFigures> result;
@@ -94,12 +94,12 @@ struct RunData {
   std::vector<std::string> infrastructure;  // why the verdicts cannot be relied on
 
   Outcome outcome() const;
-  double end_s() const;  // of everything recorded and planned
+  double end_s() const;  // latest time of everything recorded and planned
 };
 
 // `log_name` and `result_name` are for messages.
 RunData read_run(std::span<const std::uint8_t> log, const std::string& log_name);
-// Refuses the result of another run.
+// Refuses a result that belongs to another run.
 void add_result(RunData& run, std::string_view json, const std::string& result_name);
 
 const char* name_of(Outcome outcome);  // "PASS" ...

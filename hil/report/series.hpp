@@ -1,9 +1,9 @@
-// Series of a plot: fewer points that look the same, spans of equal value, load of the bus,
+// Data series of a plot: thinned points that look the same, spans of equal value, bus load,
 // intervals between frames.
 //   in     rows of RunData, sorted by time
 //   invariants
-//          thinned(): keeps the least and the greatest value of every bucket and every gap, so that
-//          no peak is lost; at most 4 points for each bucket
+//          thinned() keeps the smallest and the largest value of every bucket, and every gap, so
+//          that no peak is lost; at most 4 points per bucket
 //   units  seconds, shares of 1
 //   cost   O(points)
 // SPDX-License-Identifier: Apache-2.0
@@ -26,7 +26,7 @@ using Line = std::vector<Point>;
 
 Line thinned(std::span<const Point> points, double from, double to, std::size_t buckets);
 
-// A line of one value per row; a row that is later than 0.1 s after the one before makes a gap.
+// Line with one value per row. A row more than 0.1 s after the one before makes a gap.
 template <class S, class Value>
 Line line_of(const std::vector<At<S>>& rows, Value value) {
   constexpr double kGap_s = 0.1;
@@ -39,7 +39,7 @@ Line line_of(const std::vector<At<S>>& rows, Value value) {
   return line;
 }
 
-// While a number stays the same.
+// Time span in which a value stays the same.
 struct Span {
   double from_s = 0.0, to_s = 0.0;
   int value = 0;
@@ -58,27 +58,27 @@ std::vector<Span> spans_of(const std::vector<At<S>>& rows, Value value) {
 
 inline constexpr double kBitRate = 500'000.0;
 
-// Share of the bus's time that frames took, per window, at its middle. Windows are of one width,
-// at least `least_window_s`, and at most 1200.
+// Share of bus time that frames occupy, per window, at the middle of the window. All windows have
+// the same width, at least `least_window_s`; there are at most 1200.
 Line bus_load(std::span<const At<BusFrame>> frames, double end_s, double least_window_s);
 
-// Of all frames with one identifier from one node.
+// Intervals between the frames of one identifier from one node.
 struct Intervals {
   std::uint8_t from = 0;
   std::uint32_t id = 0;
   std::uint64_t frames = 0;
-  double nominal_s = kUnset;     // of the database; NaN: it knows no such message
-  std::string name;              // likewise empty
+  double nominal_s = kUnset;     // period in the database; NaN if it has no such message
+  std::string name;              // name in the database; empty if it has no such message
   std::vector<double> sorted_s;  // between two frames, ascending
 
-  double quantile_s(double share) const;  // NaN where there are fewer than two frames
+  double quantile_s(double share) const;  // NaN with fewer than two frames
 };
 
-// By node and identifier. Names and periods are those of the database that this build has.
+// By node and identifier. Names and periods come from the database of this build.
 std::vector<Intervals> intervals_of(std::span<const At<BusFrame>> frames);
 
-// How many of `values` (ascending) fall in each of `bins` equal parts of [from, to]; what lies
-// outside counts for the first or the last one.
+// Number of `values` (ascending) in each of `bins` equal parts of [from, to]. Values outside count
+// in the first or the last part.
 std::vector<std::uint64_t> histogram(std::span<const double> values, double from, double to,
                                      std::size_t bins);
 

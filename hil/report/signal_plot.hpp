@@ -1,13 +1,13 @@
-// Signals of a CAN log drawn over time: one panel per unit, as an SVG file or as an HTML page.
-//   in     series, the part of the time axis that is drawn, the lines of the caption
-//   out    one file that needs nothing from outside. The script of the page only adds the read-out
+// Plot of CAN signals over time: one panel per unit, as an SVG file or as an HTML page.
+//   in     series, the part of the time axis to draw, the lines of the caption
+//   out    one file without external references. The script of the page only adds the read-out
 //          under the pointer
 //   invariants
-//          signals of one unit share a panel, up to kPanelSignals of them whose ranges compare; a
-//          signal whose every value has a name has a panel of its own, with steps and these
-//          names; a series without values has no panel. The same input gives the same bytes
-//   units  seconds from the log's start; values in the units of the database
-//   errors nothing fails: names of any bytes are escaped
+//          signals of one unit share a panel, up to kPanelSignals of them with comparable ranges. A
+//          signal whose every value has a name has a panel of its own, with steps and these names.
+//          A series without values has no panel. The same input gives the same bytes
+//   units  seconds from the start of the log; values in the units of the database
+//   errors none: names are escaped, whatever their bytes are
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -20,7 +20,7 @@
 namespace pitwall::report {
 
 inline constexpr std::size_t kPanelSignals = 4;
-inline constexpr double kLeastDrawn_s = 1e-3;  // of the time axis
+inline constexpr double kLeastDrawn_s = 1e-3;  // shortest time axis
 
 struct SignalPicture {
   std::string title;

@@ -1,13 +1,13 @@
 // Signals of a CAN log as lines over time, decoded by a database.
-//   in     frames of a log in any order; signals of a database, which outlives the series; the part
-//          of the log that is wanted
-//   out    one series per signal, or per signal and channel where its message comes on several;
+//   in     frames of a log in any order; signals of a database, which must outlive the series; the
+//          part of the log to read
+//   out    one series per signal, or per signal and channel if its message is on several channels;
 //          sorted by time; counters of the frames that give no point
 //   units  seconds from the earliest frame of the log; values in the unit of the signal
 //   invariants
-//          a multiplexed signal has points only where it is present; a pause of more than
-//          kGapPeriods mean periods of a series is a gap of its line
-//   errors nothing fails: a signal that never comes has a series without points
+//          a multiplexed signal has points only where it is present. A pause longer than
+//          kGapPeriods mean periods of a series is a gap in its line
+//   errors none: a signal that does not occur has a series without points
 //   cost   O(frames * signals)
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
@@ -24,7 +24,7 @@
 namespace pitwall::report {
 
 inline constexpr double kGapPeriods = 5.0;
-// A 64-bit field that holds something else can be any double; beyond this it is not drawn.
+// A 64-bit field with foreign content can decode to any double; larger values are not drawn.
 inline constexpr double kMaxDrawn = 1e100;
 
 struct ChosenSignal {
@@ -41,12 +41,12 @@ struct LogPart {
 
 struct SignalSeries {
   ChosenSignal chosen;
-  std::string channel;  // empty: the only one on which its message comes
+  std::string channel;  // empty: only one channel has the message
   Line points;          // y NaN: a gap
   std::uint64_t values = 0;
-  std::uint64_t other_frames = 0;  // with its identifier, but of another length or kind
-  std::uint64_t absent = 0;        // frames in which its multiplexer leaves it out
-  std::uint64_t not_drawn = 0;     // values that are no finite number up to kMaxDrawn
+  std::uint64_t other_frames = 0;  // with its identifier, but with another length or kind
+  std::uint64_t absent = 0;        // frames in which the multiplexer excludes the signal
+  std::uint64_t not_drawn = 0;     // values that are not finite or beyond kMaxDrawn
 
   std::string name() const {
     return channel.empty() ? chosen.name() : chosen.name() + " (" + channel + ")";
@@ -58,7 +58,7 @@ struct LogSpan {
   double length_s = 0.0;
 };
 
-// Of the log's earliest and latest frame; zero without frames.
+// From the earliest to the latest frame of the log; zero without frames.
 LogSpan span_of(const replay::CanLog& log);
 
 std::vector<SignalSeries> signal_series(const replay::CanLog& log,

@@ -1,10 +1,10 @@
-// Text that is safe inside HTML and XML, and numbers as a report writes them.
-//   in     any bytes: names and messages come from files that strangers wrote
+// Escaping of text for HTML and XML, and formatting of numbers in a report.
+//   in     any bytes: names and messages come from untrusted files
 //   out    escaped(): valid UTF-8 without markup. & < > " ' become entities; a line break or a tab
-//          becomes a space; what XML 1.0 forbids, what is no UTF-8 and what turns the direction of
-//          writing becomes U+FFFD
+//          becomes a space; characters that XML 1.0 forbids, invalid UTF-8 and characters that
+//          change the direction of writing become U+FFFD
 //   invariants
-//          escaped() of text without such characters is that text
+//          escaped() does not change text without such characters
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -17,7 +17,7 @@ std::string escaped(std::string_view text);
 
 // Fixed decimals; "not known" for NaN, "unbounded" for infinity. Never "-0.0".
 std::string number(double value, int decimals);
-// The shortest of up to `digits` significant digits; likewise.
+// The shortest form with up to `digits` significant digits; NaN and infinity as in number().
 std::string significant(double value, int digits);
 
 }  // namespace pitwall::report

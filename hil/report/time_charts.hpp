@@ -1,7 +1,7 @@
-// Charts over time: states as lanes, then speed, cross-track error, wall, controls, load of the bus
-// and tyres, all on one time axis.
+// Charts over time: states as rows, then speed, cross-track error, wall distance, controls, bus
+// load and tyres, all on one time axis.
 //   in     RunData
-//   out    HTML: one plot per quantity, or the sentence why there is none
+//   out    HTML: one plot per quantity, or a sentence that says why there is none
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -11,7 +11,7 @@
 
 namespace pitwall::report {
 
-inline constexpr double kPageWidth = 1200.0;  // of everything; 1280 less margins and scroll bar
+inline constexpr double kPageWidth = 1200.0;  // pixels: 1280 minus margins and scroll bar
 
 std::string time_charts(const RunData& run);
 

@@ -1,17 +1,17 @@
-// The modelled car and its road as a scenario perturbs them. The car under test knows nothing of
-// it: its parameters and its map stay those of its files.
+// Perturbation of the modelled car and its road by a scenario. The car under test does not get it:
+// its parameters and its map stay those of its files.
 //   in     parameters or road, the perturbations
-//   out    the same, changed; what is neutral changes no bit
+//   out    the perturbed parameters or road; a neutral perturbation changes no bit
 //   invariants
-//          mass       added with the same radius of gyration and the same centre of gravity: yaw
-//                     inertia grows in proportion
-//          stiffness  slope of both tyre curves at zero slip times the factor, the peak as high as
-//                     before and at a slip smaller by the factor
-//          friction   times that of the road, so a fault of grip composes
-//          banking    added to the track's, the same all the way round
-//          wind       steady, of the air over ground
+//          mass       added at the same centre of gravity and with the same radius of gyration: the
+//                     yaw inertia grows in proportion
+//          stiffness  the slope of both tyre curves at zero slip is multiplied by the factor; the
+//                     peak keeps its height and moves to a slip that is smaller by the factor
+//          friction   multiplies the friction of the road, so that it combines with a grip fault
+//          banking    added to that of the track, constant around the lap
+//          wind       steady, relative to the ground
 //          delays     added to those of the actuators, in front of their lags
-//   errors none: the ranges are those of the scenario file
+//   errors none: the scenario file checks the ranges
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

@@ -1,11 +1,11 @@
-// The radio of a scenario and what its operator says over it: the sections `radio` and `operator`.
-//   radio      a list, one map for each path: rate_kbit, queue_bytes, delay_ms, jitter_ms, loss,
+// Sections `radio` and `operator` of a scenario file: the radio paths, and what the operator sends.
+//   radio      a list with one map per path: rate_kbit, queue_bytes, delay_ms, jitter_ms, loss,
 //              duplicate, corrupt, fade_loss with fade_ms, blackouts (at_s, for_s, every_s), seed.
-//              No section: a radio that takes no time and loses nothing
-//   operator   a list of at_s and say, in the words of basestation/inputs/text_command.hpp; with
-//              every_s and until_s the same again and again
+//              Without the section the radio has no delay and no loss
+//   operator   a list of at_s and say, a text command of basestation/inputs/text_command.hpp;
+//              every_s and until_s repeat it
 //   invariants
-//              both directions of a path meet the same fades, as on one radio link they do
+//              both directions of a path have the same fades, as on one real radio link
 //   errors     thrown as yaml::InputError with the place, for read_scenario()
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
@@ -27,7 +27,7 @@ inline constexpr std::size_t kMaxPaths = 2;
 
 struct RadioPath {
   link::LinkParams link;
-  std::optional<std::uint64_t> seed;  // of its own; else derived from the scenario's
+  std::optional<std::uint64_t> seed;  // empty: derived from the seed of the scenario
 };
 
 struct OperatorText {
@@ -36,7 +36,7 @@ struct OperatorText {
 };
 
 std::vector<RadioPath> read_radio(yaml::StrictMap& map);
-// In the order of time.
+// Sorted by time.
 std::vector<OperatorText> read_operator(yaml::StrictMap& map);
 
 }  // namespace pitwall::scenario

@@ -1,6 +1,6 @@
-// Scenario file of one bench run: where, which car, what race control says, what breaks, what is
-// expected. Strict YAML: an unknown key, a wrong kind or a value out of range is an error with its
-// line, and nothing is started.
+// Scenario file of one bench run: track, car, flags of race control, faults, expectations. Strict
+// YAML: an unknown key, a wrong kind or a value out of range is an error with its line, and nothing
+// is started.
 //   in     text of a scenario file, its name for messages
 //   out    Scenario; times are seconds of scenario time
 //   errors Problem with file:line:column
@@ -27,22 +27,22 @@ struct Start {
   double s_m = 0.0, n_m = 0.0, speed_mps = 0.0;
 };
 
-inline constexpr double kColdest_c = -20.0, kHottest_c = 150.0;  // of a tyre
+inline constexpr double kColdest_c = -20.0, kHottest_c = 150.0;  // tyre temperature
 
 struct Tyres {
   double temperature_c = 85.0;
 };
 
-// How the modelled car and world differ from what the car believes of them. Neutral by default.
-// What each does to the plant: hil/scenario/perturbed.hpp.
+// Differences between the modelled car and world and the parameters that the car uses. Neutral by
+// default. Effect of each on the plant: hil/scenario/perturbed.hpp.
 struct Perturbations {
   double mass_kg = 0.0;         // added to the car's; [-300, 300]
   double tyre_stiffness = 1.0;  // factor on the slip stiffness at the same friction; [0.5, 2]
   double friction = 1.0;        // factor on every friction coefficient; [0.2, 1.5]
   double bank_error_rad = 0.0;  // true banking less that of the track file; [-5, 5] deg
   double wind_mps = 0.0;        // [0, 40]
-  double wind_to_rad = 0.0;     // where it blows to, in Map, from east counter-clockwise
-  // Added to what the actuators have; [0, 0.5] s.
+  double wind_to_rad = 0.0;     // direction it blows to, in Map, from east counter-clockwise
+  // Added to the delays of the actuators; [0, 0.5] s.
   double steering_delay_s = 0.0, throttle_delay_s = 0.0, brake_delay_s = 0.0, gear_delay_s = 0.0;
 };
 
@@ -53,7 +53,7 @@ struct FlagChange {
   double round_target_speed_mph = 0.0;
 };
 
-// A fault by its catalogue name; the bench refuses a name or a parameter that it does not know.
+// Fault by its name in the catalogue; the bench refuses an unknown name or parameter.
 struct Fault {
   std::string kind;
   Duration at{}, lasts{};
@@ -63,8 +63,8 @@ struct Fault {
   std::string place;         // for messages
 };
 
-// What the drive-by-wire and race control speak; V14 is what the bench models. kProtected: V14 with
-// messages beside it that have checksums, which the car is told to judge.
+// CAN protocol of the drive-by-wire and race control; the bench models V14. kProtected: V14 plus
+// messages with checksums, which the car is configured to check.
 enum class BusRevision : std::uint8_t { kV14, kV9, kV12, kAv24, kProtected };
 
 // kDetects: from the start of a fault, the signal meets its condition within a deadline.
@@ -74,16 +74,16 @@ struct Expectation {
   ExpectKind kind = ExpectKind::kAlways;
   std::string signal, relation;
   double value = kUnset;
-  Duration from{}, until{};  // the window; until zero means the end
-  std::size_t fault = 0;     // kDetects: its place in Scenario::faults
+  Duration from{}, until{};  // the window; `until` zero means the end
+  std::size_t fault = 0;     // kDetects: index in Scenario::faults
   std::string place;
 };
 
-// Whether a run that is ended at `end`, before its time, can show what is expected: always and
-// never where their window has begun, within and detects where it has ended.
+// Whether a run that is ended early, at `end`, can show the expectation: kAlways and kNever if
+// their window has begun, kWithin and kDetects if it has ended.
 bool is_shown_by(const Expectation& expectation, Duration end);
 
-// A contact with a wall that the scenario cannot avoid: the highest speed of impact, and why.
+// Contact with a wall that the scenario cannot avoid: the highest impact speed, and the reason.
 struct NamedContact {
   double at_most_mps = kUnset;
   std::string reason;
@@ -94,16 +94,16 @@ struct Scenario {
   std::uint64_t seed = 0;
   Duration duration{};
   std::string track_file, car_file;  // as written: relative to the working folder
-  // Of the car, instead of what its file says; lockstep only.
+  // Overrides the receivers of the car file; lockstep only.
   std::optional<std::array<world::ReceiverKind, world::kGnssUnits>> receivers;
   BusRevision bus = BusRevision::kV14;
   Start start;
   Tyres tyres;
   std::string plant_file;  // of the modelled car; empty: the AV-21 of hil/plant/params.hpp
-  plant::Params plant;     // what that file says; whoever opens the files fills it in
+  plant::Params plant;     // content of that file; the code that opens the files fills it in
   Perturbations perturb;
   std::vector<FlagChange> race_control;
-  std::vector<RadioPath> radio;  // empty: takes no time, loses nothing
+  std::vector<RadioPath> radio;  // empty: no delay, no loss
   std::vector<OperatorText> operator_texts;
   std::vector<Fault> faults;
   std::vector<Expectation> expect;

@@ -1,8 +1,7 @@
-// An error that wanders: a first-order Gauss-Markov process of unit variance, sampled whenever it
-// is asked for.
+// Wandering error: a first-order Gauss-Markov process of unit variance, sampled at any intervals.
 //   invariants
-//          w' = k w + sqrt(1 - k^2) n, k = exp(-dt / tau): stationary, and its correlation falls to
-//          1/e within tau whatever the steps
+//          w' = k w + sqrt(1 - k^2) n, k = exp(-dt / tau): stationary; its correlation falls to 1/e
+//          within tau for any step lengths
 //   source Gelb (ed.), Applied Optimal Estimation (1974), section 3.8
 // SPDX-License-Identifier: Apache-2.0
 #pragma once

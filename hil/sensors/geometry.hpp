@@ -1,4 +1,4 @@
-// The car's attitude as a rotation, and places and directions in the car seen from the map.
+// Attitude of the car as a rotation: vectors of the car frame in the map frame, compass bearings.
 //   frames Body: ISO 8855. Map: east, north, up. Euler angles in the order yaw, pitch, roll
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
@@ -36,7 +36,7 @@ inline Vector3 in_map(const Vector3& v, const plant::Truth& t) {
           raised * cos_pitch - v[0] * sin_pitch};
 }
 
-// From north, clockwise, in [0, 2 pi).
+// Bearing from north, clockwise, in [0, 2 pi).
 inline double compass_rad(double east, double north) {
   const double angle_rad = std::atan2(east, north);
   return angle_rad < 0.0 ? angle_rad + 2.0 * std::numbers::pi : angle_rad;

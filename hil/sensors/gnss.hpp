@@ -1,11 +1,13 @@
-// One receiver with two antennas: what it makes of the sky and of its inertial unit at an epoch.
-//   in     the truth, what all receivers see wrong alike (Sky), the unit's own errors, its faults
+// Model of one GNSS receiver with two antennas: the solutions of satellites and inertial unit at an
+// epoch.
+//   in     the ground truth, the errors common to all receivers (Sky), the errors of the unit, its
+//          faults
 //   out    samples without unit and time
 //   invariants
-//          error of a position = wander that both units share + wander of its own + white; all of
-//          them grow with the deviation of the kind of solution. What it reports of it is
-//          that deviation, give or take a tenth, in single precision
-//   frames geodetic WGS 84 at the datum; velocity and heading as BESTVEL and HEADING2 have them
+//          position error = wander common to both units + wander of the unit + white noise; each
+//          part scales with the standard deviation of the solution type. The reported deviation is
+//          that value with an error of about a tenth, in single precision
+//   frames geodetic WGS 84 at the datum; velocity and heading as in BESTVEL and HEADING2
 //   source README.md beside this file
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
@@ -26,8 +28,8 @@ namespace pitwall::sensors {
 struct GnssState {
   std::array<Noise, kUnitStreams> noise;
   GaussMarkov<3> position;
-  GaussMarkov<1> heading, claim;
-  GaussMarkov<3> attitude;  // of the inertial solution: roll, pitch, heading
+  GaussMarkov<1> heading, claim;  // claim: error of the reported deviations
+  GaussMarkov<3> attitude;        // of the inertial solution: roll, pitch, heading
   bool aligned = false;
   world::GnssPosition last_position;
   bool has_last_position = false;
@@ -36,8 +38,8 @@ struct GnssState {
 };
 
 struct Sky {
-  GaussMarkov<3> wander;  // satellites, atmosphere and base station
-  double seconds = 0.0;   // since the start; corrections come once a second
+  GaussMarkov<3> wander;  // errors of satellites, atmosphere and base station
+  double seconds = 0.0;   // since the start; corrections arrive once a second
 };
 
 GnssState make_gnss(std::uint64_t seed, std::size_t unit);

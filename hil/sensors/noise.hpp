@@ -1,5 +1,6 @@
-// A stream of random numbers that is the same everywhere: xoshiro256** seeded by splitmix64, normal
-// deviates by the polar method. The distributions of the standard library differ between libraries.
+// Random number generator with the same sequence on every platform: xoshiro256** seeded by
+// splitmix64, normal deviates by the polar method. The distributions of the standard library differ
+// between implementations.
 //   source Blackman and Vigna, "Scrambled linear pseudorandom number generators" (2021);
 //          Marsaglia and Bray (1964)
 // SPDX-License-Identifier: Apache-2.0
@@ -38,8 +39,8 @@ class Noise {
   // In [0, 1).
   double uniform() { return static_cast<double>(next() >> 11) * 0x1.0p-53; }
 
-  // Mean 0, standard deviation 1. Uses every second deviate of the method, so that the state stays
-  // the four words.
+  // Mean 0, standard deviation 1. Discards the second deviate of each pair, so that the state is
+  // only the four words.
   double normal() {
     for (;;) {
       const double u = 2.0 * uniform() - 1.0, v = 2.0 * uniform() - 1.0;

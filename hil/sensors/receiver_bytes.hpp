@@ -1,12 +1,12 @@
-// Encoder of receiver streams: samples to the bytes that a NovAtel OEM7 or a VectorNav VN-310 would
-// send. Used by the live and the lockstep bench.
+// Encoder of receiver streams: from samples to the bytes that a NovAtel OEM7 or a VectorNav VN-310
+// sends. Used by the live and the lockstep bench.
 //   in     samples of sensors.hpp, `at` in scenario time
 //   out    whole messages
 //   frames IMU: Body (x forward, y left, z up) to NovAtel's vehicle frame (x right, y forward, z
 //          up), to VectorNav's body frame (x forward, y right, z down)
 //   invariants
-//          what a kind of receiver has no field for is not said: NovAtel's BESTVEL no deviation,
-//          VectorNav no age of corrections and no heading of an antenna baseline
+//          values without a field in the messages of a receiver are not sent: NovAtel's BESTVEL has
+//          no deviation; VectorNav has no age of corrections and no heading of an antenna baseline
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -22,10 +22,9 @@
 
 namespace pitwall::sensors {
 
-// GPS time of scenario time zero; any week will do, and this one is not zero, which means
-// "unknown".
+// GPS week of scenario time zero. Any week is possible except 0, which means "unknown".
 inline constexpr std::uint16_t kScenarioGpsWeek = 2'190;
-inline constexpr double kLeapSeconds = 18.0;  // GPS time is ahead of UTC, since 2017
+inline constexpr double kLeapSeconds = 18.0;  // GPS time minus UTC, since 2017
 
 struct ReceiverBytes {
   std::array<std::uint8_t, 2 * gnss::kMaxEncodedBytes> data{};
@@ -41,17 +40,18 @@ ReceiverBytes to_novatel(const world::ImuSample& sample);
 ReceiverBytes to_novatel(const world::InsAttitude& sample);
 ReceiverBytes to_novatel(const world::ReceiverHealth& sample);  // RXSTATUS and TIME
 
-// One VectorNav. It says position and velocity of an epoch in one message, when both are there; so
-// it remembers, and what it says of itself rides on its other messages.
+// Encoder of one VectorNav. One message holds position and velocity of an epoch, so the encoder
+// stores the position until the velocity comes. Compass and health go into the status words of
+// other messages.
 class VectorNavEncoder {
  public:
-  ReceiverBytes encode(const world::GnssPosition& sample);  // nothing yet
-  ReceiverBytes encode(
-      const world::GnssVelocity& sample);                  // nothing without a position of its time
-  ReceiverBytes encode(const world::GnssHeading& sample);  // nothing: whether its compass works
+  ReceiverBytes encode(const world::GnssPosition& sample);  // empty: stored
+  // Empty if the stored position has another time.
+  ReceiverBytes encode(const world::GnssVelocity& sample);
+  ReceiverBytes encode(const world::GnssHeading& sample);  // empty: stores the compass state
   ReceiverBytes encode(const world::ImuSample& sample);
   ReceiverBytes encode(const world::InsAttitude& sample);
-  ReceiverBytes encode(const world::ReceiverHealth& sample);  // nothing: in its status words
+  ReceiverBytes encode(const world::ReceiverHealth& sample);  // empty: stored
 
  private:
   world::GnssPosition position_;
@@ -59,12 +59,12 @@ class VectorNavEncoder {
   world::ReceiverHealth health_;
 };
 
-// All units of the car, each of its kind.
+// Encoders of all units of the car, each for its kind of receiver.
 class ReceiverEncoders {
  public:
   explicit ReceiverEncoders(const world::Receivers& units) : units_(units) {}
 
-  // sink(unit, bytes) for each message, the IMU's first: it is the quickest.
+  // Calls sink(unit, bytes) for each message. The IMU is first, because its latency is shortest.
   template <class Sink>
   void encode(const world::SensorInput& samples, Sink&& sink) {
     encode_list(samples.imu, sink);

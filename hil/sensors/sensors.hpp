@@ -1,12 +1,12 @@
-// Two GNSS/INS receivers (NovAtel PwrPak7D class): from what is true to what they report, and when
-// it reaches the car's computer.
+// Model of two GNSS/INS receivers (NovAtel PwrPak7D class): from the ground truth to the reported
+// samples and the time at which each reaches the car's computer.
 //   in     the truth of the plant, called at every plant step; time
-//   out    samples appended to a world::SensorInput when their delivery time has come; sample.at is
-//          the time of validity
+//   out    samples appended to a world::SensorInput at their delivery time; sample.at is the time
+//          of validity
 //   frames geodetic WGS 84 at the track's datum (local tangent plane); rates and specific force in
 //          the car's frame (ISO 8855) as the driver of the receiver rotates them
 //   noise  own generators, one stream per sensor and unit: the same seed gives the same samples,
-//          and a fault of one sensor changes no other. What the units share is in Sky
+//          and a fault of one sensor changes no other. Errors common to the units are in Sky
 //   errors none; a full list in SensorInput counts in its `overflows`
 //   source README.md beside this file
 // SPDX-License-Identifier: Apache-2.0
@@ -31,9 +31,9 @@ struct Params {
   Cadence position{milliseconds(50), milliseconds(30), 0.001};
   Cadence velocity{milliseconds(50), milliseconds(35), 0.001};  // at the epochs of the position
   Cadence heading{seconds(1), milliseconds(50), 0.002};
-  // On a grid of 1 ms the quickest take 2 ms, as the car is told.
+  // On the bench's grid of 1 ms the shortest latency is 2 ms, the value in the car's parameters.
   Cadence imu{milliseconds(8), microseconds(1900), 0.0001};
-  Cadence attitude{milliseconds(50), milliseconds(32), 0.001};  // likewise
+  Cadence attitude{milliseconds(50), milliseconds(32), 0.001};  // at the epochs of the position
   Cadence health{seconds(1), milliseconds(40), 0.002};
 };
 
@@ -43,8 +43,8 @@ struct Pending {
   Instant deliver_at{};
 };
 
-// Samples on their way, in order; a stream does not overtake itself. `stamp`: of the newest one,
-// for a clock that stands still.
+// Queue of samples between their epoch and their delivery; a stream keeps its order. `stamp` is
+// that of the newest sample; the fault stamp_frozen repeats it.
 template <class Sample, std::size_t Room>
 struct Outbox {
   FixedVector<Pending<Sample>, Room> queue;
@@ -71,12 +71,12 @@ struct State {
   Noise sky_noise;
   Sky sky;
   Instant start{}, next_sky{};
-  Vector3 rate_rad_per_s{};  // at the last call, for the angular acceleration
+  Vector3 rate_rad_per_s{};  // at the previous call, for the angular acceleration
   Instant rate_at{};
   bool has_rate = false;
 };
 
-// The longest `gnss_latency` that the outboxes hold.
+// Largest added latency (fault gnss_latency) that the outboxes can hold.
 inline constexpr Duration kAddedLatencyMax = seconds(2);
 
 // Params with the datum of the track.
@@ -84,8 +84,8 @@ Params params_for(const world::TrackMap& track);
 
 State make_state(const Params& params, std::uint64_t seed, Instant start);
 
-// Call at every plant step with the truth at `now`; appends what is delivered by `now`, in order of
-// delivery. A sample is valid at the first call at or after its epoch.
+// Call at every plant step with the truth at `now`; appends the samples that are due by `now`, in
+// order of delivery. A sample is valid at the first call at or after its epoch.
 void step(const Params& params, State& state, const plant::Truth& truth, Instant now,
           world::SensorInput& out);
 

@@ -1,4 +1,4 @@
-// Assignment of random streams to sensors: a sensor never draws from another's.
+// Assignment of random streams to sensors: each sensor draws from its own stream only.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -23,8 +23,8 @@ constexpr std::uint64_t stream_of(std::size_t unit, UnitStream stream) {
   return unit * kUnitStreams + static_cast<std::uint64_t>(stream);
 }
 
-// Beside the units.
-inline constexpr std::uint64_t kSkyStream = 1000;  // what both units see of the satellites
+// Streams that belong to no unit.
+inline constexpr std::uint64_t kSkyStream = 1000;  // GNSS errors common to both units
 inline constexpr std::uint64_t kWheelStream = 1001;
 
 }  // namespace pitwall::sensors

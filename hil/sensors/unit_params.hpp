@@ -1,6 +1,6 @@
-// Parameters of a receiver with its inertial unit: where it sits in the car and how far what it
-// says is from the truth. Every number has its source in README.md beside this file.
-//   units  one standard deviation unless said; per axis
+// Parameters of a receiver with its inertial unit: mounting place and measurement errors. The
+// source of every number is in README.md beside this file.
+//   units  noise: one standard deviation per axis, unless stated otherwise
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -11,19 +11,19 @@
 
 namespace pitwall::sensors {
 
-// A place in Body: x forward, y left, z up, from the centre of gravity.
+// Position in Body: x forward, y left, z up, from the centre of gravity.
 struct Lever {
   double x_m = 0.0, y_m = 0.0, z_m = 0.0;
 };
 
 struct PositionNoise {
-  double sigma_m = 0.010;     // RTK fixed, all of it
+  double sigma_m = 0.010;     // RTK fixed, total
   double white_share = 0.1;   // of the variance; the rest wanders
-  double common_share = 0.6;  // of the wandering: the same in every unit
+  double common_share = 0.6;  // of the wandering part: common to all units
   double correlation_s = 30.0;
   double float_sigma_m = 0.15, single_sigma_m = 1.2;
-  double height_factor = 1.7;      // on each of them
-  double corrections_age_s = 0.6;  // youngest differential age; one a second comes
+  double height_factor = 1.7;      // multiplies each of these deviations for the height
+  double corrections_age_s = 0.6;  // smallest differential age; corrections arrive once a second
 };
 
 struct VelocityNoise {
@@ -31,7 +31,7 @@ struct VelocityNoise {
 };
 
 struct HeadingNoise {
-  double sigma_rad_m = 0.0028;  // over the length of the baseline
+  double sigma_rad_m = 0.0028;  // divided by the length of the baseline
   double wander_share = 0.5;    // of the variance
   double correlation_s = 10.0;
   double baseline_sigma_m = 0.005;
@@ -39,8 +39,8 @@ struct HeadingNoise {
 
 struct ImuNoise {
   double gyro_rad_per_sqrt_s = 2.9e-5;         // angle random walk
-  double gyro_vibration_rad_per_s = 0.0015;    // of the car, per sample
-  double gyro_turn_on_rad_per_s = 8.7e-4;      // for a run
+  double gyro_vibration_rad_per_s = 0.0015;    // vibration of the car, per sample
+  double gyro_turn_on_rad_per_s = 8.7e-4;      // constant during a run
   double gyro_instability_rad_per_s = 1.7e-5;  // wanders
   double gyro_scale = 1e-3, gyro_range_rad_per_s = 2.618;
   double accel_mps_per_sqrt_s = 8.3e-4;  // velocity random walk
@@ -51,7 +51,7 @@ struct ImuNoise {
   double instability_correlation_s = 200.0;
 };
 
-// The receiver's own inertial solution.
+// Inertial solution of the receiver.
 struct InsNoise {
   double tilt_sigma_rad = 3.5e-4, heading_sigma_rad = 1.4e-3;
   double correlation_s = 60.0;
@@ -67,7 +67,7 @@ struct UnitNoise {
 };
 
 // NovAtel PwrPak7D-E1: the defaults above. VectorNav VN-310: a better gyro, a slightly worse
-// heading by the antennas.
+// antenna heading.
 constexpr UnitNoise pwrpak7d_e1() { return {}; }
 constexpr UnitNoise vn310() {
   UnitNoise n;
@@ -82,8 +82,8 @@ constexpr UnitNoise vn310() {
   return n;
 }
 
-// Rates, and how long a sample takes to the car's computer: at least this, and more by a jitter
-// with an exponential distribution.
+// Rate of a stream, and delay of a sample to the car's computer: `latency` plus a jitter with an
+// exponential distribution.
 struct Cadence {
   Duration period{}, latency{};
   double jitter_mean_s = 0.0;
@@ -99,10 +99,10 @@ struct UnitParams {
   UnitNoise noise;
 };
 
-// Antennas of the AV-21 as published from the rear axle and the ground (top 1.242 / 0 / 0.956 m,
-// front 3.175 / 0 / 0.408, right 2.005 / -0.497 / 0.389, left). Which unit has which is assumed:
-// unit 0 top and front, unit 1 right and left, the first named being the primary. Where the units
-// themselves sit is assumed as well.
+// Antennas of the AV-21 as published, from the rear axle and the ground: top 1.242 / 0 / 0.956 m,
+// front 3.175 / 0 / 0.408, right 2.005 / -0.497 / 0.389, left. The assignment is assumed: unit 0
+// has top and front, unit 1 right and left, the primary antenna first. The places of the units
+// themselves are assumed as well.
 constexpr std::array<UnitParams, 2> av21_units() {
   return {UnitParams{.antenna = {-0.005, 0.0, 0.676},
                      .baseline_yaw_rad = 0.0,

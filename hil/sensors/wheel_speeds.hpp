@@ -1,11 +1,11 @@
-// The four wheel-speed sensors as the drive-by-wire computer reads them.
-//   in     circumferential speeds of the unloaded tyres (rotation times nominal radius), now
-//   out    what is reported: rotation times the radius that the team set, with the growth of the
-//          tyre, the spread of the radii and the scatter of the sensors
+// Model of the four wheel-speed sensors as the drive-by-wire computer reads them.
+//   in     circumferential speeds of the unloaded tyres (rotation times nominal radius), the time
+//   out    reported speeds: rotation times the radius that the team set, with the errors by tyre
+//          growth, spread of the radii and scatter of the sensors
 //   invariants
-//          a tyre's radius grows with the square of its speed: the report falls short by
-//          growth (v^2 - calibrated^2). A sensor sees no teeth pass below kSlowest_mps
-//   rate   scatter is drawn anew every 10 ms
+//          the radius of a tyre grows with the square of its speed: the reported speed is too low
+//          by growth (v^2 - calibrated^2). Below kSlowest_mps a sensor detects no teeth
+//   rate   a new scatter is drawn every 10 ms
 //   source README.md beside this file (fitted to a recorded AV-21 drive)
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
@@ -22,7 +22,7 @@ namespace pitwall::sensors {
 struct WheelParams {
   double growth_s2_per_m2 = 3.8e-6;
   double calibrated_mps = 30.0;
-  double radius_sigma = 0.001;  // relative, of each tyre for a run
+  double radius_sigma = 0.001;  // relative; one draw per tyre and run
   std::array<double, world::kCorners> sigma_mps{0.06, 0.06, 0.13, 0.13};
   Duration period = milliseconds(10);
 };
@@ -30,7 +30,7 @@ struct WheelParams {
 enum class WheelTrouble : std::uint8_t {
   kNone,
   kLost,     // reads zero
-  kLocked,   // reads as of a wheel that stops within kLocking_s
+  kLocked,   // reads as a wheel that stops within kLocking_s
   kSpinning  // reads `factor` times its speed
 };
 

@@ -1,7 +1,7 @@
-// Independent jobs on several cores. Each job is a function of its number alone, so the results do
-// not depend on who runs it or on the order in which they end.
-//   in     how many jobs, how many workers, what job i does; it must not throw
-//   out    back when every job has run exactly once
+// Execution of independent jobs on several cores. A job depends on its number only, so the results
+// do not depend on the worker or on the order in which the jobs end.
+//   in     number of jobs, number of workers, a function that runs job i and does not throw
+//   out    returns when every job has run exactly once
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

@@ -1,12 +1,12 @@
-// Crossings of a measured line and its walls.
+// Check for crossings of a measured line and its walls.
 //   in     the rows that were kept, in order
-//   out    the later of the two rows and a sentence that names the line of the other; nothing where
-//          all is apart
+//   out    the later of the two rows and a sentence with the line number of the other; nullopt if
+//          nothing crosses
 //   invariants
-//          walls lie at their width square to the line through a point's two neighbours. Touching
-//          is crossing, but for pieces of one line that share an end. A wall that folds within one
-//          turn need not cross: that is for the fit to see, from the turn's radius
-//   cost   O(rows^2), with boxes first; rows closer than kCrossingStep_m are taken together
+//          a wall point is at its width, perpendicular to the chord between the two neighbours of a
+//          point. Touching counts as crossing, except for segments of one line with a common end.
+//          A wall that folds within one turn need not cross: the fit detects this by the radius
+//   cost   O(rows^2), bounding boxes first; rows closer than kCrossingStep_m are merged
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

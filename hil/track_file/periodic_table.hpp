@@ -1,6 +1,6 @@
-// A quantity along a lap: values at stations, straight between them, closed at the end.
+// Periodic lookup table of a quantity along a lap: values at stations, linear interpolation.
 //   in     pairs in any order; stations outside of the lap are wrapped into it
-//   out    at(): the value at any station; mean(): over a stretch
+//   out    at(): the value at any station; mean(): the mean over an interval
 //   cost   at() O(log n)
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
@@ -21,8 +21,8 @@ class PeriodicTable {
 
   double at(double s_m) const;
   double mean(double from_m, double to_m) const;
-  // The least of at(s) and of what the entries within `reach_m` of it dip to: a narrow place
-  // between two knots is not lost.
+  // The smallest of at(s) and of the local minima among the entries within `reach_m` of it, so that
+  // a narrow place between two knots is not lost.
   double least_near(double s_m, double reach_m) const;
 
  private:

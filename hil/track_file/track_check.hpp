@@ -1,10 +1,11 @@
-// Check of a track: figures, and what is odd about it: before a car is let onto it.
-//   in     a TrackDescription that world::TrackMap::build() takes (it has refused what is no track:
+// Check of a track before a car drives it: figures, and warnings about unusual properties.
+//   in     a TrackDescription that world::TrackMap::build() accepts (it refuses invalid tracks:
 //          crossing walls, an inner wall beyond the centre of its turn, an open line)
 //   out    TrackReport; warnings are sentences with their station
 //   invariants
-//          closure: the built line's end against its start; correction: the largest change of
-//          curvature by which the table had to be bent to close, as a share of the largest one
+//          closure: distance between end and start of the built line; correction: the largest
+//          change of curvature that was needed to close the line, as a share of the largest
+//          curvature
 //   units  m, rad, 1/m; stations in m
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
@@ -28,12 +29,12 @@ struct TrackReport {
   double turned_rad = kUnset;  // over the lap; positive to the left
   double closure_m = kUnset, correction_share = kUnset;
   AtStation curvature_max, curvature_min;  // 1/m, with sign
-  AtStation inner_room;                    // m: least of radius less the way to the inner wall
+  AtStation inner_room;                    // m: smallest radius of the inner wall
   AtStation width_max, width_min;          // m, wall to wall
-  AtStation wall_nearest;                  // m, reference line to a wall
+  AtStation wall_nearest;                  // m, from the reference line to a wall
   AtStation bank_max, bank_min;            // rad
-  AtStation bank_change, width_change;     // rad/m and m/m, the steepest, without sign
-  AtStation curvature_change;              // 1/m^2, the steepest, without sign
+  AtStation bank_change, width_change;     // rad/m and m/m, steepest, absolute value
+  AtStation curvature_change;              // 1/m^2, steepest, absolute value
   std::vector<std::string> warnings;
 };
 

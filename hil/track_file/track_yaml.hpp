@@ -1,6 +1,6 @@
-// A track as its file: what parameters::read_track() reads.
-//   in     a TrackDescription, and lines for the head of the file (a source, a licence)
-//   out    YAML, degrees for banking and headings
+// Writer of track files in YAML, as parameters::read_track() reads them.
+//   in     a TrackDescription, and comment lines for the head of the file (a source, a licence)
+//   out    YAML, with degrees for banking and headings
 //   invariants
 //          read_track(to_yaml(d)) is d within 1e-3 m, 1e-9 1/m, 1e-4 degrees
 // SPDX-License-Identifier: Apache-2.0

@@ -1,7 +1,7 @@
-// The fields that a BitWriter wrote, in the same order with the same widths.
-//   in      bytes from anywhere
-//   out     values; zero for a field that is not there
-//   errors  reading past the end: ok() is false from then on and every value is zero
+// Reader of a bit stream: the fields that a BitWriter wrote, in the same order and widths.
+//   in      bytes from any source, not trusted
+//   out     values; zero for a missing field
+//   errors  reading past the end: from then on ok() is false and every value is zero
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -43,17 +43,17 @@ class BitReader {
     return value;
   }
   constexpr bool read_flag() { return read(1) != 0; }
-  // Past the rest of this byte; false where it is not zero, which no BitWriter makes.
+  // Skips the rest of this byte; false if it is not zero, which a BitWriter never writes.
   constexpr bool align() { return read(static_cast<unsigned>((8 - at_ % 8) % 8)) == 0 && ok_; }
 
   constexpr bool ok() const { return ok_; }
   constexpr std::size_t bits_left() const { return 8 * bytes_.size() - at_; }
 
  private:
-  // So many bits lie in eight bytes wherever they begin in the first.
+  // Longest field that always lies within eight bytes, whatever its first bit is.
   static constexpr unsigned kWordBits = 57;
 
-  // The same for most fields at once.
+  // Fast path for most fields.
   std::uint64_t read_word(unsigned bits) {
     std::uint64_t word = 0;
     std::memcpy(&word, bytes_.data() + at_ / 8, sizeof word);

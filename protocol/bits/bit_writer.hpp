@@ -1,8 +1,8 @@
-// Unsigned fields of 0 to 64 bits one after the other, most significant bit first, no padding.
-//   in      a buffer and values that fit their field
-//   out     the buffer, its unused bits untouched until the byte they lie in is begun
-//   errors  a field that does not fit in the buffer is refused, and so is everything after it:
-//           ok() stays false; a value wider than its field is our own mistake
+// Writer of a bit stream: unsigned fields of 0 to 64 bits, most significant bit first, no padding.
+//   in      a buffer, and values that fit their field
+//   out     the buffer; a byte stays unchanged until its first bit is written
+//   errors  a field that does not fit in the buffer is refused, with every field after it: ok()
+//           stays false. A value wider than its field fails a CHECK
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -26,7 +26,7 @@ class BitWriter {
   constexpr bool write(std::uint64_t value, unsigned bits) {
     CHECK(bits <= kMaxFieldBits && (bits == kMaxFieldBits || value >> bits == 0));
     if (!ok_ || bits > 8 * buffer_.size() - at_) return ok_ = false;
-    constexpr unsigned kWhole = 56;  // with the bits of a begun byte they fill a register
+    constexpr unsigned kWhole = 56;  // with the bits of a started byte they fill a register
     if (bits > kWhole) {
       put(value >> kWhole, bits - kWhole);
       value &= (std::uint64_t{1} << kWhole) - 1;
@@ -36,7 +36,7 @@ class BitWriter {
     return true;
   }
   constexpr bool write_flag(bool value) { return write(value ? 1 : 0, 1); }
-  // Zeros up to the next whole byte.
+  // Writes zeros up to the next whole byte.
   constexpr bool align() { return write(0, static_cast<unsigned>((8 - at_ % 8) % 8)); }
 
   constexpr bool ok() const { return ok_; }

@@ -1,8 +1,8 @@
-// Cyclic redundancy checks: CRC-32 of IEEE 802.3 (zip, MCAP), CRC-32 of NovAtel, and those that
-// protect CAN messages: CRC-8 of SAE J1850, the same from zero (AUTOSAR E2E profile 1), CRC-8H2F
+// Cyclic redundancy checks: CRC-32 of IEEE 802.3 (zip, MCAP), CRC-32 of NovAtel, and those of CAN
+// messages: CRC-8 of SAE J1850, the same with initial value 0 (AUTOSAR E2E profile 1), CRC-8H2F
 // (profile 2), CRC-16 CCITT-FALSE (profile 5).
 //   in      bytes
-//   out     the checksum; check values over "123456789" are in the test
+//   out     the checksum; the test has the check values over "123456789"
 //   source  Williams, "A painless guide to CRC error detection algorithms", 1993; NovAtel OEM7
 //           Commands and Logs Reference Manual, "32-bit CRC"; AUTOSAR SWS CRC Library
 // SPDX-License-Identifier: Apache-2.0
@@ -58,13 +58,13 @@ constexpr std::uint32_t crc32_raw(std::span<const std::uint8_t> data, std::uint3
 
 }  // namespace detail
 
-// `continued` is the result over the bytes before these.
+// `continued`: the result over the preceding bytes.
 constexpr std::uint32_t crc32_ieee(std::span<const std::uint8_t> data,
                                    std::uint32_t continued = 0) {
   return ~detail::crc32_raw(data, ~continued);
 }
 
-// The same polynomial, starting from zero and without the final inversion.
+// The same polynomial with initial value 0 and without the final inversion.
 constexpr std::uint32_t crc32_novatel(std::span<const std::uint8_t> data,
                                       std::uint32_t continued = 0) {
   return detail::crc32_raw(data, continued);
@@ -72,7 +72,7 @@ constexpr std::uint32_t crc32_novatel(std::span<const std::uint8_t> data,
 
 namespace detail {
 
-// The remainder of every first byte; Register is as wide as the checksum.
+// The remainder of every first byte; Register has the width of the checksum.
 template <class Register, Register kPolynomial>
 constexpr std::array<Register, 256> crc_table() {
   constexpr unsigned kShift = 8 * (sizeof(Register) - 1);
@@ -102,26 +102,26 @@ constexpr std::uint8_t inverted(std::uint8_t crc) { return static_cast<std::uint
 
 }  // namespace detail
 
-// Polynomial 0x1D, starting and ending with an inversion.
+// Polynomial 0x1D, initial value 0xFF, final inversion.
 constexpr std::uint8_t crc8_sae_j1850(std::span<const std::uint8_t> data,
                                       std::uint8_t continued = 0) {
   return detail::inverted(
       detail::crc8_raw(detail::kCrc8J1850Table, data, detail::inverted(continued)));
 }
 
-// The same polynomial from zero and without inversion (CRC-8/GSM-A of the catalogue).
+// The same polynomial with initial value 0 and without inversion (CRC-8/GSM-A of the catalogue).
 constexpr std::uint8_t crc8_j1850_from_zero(std::span<const std::uint8_t> data,
                                             std::uint8_t continued = 0) {
   return detail::crc8_raw(detail::kCrc8J1850Table, data, continued);
 }
 
-// Polynomial 0x2F, starting and ending with an inversion.
+// Polynomial 0x2F, initial value 0xFF, final inversion.
 constexpr std::uint8_t crc8_h2f(std::span<const std::uint8_t> data, std::uint8_t continued = 0) {
   return detail::inverted(
       detail::crc8_raw(detail::kCrc8H2fTable, data, detail::inverted(continued)));
 }
 
-// Polynomial 0x1021, most significant bit first, starting from all ones.
+// Polynomial 0x1021, most significant bit first, initial value 0xFFFF.
 constexpr std::uint16_t crc16_ccitt_false(std::span<const std::uint8_t> data,
                                           std::uint16_t continued = 0xFFFF) {
   std::uint32_t crc = continued;

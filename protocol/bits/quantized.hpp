@@ -1,8 +1,8 @@
-// Quantised number: a value of a known range in few bits; step k stands for min + k * resolution.
+// Quantised number: a value of a known range in few bits; step k means min + k * resolution.
 //   in      min < max and resolution > 0, all finite (checked); at most 32 bits
-//   out     steps 0 to count() - 1; the widest value of the field is kept for "no value" (NaN)
-//   rule    rounded half away from zero, held inside the range; infinities are held, NaN is kept
-//   errors  a received step beyond the range reads as NaN
+//   out     steps 0 to count() - 1; the largest value of the field means "no value" (NaN)
+//   rule    rounded half away from zero, limited to the range, infinities too; NaN stays NaN
+//   errors  a received step beyond the range decodes to NaN
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -35,7 +35,7 @@ class Quantized {
   constexpr double max() const { return max_; }
   constexpr double resolution() const { return resolution_; }
   constexpr std::uint64_t count() const { return last_ + 1; }
-  // One pattern more than there are steps: all ones is "no value".
+  // Width for all steps and one more pattern: all ones is "no value".
   constexpr unsigned bits() const { return bits_; }
   constexpr std::uint64_t no_value() const { return (std::uint64_t{1} << bits_) - 1; }
 
@@ -54,7 +54,7 @@ class Quantized {
 
  private:
   static constexpr double kLargest = 1e300;
-  // By way of signed numbers, which processors convert in one instruction; there are at most 2^32.
+  // Via signed numbers, which processors convert in one instruction; there are at most 2^32 steps.
   static constexpr std::uint64_t rounded(double v) {
     return static_cast<std::uint64_t>(static_cast<std::int64_t>(v + 0.5));
   }

@@ -1,6 +1,6 @@
-// SHA-256, streaming, by libsodium: the name of a file or of a type, to compare two by.
+// SHA-256 by libsodium, streaming: a digest that identifies a file or a type.
 //   in     bytes in pieces of any size            out    32 bytes, or 64 hexadecimal digits
-//   cost   O(bytes), no allocation but in to_hex()
+//   cost   O(bytes); only to_hex() allocates
 //   source FIPS 180-4
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
@@ -22,7 +22,7 @@ class Sha256 {
   void update(std::span<const std::uint8_t> bytes) {
     crypto_hash_sha256_update(&state_, bytes.data(), bytes.size());
   }
-  // Of everything so far; more may follow.
+  // Digest of all bytes so far; more may follow.
   Digest digest() const {
     crypto_hash_sha256_state state = state_;
     Digest digest{};
@@ -35,7 +35,7 @@ class Sha256 {
 };
 
 inline std::string to_hex(const Sha256::Digest& digest) {
-  std::string text(2 * digest.size() + 1, '\0');  // with the zero that libsodium writes
+  std::string text(2 * digest.size() + 1, '\0');  // with the final zero that libsodium writes
   sodium_bin2hex(text.data(), text.size(), digest.data(), digest.size());
   text.pop_back();
   return text;

@@ -1,8 +1,8 @@
-// The messages of one CAN database as a value, each signal with its plan.
+// CAN database as a value: its messages, and for each signal the plan of its encoding.
 //   in      filled by the DBC parser
-//   out     messages sorted by (standard before extended, id); lookups by id and by name; what the
-//           file says beside that: nodes, attributes, names of values, and what nobody understood
-//   units   physical values in the units that the file names
+//   out     messages sorted by (standard before extended, id); lookups by id and by name; other
+//           content of the file: nodes, attributes, names of values, and sections without use
+//   units   physical values in the units that the file states
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -29,13 +29,13 @@ struct ValueName {
   bool operator==(const ValueName&) const = default;
 };
 
-// Both ends included.
+// Both ends are included.
 struct SelectorRange {
   std::uint64_t low = 0, high = 0;
   bool operator==(const SelectorRange&) const = default;
 };
 
-// The value as text; of an ENUM its word.
+// The value as text; for an ENUM the name of the choice.
 struct Attribute {
   std::string name, value;
 };
@@ -45,32 +45,32 @@ struct Signal {
   SignalLayout layout;
   SignalPlan plan;
   std::vector<ValueName> values;
-  std::vector<std::string> receivers;  // without the place holder Vector__XXX
+  std::vector<std::string> receivers;  // without the placeholder Vector__XXX
   std::vector<Attribute> attributes;
-  // Multiplexing: present only while the selector's raw value is in one of the ranges.
+  // Multiplexing: present only if the selector's raw value is in one of the ranges.
   bool is_selector = false;
-  std::optional<std::size_t> selector;  // index in the message; absent: always present
+  std::optional<std::size_t> selector;  // index in the message; empty: always present
   std::vector<SelectorRange> when;
-  std::uint8_t depth = 0;  // selectors above it
+  std::uint8_t depth = 0;  // number of selectors above it
   std::string place;       // "file:line:column" of its definition
-  bool is_flawed = false;  // an error of a lenient reading is about it
+  bool is_flawed = false;  // lenient parsing found an error in it
 };
 
 struct Message {
   std::uint32_t id = 0;
   bool extended = false;
   bool fd = false;
-  std::uint16_t length = 0;  // more than kMaxDataBytes only where a lenient reading kept it
+  std::uint16_t length = 0;  // more than kMaxDataBytes only after lenient parsing
   std::string name, sender, comment;
   std::vector<std::string> other_senders;  // BO_TX_BU_
   Duration period{};                       // of the attribute GenMsgCycleTime; zero: not given
   std::vector<Signal> signals;
   std::vector<Attribute> attributes;
   std::string place;
-  std::uint8_t deepest = 0;    // the largest depth of its signals; zero: nothing is multiplexed
-  std::vector<Problem> flaws;  // errors of it and of its signals, those left out among them
+  std::uint8_t deepest = 0;    // the largest depth of its signals; zero: not multiplexed
+  std::vector<Problem> flaws;  // errors of the message and of its signals, with those left out
 
-  // False: longer than any frame, as J1939 transports them. Such a message is never decoded.
+  // False if longer than any frame, as in J1939 transport. Such a message is never decoded.
   bool is_on_frame() const { return length <= kMaxDataBytes; }
   const Signal* find(std::string_view signal_name) const;
   std::optional<std::size_t> index_of(std::string_view signal_name) const;
@@ -94,13 +94,13 @@ struct AttributeDefinition {
   std::string kind;                       // INT, HEX, FLOAT, STRING or ENUM
   double min = 0.0, max = 0.0;            // of numbers; min >= max: no range
   std::vector<std::string> choices;       // of an ENUM
-  std::optional<std::string> by_default;  // of everything that does not say otherwise
+  std::optional<std::string> by_default;  // value of every owner without its own
 };
 
-// A section that decides nothing here, kept as it is written.
+// Section that has no effect here, kept as written.
 struct Section {
   std::string word, text, place;
-  bool is_known = false;  // the format knows it, this program has no use for it
+  bool is_known = false;  // true: part of the DBC format, but not used by this program
 };
 
 struct Database {
@@ -111,20 +111,20 @@ struct Database {
   std::vector<AttributeDefinition> definitions;
   std::vector<Attribute> attributes;  // of the network
   std::vector<Section> unused;
-  std::vector<Finding> findings;  // in the order of the file; errors only of a lenient reading
+  std::vector<Finding> findings;  // in the order of the file; errors only after lenient parsing
   std::array<std::size_t, kFindingSeverities> findings_left_off{};  // beyond kMaxFindings
 
-  // With those that were left off.
+  // Includes the findings that were left off.
   std::size_t count(FindingSeverity severity) const;
   const Message* find(std::uint32_t id, bool extended = false) const;
   const Message* find(std::string_view message_name) const;
-  // What `own` (of that kind of owner) says, else the default of the definition.
+  // The value in `own` (attributes of an owner of that kind), else the default of the definition.
   std::optional<std::string_view> attribute(std::string_view attribute_name, AttributeOwner owner,
                                             std::span<const Attribute> own) const;
 };
 
-// For every frame of a busy bus: a table of the 2048 standard ids, a hash of the extended ones.
-// Points into the database, which must outlive it unchanged.
+// Index for the lookup of every frame of a busy bus: a table of the 2048 standard ids, a hash table
+// of the extended ones. It points into the database, which must outlive it unchanged.
 class MessageIndex {
  public:
   explicit MessageIndex(const Database& database);
@@ -133,25 +133,25 @@ class MessageIndex {
  private:
   struct Slot {
     std::uint32_t id = 0;
-    const Message* message = nullptr;  // none: empty
+    const Message* message = nullptr;  // null: empty slot
   };
   std::vector<const Message*> standard_;
   std::vector<Slot> extended_;  // open addressing, a power of two, at most half full
 };
 
-// How many selectors decide on this signal; nothing where they form a circle or are too many.
+// Number of selectors that decide on this signal; nullopt if they form a cycle or are too many.
 inline constexpr std::uint8_t kMaxSelectors = 64;
 std::optional<std::uint8_t> selectors_above(const Message& message, const Signal& signal);
 
-// FNV-1a 64 of everything that decides what bits mean (not comments, units, names of values), so
-// that two programs can tell whether they speak the same revision.
+// FNV-1a 64 of everything that defines the meaning of the bits (not comments, units, names of
+// values), so that two programs can check that they use the same revision.
 std::uint64_t fingerprint(const Database& database);
 
-// The errors first, each kind in the order of the file.
+// The most severe kind first, each kind in the order of the file.
 std::vector<const Finding*> worst_first(const Database& database);
 
-// Why a database must not drive a car: the worst error and how many more there are. Nothing where
-// it has none.
+// Why a database must not drive a car: the worst error, and the number of further ones. Empty if it
+// has no error.
 std::optional<Problem> refusal_of(const Database& database);
 
 }  // namespace pitwall::can

@@ -1,10 +1,10 @@
-// Two revisions of one CAN database: what changed between them, in words, worst first.
-//   in      two databases as the parser gives them
-//   out     one line for each difference; none where both mean the same. Looked at: ids, names,
-//           lengths, signals with all that decides their bits and values, multiplexing, ranges,
-//           periods, senders, names of values, units, comments. Not looked at: receivers, other
+// Comparison of two revisions of one CAN database: the changes as sentences, worst first.
+//   in      two databases from the parser
+//   out     one line per difference; empty if both mean the same. Compared: ids, names, lengths,
+//           signals with everything that defines their bits and values, multiplexing, ranges,
+//           periods, senders, names of values, units, comments. Not compared: receivers, other
 //           attributes, the order of the file
-//   rule    messages belong together by id, else by name; signals by name, else by equal bits
+//   rule    messages are matched by id, else by name; signals by name, else by equal bits
 //   cost    n log n
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
@@ -17,9 +17,9 @@
 
 namespace pitwall::can {
 
-// The worst first.
+// Kinds of change, the worst first.
 enum class Change : std::uint8_t {
-  kIdReused,      // the same id is another message
+  kIdReused,      // another message has the same id
   kSignalReread,  // other bits, scale, sign, order, multiplexing: other values from the same frame
   kMessageGone,   //
   kMessageMoved,  // to another id
@@ -27,18 +27,18 @@ enum class Change : std::uint8_t {
   kFrame,         // another length, or CAN FD
   kSignalGone,    //
   kSignalNew,     //
-  kRange,         // what an encoder saturates at
+  kRange,         // limits at which an encoder saturates
   kTiming,        // period, senders
   kValueNames,    //
   kUnit,          //
-  kName,          // another word for the same bits
+  kName,          // another name for the same bits
   kComment,       //
 };
 
 enum class Severity : std::uint8_t {
-  kMisread,  // one reads wrong values from the other's frames without noticing
-  kMissing,  // something is only there for one of them
-  kMeaning,  // the same values, with other limits, timing or words
+  kMisread,  // one side reads wrong values from the other's frames without noticing
+  kMissing,  // only one side has the item
+  kMeaning,  // the same values, with other limits, timing or names
 };
 Severity severity_of(Change change);
 const char* name_of(Severity severity);

@@ -1,7 +1,7 @@
-// What is wrong or odd in the file of a CAN database: the kinds, worst first, and each case with
-// its place.
-//   out     an error refuses the file where a car is driven; a lenient reading leaves out what is
-//           bad or keeps it marked, and says so in `outcome`. Warnings and notes refuse nothing
+// Findings about the file of a CAN database: the kinds of errors, warnings and notes, worst first,
+// and each case with its place.
+//   out     an error refuses the file for driving; lenient parsing leaves the item out or keeps it
+//           marked, and says which in `outcome`. Warnings and notes refuse nothing
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -14,12 +14,12 @@ namespace pitwall::can {
 
 // The worst first: errors, then warnings, then notes.
 enum class FindingKind : std::uint8_t {
-  kEncoding,      // bytes that are no characters of the encoding
+  kEncoding,      // bytes that are not characters of the encoding
   kSyntax,        // a statement that cannot be read
-  kMessage,       // an id that is taken or too large, a name that is taken
-  kSignal,        // a signal outside its message, a name that is taken, a number that cannot be
-  kOverlap,       // bits claimed twice by signals that can be present together
-  kMultiplexing,  // a multiplexer that is not there, that could be several, or that forms a circle
+  kMessage,       // an id that is used twice or too large, a name that is used twice
+  kSignal,        // a signal outside its message, a name used twice, an impossible number
+  kOverlap,       // bits used by two signals that can be present together
+  kMultiplexing,  // a multiplexer that is missing, ambiguous, or part of a cycle
   kTooLong,       // more bytes than a frame has
   kRange,         // warnings from here on
   kValueNames,
@@ -42,19 +42,19 @@ inline constexpr std::size_t kFindingSeverities = 3;
 
 FindingSeverity severity_of(FindingKind kind);
 const char* name_of(FindingSeverity severity);
-// What several of a kind are called: "signals that nobody receives".
+// Name of several findings of a kind: "signals that nobody receives".
 const char* plural_of(FindingKind kind);
 
 struct Finding {
   FindingKind kind = FindingKind::kSyntax;
   std::string place, what;  // place: "file:line:column"
-  std::string outcome;  // of an error: what a lenient reading made of it, "signal a is left out"
-  std::string subject;  // "message.signal", a node, an attribute; empty: only the place tells
+  std::string outcome;      // of an error: the effect in lenient parsing, "signal a is left out"
+  std::string subject;  // "message.signal", a node, an attribute; empty: only the place is known
 };
-// Of each kind; what is beyond is only counted.
+// Limit for each kind; further findings are only counted.
 inline constexpr std::size_t kMaxFindings = 10'000;
 
-// "signal a is already defined at t.dbc:8:6; it is left out"
+// Example: "signal a is already defined at t.dbc:8:6; it is left out".
 std::string text_of(const Finding& finding);
 
 }  // namespace pitwall::can

@@ -1,4 +1,4 @@
-// One CAN or CAN FD data frame as a value; the kernel's layout stays in protocol/transport.
+// One CAN or CAN FD data frame as a value; the layout of the kernel is in protocol/transport.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -28,7 +28,7 @@ struct Frame {
 
 struct ReceivedFrame {
   Frame frame;
-  Instant at;  // when the kernel (or the bus model) delivered it
+  Instant at;  // time of delivery by the kernel or the bus model
 };
 
 }  // namespace pitwall::can

@@ -1,8 +1,8 @@
-// Signals of a message that claim the same bit and can be present together.
-//   in      a message whose multiplexing is resolved: selectors in place, no circle, all signals
-//           inside its bytes
-//   out     pairs in the order of the file, so that every signal that overlaps another is in one;
-//           at most kMaxOverlaps, fewer where so many signals hang on one that it would take long
+// Search for signals of a message that use the same bit and can be present together.
+//   in      a message with resolved multiplexing: selectors set, no cycle, all signals inside its
+//           bytes
+//   out     pairs in the order of the file, so that every overlapping signal is in one; at most
+//           kMaxOverlaps, and fewer if so many signals depend on one that the search is cut short
 //   cost    n log n in the signals
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
@@ -14,7 +14,7 @@
 
 namespace pitwall::can {
 
-inline constexpr std::size_t kMaxOverlaps = 1000;  // of one message
+inline constexpr std::size_t kMaxOverlaps = 1000;  // per message
 
 // Two indices of signals, in the order of the file.
 struct Overlap {

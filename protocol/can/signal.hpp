@@ -1,8 +1,8 @@
 // Layout of a signal in a frame, and the plan to read it: one load of eight bytes, one shift, one
 // mask. Generated code and run-time decoder use the same functions.
-//   in      the layout as a DBC file writes it (start bit, length, byte order, scale, range)
+//   in      the layout as in the DBC file (start bit, length, byte order, scale, range)
 //   out     raw bits and physical values in DBC units
-//   errors  plan() trusts its layout; the parser refuses layouts that do not fit their message
+//   errors  plan() does not check its layout; the parser refuses layouts that do not fit
 //   source  Vector, "DBC File Format Documentation" 1.0; Motorola start bit = most significant bit,
 //           bits numbered 8 * byte + 7..0
 // SPDX-License-Identifier: Apache-2.0
@@ -35,14 +35,14 @@ struct SignalLayout {
 };
 
 struct SignalPlan {
-  std::uint8_t first_byte = 0;  // of the eight that are loaded
-  std::int8_t shift = 0;        // right; negative: the signal also reaches into a ninth byte
+  std::uint8_t first_byte = 0;  // of the eight bytes to load
+  std::int8_t shift = 0;        // to the right; negative: the signal extends into a ninth byte
   std::uint8_t length = 0;
   ByteOrder order = ByteOrder::kIntel;
   Number number = Number::kUnsigned;
   std::uint64_t mask = 0;
   double scale = 1.0, offset = 0.0;
-  // The raw values that may be sent: the field and the file's range, whichever is narrower. For
+  // Limits of the raw values to send: the narrower of the field and the range of the file. For
   // floating-point signals these are limits of the unscaled number.
   double raw_min = 0.0, raw_max = 0.0;
   std::uint64_t raw_min_bits = 0, raw_max_bits = 0;
@@ -50,9 +50,9 @@ struct SignalPlan {
 
 SignalPlan plan(const SignalLayout& layout);
 
-// The bits that the signal occupies, bit k of byte b as 8 * b + k, from the start bit on.
+// The bits of the signal, in the order from the start bit; bit k of byte b is 8 * b + k.
 std::vector<std::size_t> bits_of(const SignalLayout& layout);
-// False where any bit lies outside `bytes` bytes.
+// False if any bit is outside of `bytes` bytes.
 bool fits(const SignalLayout& layout, std::size_t bytes);
 
 using FrameBytes = std::array<std::uint8_t, kMaxDataBytes>;
@@ -87,7 +87,7 @@ constexpr std::int64_t sign_extended(std::uint64_t raw, unsigned length) {
   return static_cast<std::int64_t>(raw << (64 - length)) >> (64 - length);
 }
 
-// The number that the bits stand for, before scale and offset.
+// The number of the raw bits, before scale and offset.
 constexpr double number_of(std::uint64_t raw, Number number, unsigned length) {
   switch (number) {
     case Number::kUnsigned:
@@ -109,8 +109,8 @@ constexpr double physical_of(std::uint64_t raw, const SignalPlan& p) {
 std::uint64_t extract(const SignalPlan& p, const FrameBytes& data);
 void insert(const SignalPlan& p, FrameBytes& data, std::uint64_t raw);
 
-// Bits for a finite physical value: rounded half away from zero, then held inside the raw limits;
-// never wraps. Sets `saturated` where it had to be held, leaves it alone otherwise.
+// Raw bits of a finite physical value: rounded half away from zero, then limited to the raw limits;
+// never wraps. Sets `saturated` if it was limited; otherwise leaves it unchanged.
 std::uint64_t raw_of(double physical, const SignalPlan& p, bool& saturated);
 
 }  // namespace pitwall::can

@@ -1,8 +1,8 @@
 // Kind of a field in a receiver message: its illegal values and, for NovAtel ASCII, its notation.
 //   in     the kind and the value of a field, as sent
-//   out    why it is refused, if it is
+//   out    the reason of a refusal; nullopt if the value is accepted
 //   invariants
-//          a value is refused or taken as it is; nothing is clamped, wrapped or replaced
+//          a value is refused or accepted unchanged; nothing is clamped, wrapped or replaced
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -22,10 +22,10 @@ enum class Kind : std::uint8_t {
   kLatitude,   // degrees
   kLongitude,  // degrees
   kSeconds,    // of the week
-  kReserved,   // anything
-  kEntries,    // of the list that follows: at most kMostEntries
+  kReserved,   // any value
+  kEntries,    // length of the list that follows: at most kMostEntries
   kHex,
-  kSolution,  // names of NovAtel's tables from here on (novatel_names.hpp)
+  kSolution,  // from here on: names from NovAtel's tables (novatel_names.hpp)
   kPosition,
   kInsStatus,
   kDatum,
@@ -58,7 +58,7 @@ inline std::optional<DecodeError> judge(Kind kind, double value) {
   return std::nullopt;
 }
 
-// Keeps the first reason to refuse a message while its fields go by.
+// Keeps the first reason to refuse a message while its fields are visited.
 class Judge {
  public:
   template <class T>

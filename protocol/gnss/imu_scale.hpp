@@ -1,4 +1,4 @@
-// Counts of RAWIMUSX to rates and specific forces and back, by type of IMU.
+// Conversion of RAWIMUSX counts to rates and specific forces and back, by type of IMU.
 //   in     counts over one sample, axes of the enclosure
 //   out    rad/s and m/s^2
 //   source OEM7 Commands and Logs Reference Manual, RAWIMUSX, table "Raw IMU Scale Factors"
@@ -22,7 +22,7 @@ struct ImuScale {
 };
 
 // Epson G320N: (0.008/65536)/125 deg and (0.200/65536)/125 mG s per count, at 125 samples a second;
-// the 200 Hz variant divides by its own rate, so that the rate cancels. G370N alike.
+// the 200 Hz variant divides by its own rate, so that the rate cancels. The same holds for G370N.
 constexpr std::optional<ImuScale> imu_scale(std::uint8_t imu_type) {
   constexpr double kCounts = 65'536.0, kMilliG_mps2 = kGravity_mps2 / 1'000.0;
   switch (imu_type) {
@@ -36,15 +36,15 @@ constexpr std::optional<ImuScale> imu_scale(std::uint8_t imu_type) {
   }
 }
 
-// Nearest count, saturated.
+// Nearest count, saturated to the range of int32.
 inline std::int32_t to_counts(double value, double one_count) {
   constexpr auto kMax = static_cast<double>(std::numeric_limits<std::int32_t>::max());
   return static_cast<std::int32_t>(
       std::fmax(-kMax, std::fmin(kMax, std::round(value / one_count))));
 }
 
-// What a receiver counts whose enclosure is NovAtel's vehicle frame (x right, y forward, z up)
-// while the car's body (x forward, y left, z up) turns and feels this. For the bench.
+// Counts of a receiver whose enclosure is aligned with NovAtel's vehicle frame (x right, y forward,
+// z up), from the motion of the car in Body (x forward, y left, z up). For the bench.
 inline void count_body_motion(const std::array<double, 3>& rate_rad_per_s,
                               const std::array<double, 3>& specific_force_mps2, RawImuSx& m) {
   const ImuScale scale = imu_scale(m.imu_type).value_or(ImuScale{1.0, 1.0});

@@ -1,5 +1,5 @@
-// Numbers to and from bytes, least significant first, whatever the machine. A cursor never leaves
-// its span: reading past the end gives zeros and clears ok, writing past it is our own mistake.
+// Reader and writer of little-endian numbers, on any machine. Both stay within their span: reading
+// past the end gives zeros and clears ok(); writing past the end fails a CHECK.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

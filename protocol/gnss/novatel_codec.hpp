@@ -1,9 +1,10 @@
-// NovAtel OEM7: one whole log to values and back. Used by the car (decode) and by the bench, which
-// speaks as a receiver (encode).
-//   in     a frame cut out and checked by NovatelStream, binary or ASCII; a header and a message
+// Codec of NovAtel OEM7 logs: one whole log to values and back. Used by the car (decode) and by the
+// bench, which simulates a receiver (encode).
+//   in     a frame, binary or ASCII, that NovatelStream extracted and checked; a header and a
+//          message
 //   out    values; a complete binary frame with header and CRC (ASCII: novatel_ascii.hpp)
-//   errors DecodeError (refusal.hpp). A body may be longer than we know (newer firmware appends),
-//          never shorter.
+//   errors DecodeError (refusal.hpp). A body may be longer than known (newer firmware appends
+//          fields), but not shorter.
 //   source OEM7 Commands and Logs Reference Manual
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
@@ -27,7 +28,7 @@ struct NovatelFrame {
 
 Result<NovatelMessage, DecodeError> decode(const NovatelFrame& frame);
 
-// The longest frame that encode() writes.
+// Longest frame of encode().
 inline constexpr std::size_t kMaxEncodedBytes = kLongHeaderBytes + InsConfig::kBytes + kCrcBytes;
 
 // Writes header, body and CRC; id and form of the header follow from the message. Returns the bytes
@@ -35,7 +36,7 @@ inline constexpr std::size_t kMaxEncodedBytes = kLongHeaderBytes + InsConfig::kB
 std::size_t encode(NovatelHeader header, const NovatelMessage& message,
                    std::span<std::uint8_t> out);
 
-// Header alone; the body has body_bytes. For messages that this codec does not know.
+// Writes the header alone, for a body of body_bytes. For messages that this codec does not know.
 std::size_t encode_header(const NovatelHeader& header, std::uint16_t body_bytes,
                           std::span<std::uint8_t> out);
 

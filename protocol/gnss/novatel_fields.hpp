@@ -1,9 +1,9 @@
-// The fields of every NovAtel log in the order in which they are sent, once, for reading, writing
+// Field lists of all NovAtel logs in the order of transmission, defined once for reading, writing
 // and checking, in binary and in ASCII.
 //   in     a message; a visitor, called as visit(Kind, field...)
 //   invariants
-//          the sum of the sizes of the fields is the kBytes of the message (RXSTATUS and INSCONFIG,
-//          which say themselves how many entries they have: at most)
+//          the sizes of the fields add up to the kBytes of the message. RXSTATUS and INSCONFIG
+//          state their number of entries; for them kBytes is the maximum
 //   source OEM7 Commands and Logs Reference Manual
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
@@ -41,14 +41,14 @@ void visit_motion(Message& m, Visit& v) {
   v(Kind::kNumber, m.roll_deg, m.pitch_deg, m.azimuth_deg);
 }
 
-// The end of INSPVAX and INSATTX.
+// Last fields of INSPVAX and INSATTX.
 template <class Message, class Visit>
 void visit_attitude_quality(Message& m, Visit& v) {
   v(Kind::kSigma, m.roll_sigma_deg, m.pitch_sigma_deg, m.azimuth_sigma_deg);
   v(Kind::kHex, m.extended_status), v(Kind::kNumber, m.since_update_s);
 }
 
-// What BESTPOS and BESTUTM have in common from the undulation on.
+// Common fields of BESTPOS and BESTUTM after the standard deviations.
 template <class Message, class Visit>
 void visit_quality(Message& m, Visit& v) {
   v(Kind::kText, m.station);
@@ -77,7 +77,7 @@ void visit_offset(Offset& o, Visit& v) {
   v(Kind::kOffsetSource, o.source);
 }
 
-// More than there is room for is refused by its number.
+// A list longer than the array is refused by its length field.
 template <class Number, class Offsets, class Visit>
 void visit_offsets(Number& number, Offsets& offsets, Visit& v) {
   v(Kind::kEntries, number);
@@ -89,7 +89,7 @@ void visit_status(Status& s, Visit& v) {
   v(Kind::kHex, s.bits, s.priority_mask, s.set_mask, s.clear_mask);
 }
 
-// The message type to choose by, whether the message is const or not.
+// Tag for overload resolution by message type, without const.
 template <class Message>
 struct Tag {};
 
@@ -236,7 +236,7 @@ void visit_fields(Message& m, Visit& v) {
   detail::visit(detail::Tag<std::remove_const_t<Message>>{}, m, v);
 }
 
-// An empty message of the log with this number; nothing where we do not know it.
+// Empty message of the log with this id; nullopt for an unknown id.
 template <std::size_t I = 0>
 std::optional<NovatelMessage> message_of(std::uint16_t id) {
   if constexpr (I == std::variant_size_v<NovatelMessage>) {

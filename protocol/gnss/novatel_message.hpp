@@ -1,10 +1,10 @@
-// Messages of a NovAtel OEM7 receiver as plain values in the receiver's own units and axes.
+// Messages of a NovAtel OEM7 receiver as plain values, in the units and axes of the receiver.
 //   frames WGS 84 geodetic; angles from true north, clockwise; IMU axes are the enclosure's. In
 //          NovAtel's vehicle frame x is right, y forward, z up; roll is right-handed about y,
 //          pitch about x.
 //   units  as named; counts of RAWIMU* are increments over one sample (see imu_scale.hpp)
 //   source OEM7 Commands and Logs Reference Manual, the pages of these logs; the layouts agree with
-//          NovAtel's own driver (novatel_oem7_driver, oem7_messages.h) where that has them
+//          NovAtel's own driver (novatel_oem7_driver, oem7_messages.h) where it has them
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -21,7 +21,7 @@ namespace pitwall::gnss {
 
 inline constexpr std::size_t kLongHeaderBytes = 28, kShortHeaderBytes = 12, kCrcBytes = 4;
 
-// The receiver's confidence in its own time (long header only).
+// Quality of the receiver's own time (long header only).
 enum class TimeStatus : std::uint8_t {
   kUnknown = 20,
   kApproximate = 60,
@@ -46,8 +46,8 @@ struct NovatelHeader {
   bool operator==(const NovatelHeader&) const = default;
 };
 
-// Week and time of week are worth something. A short header has no status: the receiver leaves the
-// week at zero until it knows.
+// True if week and time of week are valid. A short header has no time status: there the week is
+// zero until the receiver has the time.
 constexpr bool knows_time(const NovatelHeader& h) {
   const bool status = h.short_form || h.time_status >= static_cast<int>(TimeStatus::kCoarse);
   return status && is_week(h.week) && h.milliseconds < kWeek_ms;
@@ -115,7 +115,7 @@ struct Heading2 {
   static constexpr bool kShort = false;
 
   std::uint32_t solution_status = 1, position_type = 0;
-  float baseline_m = -1.0F;  // -1: not given by this model of receiver
+  float baseline_m = -1.0F;  // -1: this receiver model does not report it
   float heading_deg = 0.0F;  // of the vector base antenna -> rover antenna
   float pitch_deg = 0.0F;
   float reserved = 0.0F;
@@ -129,7 +129,7 @@ struct Heading2 {
   bool operator==(const Heading2&) const = default;
 };
 
-// HEADING2 of one receiver with two antennas: no rover.
+// HEADING2 for a receiver with two antennas, without a rover.
 struct DualAntennaHeading {
   static constexpr std::uint16_t kId = 2042;
   static constexpr std::size_t kBytes = 44;
@@ -169,7 +169,7 @@ struct InsPvaOf {
 using InsPva = InsPvaOf<507, false>;
 using InsPvaS = InsPvaOf<508, true>;
 
-// With standard deviations. The height is above mean sea level here, other than in INSPVA.
+// INSPVA with standard deviations. Unlike in INSPVA, the height is above mean sea level.
 struct InsPvaX {
   static constexpr std::uint16_t kId = 1465;
   static constexpr std::size_t kBytes = 126;
@@ -189,7 +189,7 @@ struct InsPvaX {
   bool operator==(const InsPvaX&) const = default;
 };
 
-// The attitude of it alone.
+// Only the attitude of INSPVAX.
 struct InsAttX {
   static constexpr std::uint16_t kId = 1457;
   static constexpr std::size_t kBytes = 50;
@@ -204,7 +204,7 @@ struct InsAttX {
   bool operator==(const InsAttX&) const = default;
 };
 
-// RAWIMU and RAWIMUS: measurements of the IMU as they are, gravity not removed.
+// RAWIMU and RAWIMUS: raw measurements of the IMU, with gravity.
 template <std::uint16_t Id, bool Short>
 struct RawImuOf {
   static constexpr std::uint16_t kId = Id;
@@ -222,7 +222,7 @@ struct RawImuOf {
 using RawImu = RawImuOf<268, false>;
 using RawImuS = RawImuOf<325, true>;
 
-// RAWIMUX and RAWIMUSX: the same with the type of the IMU.
+// RAWIMUX and RAWIMUSX: RAWIMU with the type of the IMU.
 template <std::uint16_t Id, bool Short>
 struct RawImuXOf {
   static constexpr std::uint16_t kId = Id;
@@ -259,10 +259,11 @@ struct CorrImuDataOf {
 };
 using CorrImuData = CorrImuDataOf<812, false>;
 using CorrImuDataS = CorrImuDataOf<813, true>;
-// The same at the rate of the IMU: increments over one of its samples.
+// IMURATECORRIMUS: the same at the rate of the IMU, increments over one of its samples.
 using ImuRateCorrImuS = CorrImuDataOf<1362, true>;
 
-// Their successor: the sum over `samples` of the IMU; the time is the header's.
+// CORRIMUS, the successor of CORRIMUDATAS: the sum over `samples` of the IMU; the header has the
+// time.
 struct CorrImuS {
   static constexpr std::uint16_t kId = 2264;
   static constexpr std::size_t kBytes = 60;
@@ -297,7 +298,7 @@ struct InsStdDevOf {
 using InsStdDev = InsStdDevOf<2051, false>;
 using InsStdDevS = InsStdDevOf<2052, true>;
 
-// A translation (metres) or rotation (degrees) that the receiver is configured with.
+// Configured translation (metres) or rotation (degrees).
 struct InsOffset {
   static constexpr std::size_t kBytes = 36;
 
@@ -310,7 +311,7 @@ struct InsOffset {
   bool operator==(const InsOffset&) const = default;
 };
 
-// How the inertial solution is configured: lever arms, rotations, profile.
+// INSCONFIG, configuration of the inertial solution: lever arms, rotations, profile.
 struct InsConfig {
   static constexpr std::uint16_t kId = 1945;
   static constexpr std::size_t kBytes = 60 + 2 * (4 + kMostEntries * InsOffset::kBytes);
@@ -318,7 +319,7 @@ struct InsConfig {
 
   std::uint32_t imu_type = 0;
   std::uint8_t mapping = 0;
-  std::uint8_t alignment_speed_dmps = 0;  // least speed of an alignment, 0.1 m/s
+  std::uint8_t alignment_speed_dmps = 0;  // lowest speed for an alignment, 0.1 m/s
   std::uint16_t heave_window_s = 0;
   std::uint32_t profile = 0, enabled_updates = 0, alignment_mode = 0;
   std::uint32_t output_frame = 0, output_direction = 0;  // of the relative solution
@@ -326,7 +327,7 @@ struct InsConfig {
   std::uint8_t seed_enabled = 0, seed_validation = 0;
   std::uint16_t reserved_1 = 0;
   std::array<std::uint32_t, 6> reserved{};
-  std::uint32_t translations = 0;  // of the array
+  std::uint32_t translations = 0;  // number of entries in use
   std::array<InsOffset, kMostEntries> translation{};
   std::uint32_t rotations = 0;
   std::array<InsOffset, kMostEntries> rotation{};
@@ -346,7 +347,7 @@ struct RxStatus {
   static constexpr bool kShort = false;
 
   std::uint32_t error = 0;
-  std::uint32_t words = 5;  // that follow: five, four with early firmware; we know no more
+  std::uint32_t words = 5;  // number of status words: five, or four in early firmware
   StatusWord receiver, auxiliary_1, auxiliary_2, auxiliary_3, auxiliary_4;
 
   bool operator==(const RxStatus&) const = default;

@@ -1,10 +1,10 @@
-// Cuts NovAtel frames, binary and ASCII mixed, out of a byte stream that may start anywhere, carry
-// other text, be damaged.
+// Frame extractor for NovAtel byte streams with binary and ASCII frames mixed. A stream may start
+// at any byte, contain other text, and be damaged.
 //   in     bytes in pieces of any size
-//   out    every frame with a correct CRC, once, in order, however the bytes are cut. An ASCII log
-//          is a frame only with its line end: nothing of it is left unchecked.
-//   errors counters; a damaged frame costs nothing but itself: the search resumes at the byte
-//          after its sync
+//   out    every frame with a correct CRC, once, in order, for any division into pieces. An ASCII
+//          log is a frame only with its line end, so that no part of it is unchecked.
+//   errors counters; a damaged frame loses only itself: the search resumes at the byte after its
+//          sync
 //   bound  frames longer than kMaxFrameBytes are counted and skipped; no allocation
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
@@ -36,7 +36,7 @@ class NovatelStream {
   const StreamCounters& counters() const { return counters_; }
 
  private:
-  // What the bytes at the front of the window are.
+  // Result of examining the front of the window.
   enum class Found { kFrame, kNothing, kNotYet };
 
   bool next(NovatelFrame& frame);
@@ -47,7 +47,7 @@ class NovatelStream {
 
   StreamWindow<kMaxFrameBytes> window_;
   StreamCounters counters_;
-  bool astray_ = false;  // in bytes of no frame
+  bool astray_ = false;  // inside bytes that belong to no frame
 };
 
 }  // namespace pitwall::gnss

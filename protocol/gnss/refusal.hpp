@@ -1,7 +1,7 @@
-// Why a log that arrived whole is not used, and how often that happened.
+// Reasons to refuse a complete log, and a counter per reason.
 //   invariants
-//          a log is decoded whole or refused with one reason; no value is ever repaired
-//   order  where several reasons hold, the one that occurs first in the log
+//          a log is decoded completely or refused with one reason; no value is repaired
+//   order  if several reasons apply, the one that occurs first in the log counts
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -14,17 +14,17 @@
 namespace pitwall::gnss {
 
 enum class DecodeError : std::uint8_t {
-  kUnknownId,          // a log that we do not decode
-  kResponse,           // an answer to a command
+  kUnknownId,          // a log without a decoder
+  kResponse,           // a response to a command
   kNotBinary,          // a binary header that announces another format
   kTooShort,           // fewer bytes or fields than the log has
-  kBadText,            // ASCII: a field that is not what it has to be
+  kBadText,            // ASCII: a field that cannot be read
   kNotFinite,          // NaN or infinite
   kNegativeDeviation,  // a standard deviation or uncertainty below zero
   kLatitude,           // beyond +-90 degrees
   kLongitude,          // beyond +-180 degrees (VectorNav and NovAtel both count from -180)
   kTimeOfWeek,         // seconds outside the week
-  kTooMany,            // more entries of a list than we know of
+  kTooMany,            // more entries of a list than supported
 };
 
 inline constexpr std::array<std::string_view, 11> kDecodeErrorText{
@@ -45,7 +45,7 @@ constexpr std::string_view text(DecodeError e) {
   return kDecodeErrorText[static_cast<std::size_t>(e)];
 }
 
-// How often, by reason.
+// Number of refusals by reason.
 struct Refusals {
   std::array<std::uint64_t, kDecodeErrorText.size()> counts{};
 

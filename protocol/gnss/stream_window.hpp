@@ -1,7 +1,7 @@
-// The bytes of a stream that are not yet decided: fed at the back in pieces of any size, looked at
-// as a whole, taken off at the front; and what is counted of a stream. No allocation.
+// Buffer of stream bytes that are not yet assigned to a frame, and the counters of a stream. Pieces
+// of any size are added at the back; bytes are taken off at the front. No allocation.
 //   invariants
-//          as long as the drain decides whenever kMaxFrame bytes are unread, every byte fits
+//          every byte fits, provided that drain() takes bytes off when kMaxFrame bytes are unread
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -17,19 +17,19 @@ namespace pitwall::gnss {
 
 struct StreamCounters {
   std::uint64_t bytes = 0, frames = 0;
-  std::uint64_t ascii_frames = 0;   // of the frames
-  std::uint64_t garbage_bytes = 0;  // in no frame
-  std::uint64_t resyncs = 0;        // times that garbage began: after a frame, or at the start
+  std::uint64_t ascii_frames = 0;   // part of `frames`
+  std::uint64_t garbage_bytes = 0;  // bytes in no frame
+  std::uint64_t resyncs = 0;        // number of garbage runs, after a frame or at the start
   std::uint64_t bad_crc = 0;
-  std::uint64_t oversize = 0;    // longer than kMaxFrameBytes by its own header
-  std::uint64_t bad_header = 0;  // a header that the format does not know
-  std::uint64_t unexpected = 0;  // a good header of an output that nobody asked for
+  std::uint64_t oversize = 0;    // longer than kMaxFrameBytes according to the header
+  std::uint64_t bad_header = 0;  // a header that is not valid in the format
+  std::uint64_t unexpected = 0;  // a valid header of an output that is not configured
 };
 
 template <std::size_t kMaxFrame>
 class StreamWindow {
  public:
-  // Calls drain() after each piece that fitted; it takes off what it has decided.
+  // Adds the bytes piece by piece as they fit, and calls drain() after each piece.
   template <class Drain>
   void feed(std::span<const std::uint8_t> bytes, Drain&& drain) {
     while (!bytes.empty()) {
@@ -43,7 +43,7 @@ class StreamWindow {
     }
   }
 
-  // What lies there stays where it is until the next feed, also when it is taken off.
+  // Valid until the next feed(), even after take_off().
   std::span<const std::uint8_t> unread() const {
     return std::span{buffer_}.subspan(begin_, size_ - begin_);
   }

@@ -1,11 +1,11 @@
-// VectorNav binary output (VN-310): one whole message to values and back. Used by the car (decode)
-// and by the bench, which speaks as a sensor (encode).
-//   in     a frame cut out and checked by VectorNavStream; a message with its output
+// Codec of VectorNav binary output (VN-310): one whole message to values and back. Used by the car
+// (decode) and by the bench, which simulates a sensor (encode).
+//   in     a frame that VectorNavStream extracted and checked; a message with its output
 //   out    values; a complete frame: 0xFA, groups, fields, payload, CRC-16 (most significant byte
 //          first)
 //   errors DecodeError (refusal.hpp)
-//   bound  the groups common, time, IMU, GNSS 1, attitude, INS, GNSS 2; a header that asks for more
-//          groups, for satellites or raw measurements (whose length it does not tell) is none
+//   bound  the groups common, time, IMU, GNSS 1, attitude, INS, GNSS 2; a header with more groups,
+//          with satellites or raw measurements (it does not state their length) is invalid
 //   source UM001 v2.22, section 4.3
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
@@ -25,7 +25,7 @@ inline constexpr std::uint8_t kVectorNavSync = 0xFA;
 inline constexpr std::size_t kVectorNavCrcBytes = 2;
 // Sync, groups, two words for each of seven groups.
 inline constexpr std::size_t kMaxVectorNavHeaderBytes = 2 + 4 * kVectorNavGroups;
-// More than everything that we know in one message.
+// Longer than any message with all known fields.
 inline constexpr std::size_t kMaxVectorNavBytes = 1'536;
 
 struct VectorNavHeader {
@@ -35,8 +35,8 @@ struct VectorNavHeader {
   std::size_t frame_bytes() const { return header_bytes + payload_bytes + kVectorNavCrcBytes; }
 };
 
-// What the bytes at the front of `bytes`, which begin with the sync, announce.
-//   out    nothing where no header is possible; a header of no bytes where more are needed
+// Header at the front of `bytes`, which begin with the sync.
+//   out    nullopt if the header is invalid; a header of zero bytes if more bytes are needed
 std::optional<VectorNavHeader> read_vectornav_header(std::span<const std::uint8_t> bytes);
 
 struct VectorNavFrame {
@@ -47,11 +47,11 @@ struct VectorNavFrame {
 
 Result<VectorNavMessage, DecodeError> decode(const VectorNavFrame& frame);
 
-// Writes what message.output names; it must name something, and nothing that decode() steps over.
-// Returns the bytes written; `out` must have room for kMaxVectorNavBytes.
+// Writes the fields in message.output, which must not be empty and must not contain fields that
+// decode() skips. Returns the bytes written; `out` must have room for kMaxVectorNavBytes.
 std::size_t encode(const VectorNavMessage& message, std::span<std::uint8_t> out);
 
-// All that encode() can write of a group.
+// Mask of the fields of a group that encode() can write.
 std::uint32_t writable_fields(VectorNavGroup group);
 
 }  // namespace pitwall::gnss

@@ -1,9 +1,9 @@
-// The fields of VectorNav's binary groups in the order of their bits, once, for measuring, reading
-// and writing.
+// Field lists of VectorNav's binary groups in the order of their bits, defined once for measuring,
+// reading and writing.
 //   in     a message, a group; a visitor, called as visit(bit, Kind, field...) for every part of
-//          every field and as skip(bit, bytes) for fields that we only step over
+//          every field and as skip(bit, bytes) for fields that are skipped
 //   invariants
-//          bits rise; what is not listed has no length that the header tells
+//          bits are in ascending order; the length of a field that is not listed is unknown
 //   source VectorNav SDK 0.99, BinaryMeasurementDefinitions.hpp; UM001 v2.22, section 4.3.6
 // SPDX-License-Identifier: Apache-2.0
 #pragma once

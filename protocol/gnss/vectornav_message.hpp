@@ -1,10 +1,10 @@
 // Binary output message of a VectorNav VN-310: the configured groups and fields as plain values in
-// the sensor's own units and axes.
+// the units and axes of the sensor.
 //   frames WGS 84 geodetic; yaw from true north, clockwise; sensor body x forward, y right, z down;
 //          acceleration is the specific force (at rest -g along z)
-//   units  as named; times are nanoseconds of GPS time since 1980-01-06 unless said otherwise
+//   units  as named; times are nanoseconds of GPS time since 1980-01-06 unless stated otherwise
 //   invariants
-//          a value is there where its bit is set in `fields`; all others are unset
+//          a value is set if its bit is set in `fields`; all others are unset
 //   source VectorNav binary output protocol: VN-100 User Manual UM001 v2.22, section 4.3 (packet);
 //          VectorNav SDK 0.99, BinaryMeasurementDefinitions.hpp (groups, bits, sizes)
 // SPDX-License-Identifier: Apache-2.0
@@ -19,18 +19,17 @@
 
 namespace pitwall::gnss {
 
-// In the order of the bits of the group byte.
+// In the order of the bits in the group byte.
 enum class VectorNavGroup : std::uint8_t { kCommon, kTime, kImu, kGnss1, kAttitude, kIns, kGnss2 };
 inline constexpr std::size_t kVectorNavGroups = 7;
 
-// Fields of a group are named by the number of their bit.
+// Field of a group by its bit number.
 struct VectorNavField {
   VectorNavGroup group;
   unsigned bit;
 };
 
-// What an output message consists of: a mask per group. Two messages with the same outputs have the
-// same layout.
+// Configuration of an output message: a field mask per group. It defines the layout of the message.
 struct VectorNavOutput {
   std::array<std::uint32_t, kVectorNavGroups> fields{};
 
@@ -72,7 +71,7 @@ inline constexpr VectorNavField kGnssPositionUncertainty{VectorNavGroup::kGnss1,
 inline constexpr VectorNavField kGnssVelocityUncertainty{VectorNavGroup::kGnss1, 10};
 inline constexpr VectorNavField kGnssTimeInfo{VectorNavGroup::kGnss1, 12};
 inline constexpr VectorNavField kGnssStatus{VectorNavGroup::kGnss1, 17};
-// The common group repeats fields of the others; these are its bits.
+// Bits of the common group, which repeats fields of the other groups.
 inline constexpr VectorNavField kCommonTimeGps{VectorNavGroup::kCommon, 1};
 inline constexpr VectorNavField kCommonYawPitchRoll{VectorNavGroup::kCommon, 3};
 inline constexpr VectorNavField kCommonAngularRate{VectorNavGroup::kCommon, 5};
@@ -81,14 +80,14 @@ inline constexpr VectorNavField kCommonVelocity{VectorNavGroup::kCommon, 7};
 inline constexpr VectorNavField kCommonAccel{VectorNavGroup::kCommon, 8};
 inline constexpr VectorNavField kCommonInsStatus{VectorNavGroup::kCommon, 12};
 
-// Of ins_status. The lowest two bits are the mode.
+// Bits of ins_status. The lowest two bits are the mode.
 inline constexpr std::uint16_t kInsModeMask = 0x0003, kInsNotTracking = 0, kInsAligning = 1,
                                kInsTracking = 2, kInsGnssLost = 3;
 inline constexpr std::uint16_t kInsGnssFix = 0x0004, kInsImuError = 0x0010,
                                kInsMagPressureError = 0x0020, kInsGnssError = 0x0040;
-// Of time_status.
+// Bits of time_status.
 inline constexpr std::uint8_t kTowValid = 0x01, kDateValid = 0x02, kUtcValid = 0x04;
-// Of VectorNavSolution::fix.
+// Values of VectorNavSolution::fix.
 inline constexpr std::uint8_t kNoFix = 0, kTimeOnly = 1, kFix2d = 2, kFix3d = 3, kFixSbas = 4,
                               kRtkFloat = 7, kRtkFixed = 8;
 }  // namespace vectornav
@@ -105,7 +104,7 @@ inline constexpr float kNone = std::numeric_limits<float>::quiet_NaN();
 using VectorNavTriple = std::array<float, 3>;
 inline constexpr VectorNavTriple kUnsetTriple{detail::kNone, detail::kNone, detail::kNone};
 
-// What one of the two GNSS receivers inside says, before any filter.
+// Unfiltered solution of one of the two internal GNSS receivers.
 struct VectorNavSolution {
   VectorNavUtc utc;
   std::uint64_t tow_ns = 0;

@@ -1,11 +1,11 @@
-// Cuts VectorNav binary messages out of a byte stream that may start anywhere, carry ASCII, be
-// damaged.
-//   in     bytes in pieces of any size; the outputs that the sensor was told to send
-//   out    every message of one of these outputs with a correct CRC, once, in order, however the
-//          bytes are cut
-//   errors counters; a damaged message costs nothing but itself. A header of another output counts
-//          as unexpected and begins no message: a CRC-16 alone lets one in 65,536 false starts
-//          through, the whole header none. Without outputs every readable header is believed.
+// Frame extractor for VectorNav byte streams with binary messages. A stream may start at any byte,
+// contain ASCII, and be damaged.
+//   in     bytes in pieces of any size; the outputs that the sensor is configured to send
+//   out    every message of one of these outputs with a correct CRC, once, in order, for any
+//          division into pieces
+//   errors counters; a damaged message loses only itself. A header of another output counts as
+//          unexpected and begins no message: a CRC-16 alone accepts one in 65,536 false starts, the
+//          comparison of the whole header none. Without outputs every valid header is accepted.
 //   bound  no allocation
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
@@ -21,7 +21,7 @@ namespace pitwall::gnss {
 
 class VectorNavStream {
  public:
-  static constexpr std::size_t kMaxOutputs = 3;  // that a sensor can be told to send
+  static constexpr std::size_t kMaxOutputs = 3;  // binary outputs of a sensor
 
   explicit VectorNavStream(std::span<const VectorNavOutput> expected = {});
 
@@ -45,7 +45,7 @@ class VectorNavStream {
   FixedVector<VectorNavOutput, kMaxOutputs> expected_;
   StreamWindow<kMaxVectorNavBytes> window_;
   StreamCounters counters_;
-  bool astray_ = false;  // in bytes of no frame
+  bool astray_ = false;  // inside bytes that belong to no frame
 };
 
 }  // namespace pitwall::gnss

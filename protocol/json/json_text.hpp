@@ -1,8 +1,8 @@
-// JSON as text, written piece by piece: for what programs tell each other.
-//   in     names and values; texts in UTF-8, whatever is none of it becomes U+FFFD
-//   out    one line of JSON. A number that is no number is null
+// Writer of JSON text, piece by piece.
+//   in     names and values; texts in UTF-8, in which U+FFFD replaces invalid bytes
+//   out    one line of JSON. A number that is not finite becomes null
 //   invariants
-//          what is written here is read by JsonValue as the same value
+//          JsonValue reads the same values back
 //   cost   O(bytes)
 //   source RFC 8259; well-formed UTF-8: Unicode 15, table 3-7
 // SPDX-License-Identifier: Apache-2.0
@@ -16,7 +16,7 @@
 namespace pitwall::json {
 
 std::string quoted(std::string_view text);
-std::string number(double value);  // as many digits as it takes
+std::string number(double value);  // as many digits as needed
 std::string integer(std::int64_t value);
 
 // {"a": 1, "b": "x"}

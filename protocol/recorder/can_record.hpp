@@ -1,5 +1,5 @@
-// A CAN frame as a record: /can/in and /can/out of the car.
-//   errors decode_frame(): what cannot be read, an identifier that no frame has
+// CAN frame as a record of the topics /can/in and /can/out of the car.
+//   errors decode_frame(): a record that cannot be read, an identifier out of range
 //   cost   no allocation
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
@@ -42,7 +42,7 @@ inline std::span<const std::uint8_t> encode(const can::Frame& frame, CanBytes& b
   return recording::to_cdr(record, bytes);
 }
 
-// The frame of such a record; or why it is none, in words.
+// The frame of the record, or a text that says why there is none.
 inline Result<can::Frame, const char*> decode_frame(std::span<const std::uint8_t> bytes) {
   CanRecord record;
   if (!recording::from_cdr(bytes, record)) return Unexpected{"CAN frame that cannot be read"};

@@ -1,20 +1,19 @@
-// Channels of a recording of base or car, and the bytes of a sample.
+// Channels of a recording of base or car, and the encoding of their samples.
 //   channels  /car/GROUP for each group of the registry, "cdr" with a ROS 2 schema: every field a
-//             float64, NaN where it was not known; log time is the reception, publish time the
-//             sample
-//             /base/TYPE, "json": the very text that consoles get
-//             /base/picture, "cdr": all that was known at a moment: a reader can begin there
-//             /radio/down, /radio/up, /gnss/0, /gnss/1: bytes as they came and went, as
-//             raw_record.hpp has them
-//             /can/in, /can/out: frames of the car's bus, "cdr", as can_record.hpp has them
-//             /car/tick: what else a tick of the car was given, "cdr", as tick_record.hpp has it
+//             float64, NaN if unknown; log time is the reception, publish time the sample
+//             /base/TYPE, "json": exactly the texts that consoles get
+//             /base/picture, "cdr": all values known at a moment, so that a reader can begin there
+//             /radio/down, /radio/up, /gnss/0, /gnss/1: raw bytes as received and sent, see
+//             raw_record.hpp
+//             /can/in, /can/out: frames of the car's bus, "cdr", see can_record.hpp
+//             /car/tick: the other inputs of a tick of the car, "cdr", see tick_record.hpp
 //   clock     stamps in the file are UTC: an Instant of the base plus the ClockMap of the file,
-//             which stands in its metadata, so that an Instant comes back exactly
+//             which is in its metadata, so that an Instant is restored exactly
 //   invariants
-//             fields are found by their names, which each channel carries: a file of another
-//             version of the registry gives the fields that both have
-//   errors    bytes that are no sample of their channel give nothing
-//   cost      no allocation in encode() and decode()
+//             fields are matched by their names, which each channel carries: a file of another
+//             version of the registry gives the fields that both versions have
+//   errors    decode() returns false for bytes that are not a sample of the channel
+//   cost      no allocation in encode() of a group and decode()
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -32,7 +31,7 @@
 
 namespace pitwall::recorder {
 
-// JSON texts, by the "type" that they have on the wire to a console.
+// JSON texts, by their "type" in the messages to a console.
 enum class Topic : std::uint8_t {
   kHello,
   kCommand,
@@ -47,8 +46,8 @@ enum class Topic : std::uint8_t {
   kMark,
   kJoystick,
   kRecorder,
-  kJudge,  // what judges, and
-  kInput,  // what it is told beside states
+  kJudge,  // configuration of the alarm evaluator
+  kInput,  // its inputs that are not vehicle state
   kExpected,
   kSettings
 };
@@ -62,7 +61,7 @@ constexpr std::string_view name_of(Topic topic) {
 }
 std::optional<Topic> topic_named(std::string_view type);
 
-// Places of the channels in the list that channels() gives.
+// Indices of the channels in the list of channels().
 constexpr std::uint16_t channel_of(telemetry::Group group) {
   return static_cast<std::uint16_t>(telemetry::index_of(group));
 }
@@ -73,20 +72,22 @@ constexpr bool is_group(std::uint16_t channel) { return channel < telemetry::kGr
 inline constexpr auto kPictureChannel = static_cast<std::uint16_t>(telemetry::kGroups + kTopics);
 inline constexpr std::uint16_t kDownChannel = kPictureChannel + 1, kUpChannel = kDownChannel + 1;
 inline constexpr std::uint16_t kCanInChannel = kUpChannel + 1, kCanOutChannel = kCanInChannel + 1;
-inline constexpr std::uint16_t kReceiverChannel = kCanOutChannel + 1;  // of unit 0; 1 is the next
+// Of unit 0; that of unit 1 follows.
+inline constexpr std::uint16_t kReceiverChannel = kCanOutChannel + 1;
 inline constexpr std::size_t kReceivers = 2;
 inline constexpr std::uint16_t kTickChannel = kReceiverChannel + kReceivers;
 std::vector<recording::Channel> channels();
 
 struct ClockMap {
   Duration utc_minus_base{};
-  std::string boot{};  // of the machine: two files of one boot share the base's clock
+  std::string boot{};  // boot id of the machine: two files of one boot share the base's clock
 
   Instant to_file(Instant base) const { return base + utc_minus_base; }
   Instant to_base(Instant file) const { return file - utc_minus_base; }
 };
 void append(recording::Metadata& run, const ClockMap& clock);
-std::optional<ClockMap> clock_of(const recording::Metadata& run);  // none: no file of ours
+// Empty if the file is not from our recorder.
+std::optional<ClockMap> clock_of(const recording::Metadata& run);
 
 inline constexpr std::size_t kCdrHeader = 4;
 inline constexpr std::size_t kLargestGroup = [] {
@@ -97,7 +98,7 @@ inline constexpr std::size_t kLargestGroup = [] {
 using GroupBytes = FixedVector<std::uint8_t, kCdrHeader + kLargestGroup * sizeof(double)>;
 GroupBytes encode(telemetry::Group group, const telemetry::Values& values);
 
-// The newest known value of each field, and when it was sampled.
+// The newest known value of each field, and its sample time.
 struct Known {
   telemetry::Values value;
   std::array<Instant, telemetry::kFieldCount> sampled = [] {
@@ -108,19 +109,20 @@ struct Known {
 
   void take(telemetry::Group group, std::span<const std::uint8_t> sample, Instant sampled_at);
 };
-// Sample times as they are in the file.
+// With the sample times of the file.
 std::vector<std::uint8_t> encode(const Known& known);
 
-// Of a file that may have been written by another version: the fields of a channel by our places.
+// Mapping of the fields of a channel, possibly of another version, to our field indices.
 class ChannelFields {
  public:
   static std::optional<ChannelFields> of(const recording::Channel& channel);
 
   bool is_picture() const { return picture_; }
-  // All fields of one group, in the values; others are left as they are. False: no such bytes.
+  // Writes all fields of one group into the values; leaves the others unchanged. False if the bytes
+  // are not a sample of this channel.
   bool decode(std::span<const std::uint8_t> sample, telemetry::Values& values) const;
   bool decode(std::span<const std::uint8_t> sample, Known& known) const;
-  // Where every field of the channel has gone: nothing of it is known here.
+  // Group of the known fields; empty if no field of the channel is known here.
   std::optional<telemetry::Group> group() const { return group_; }
 
  private:

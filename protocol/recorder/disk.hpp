@@ -1,5 +1,5 @@
 // Interface to the disk that holds the files of a recording; one file is open at a time.
-//   errors Problem where a file cannot be begun; append(): false, and problem() tells why
+//   errors Problem if a file cannot be created; append(): false, and problem() has the reason
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -18,7 +18,7 @@ class Disk {
   virtual std::optional<Problem> begin(const std::string& name) = 0;  // a new file
   virtual bool append(std::span<const std::uint8_t> bytes) = 0;
   virtual void end(bool keep) = 0;
-  virtual std::string problem() const = 0;  // of the last append that failed
+  virtual std::string problem() const = 0;  // of the last failed append
   virtual std::uint64_t free_bytes() const = 0;
 };
 

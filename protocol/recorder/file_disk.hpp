@@ -30,7 +30,7 @@ class FileDisk : public Disk {
   explicit FileDisk(std::string folder);
   ~FileDisk() override;
 
-  // The folder is there and can be written to.
+  // Checks that the folder exists and is writable.
   std::optional<Problem> check() const;
   std::optional<Problem> begin(const std::string& name) override;
   bool append(std::span<const std::uint8_t> bytes) override;
@@ -57,7 +57,7 @@ class FileDisk : public Disk {
   std::thread syncer_;
 };
 
-// Another process writes this file just now.
+// True if another process is writing this file now.
 bool is_being_written(const std::string& path);
 
 }  // namespace pitwall::recorder

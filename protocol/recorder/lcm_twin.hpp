@@ -1,13 +1,14 @@
-// The LCM event log beside a segment: the same records under the same name, for LCM's own tools.
+// Writer of the LCM event log beside a segment: the same records under the same name, for LCM's own
+// tools.
 //   in     the records of an open segment
-//   out    NAME.lcm: an event for each record, its channel named as in the segment, its time that
-//          of the reception. Types: `pitwall-base export lcm`. The picture of all that is known is
-//          left out, whose values are in the groups, and what a tick was given
+//   out    NAME.lcm: one event per record, with the channel name of the segment and the time of
+//          reception. Types: `pitwall-base export lcm`. The picture of all known values and the
+//          tick records are left out; the groups have the values of the picture
 //   invariants
-//          the segment does not depend on it: where the disk takes no more, this log ends as it is,
-//          with whole events, and the next segment begins a new one
+//          the segment does not depend on it: if the disk fails, this log ends after a whole event,
+//          and the next segment begins a new one
 //   errors figures()
-//   cost   no allocation at a record once its buffers have grown
+//   cost   no allocation per record once its buffers have grown
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -25,7 +26,7 @@ namespace pitwall::recorder {
 
 struct LcmFigures {
   std::uint64_t events = 0, bytes = 0;
-  std::uint64_t lost = 0;  // events that the disk did not take
+  std::uint64_t lost = 0;  // events that could not be written
 };
 
 class LcmTwin {

@@ -1,14 +1,14 @@
-// Bytes as they were on the air and on a receiver's line, as records of a recording.
-//   /radio/down, /radio/up  message encoding "x-pitwall-datagram", one message for each datagram,
-//                           as it came (also what is not authentic) or went; encrypted as it is:
+// Raw bytes of the radio and of a receiver as records of a recording.
+//   /radio/down, /radio/up  message encoding "x-pitwall-datagram", one message per datagram, as
+//                           received (authentic or not) or sent, still encrypted:
 //                             u8  version, 1
 //                             u8  path of the radio, from 0
 //                             u16 port, u32 IPv4 address of the other end
 //                             then the datagram. Numbers least significant byte first
-//   /gnss/0, /gnss/1        message encoding "x-pitwall-stream": what one read of the receiver
-//                           gave, as it was. Over UDP that is a datagram; else the bytes of all
-//                           messages, one after the other, are the receiver's
-//   errors  bytes that are no datagram of this version give nothing
+//   /gnss/0, /gnss/1        message encoding "x-pitwall-stream": the bytes of one read from the
+//                           receiver. Over UDP that is one datagram; otherwise the bytes of all
+//                           messages in sequence are the byte stream of the receiver
+//   errors  decode_datagram() returns nullopt for bytes that are not a datagram of this version
 //   cost    no allocation
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
@@ -34,7 +34,7 @@ struct RadioDatagram {
 };
 using DatagramBytes = std::array<std::uint8_t, kDatagramHead + kDatagramMax>;
 
-// What is longer than any datagram of the radio is cut there.
+// A datagram longer than kDatagramMax, longer than any of the radio, is cut there.
 inline std::span<const std::uint8_t> encode(const RadioDatagram& datagram, DatagramBytes& bytes) {
   const std::size_t length = std::min(datagram.bytes.size(), kDatagramMax);
   bytes[0] = kDatagramVersion;

@@ -1,13 +1,13 @@
 // Recorder of all traffic, in both directions, into a folder of MCAP segments and LCM event logs.
-//   in     states, events, texts, datagrams, as they happen, each with its time
-//   out    files as segment_chain.hpp has them; figures
+//   in     states, events, texts, datagrams as they occur, each with its time
+//   out    files, see segment_chain.hpp; figures
 //   invariants
-//          no call waits, for the disk or for another thread: see record_queue.hpp; all calls but
-//          figures() are by one thread. A thread writes, others have it synchronized every second.
-//          A base that is killed loses less than the last second
-//   bound  kQueueBytes wait at most; what is over is dropped and counted
-//   errors start(): Problem where the folder cannot be made or written. Later: figures(); a full
-//          disk stops nothing, and the recording goes on when there is room again
+//          no call waits for the disk or for another thread, see record_queue.hpp. All calls except
+//          figures() are by one thread. One thread writes; others sync the files every second. A
+//          base that is killed loses less than the last second
+//   bound  at most kQueueBytes are queued; records beyond are dropped and counted
+//   errors start(): Problem if the folder cannot be created or written. Later: figures(). A full
+//          disk stops nothing, and the recording continues when there is room again
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -28,32 +28,32 @@
 
 namespace pitwall::recorder {
 
-inline constexpr std::size_t kQueueBytes = std::size_t{4} << 20;  // some ten seconds
+inline constexpr std::size_t kQueueBytes = std::size_t{4} << 20;  // about ten seconds
 
 struct RecorderFigures {
   ChainFigures chain;
   std::uint64_t dropped = 0;   // records that did not fit into the queue
-  std::uint64_t left_out = 0;  // raw bytes over their budget
+  std::uint64_t left_out = 0;  // raw records beyond the budget of bytes
   std::uint64_t syncs = 0, failed_syncs = 0;
   Duration longest_sync{};
   std::uint64_t free_bytes = 0;
   double bytes_per_s = 0.0;     // since the start
-  double minutes_left() const;  // NaN: not known
+  double minutes_left() const;  // NaN if unknown
   std::uint64_t lost() const { return chain.lost + dropped + left_out; }
   std::uint64_t bytes() const { return chain.bytes + chain.lcm.bytes; }
 };
 
 class Recorder {
  public:
-  // `run`: what the metadata of each segment says besides clock and number.
+  // `run`: further metadata of each segment, in addition to clock and number.
   static Result<std::unique_ptr<Recorder>, Problem> start(const std::string& folder,
                                                           recording::Metadata run);
   ~Recorder();
 
   void state(const telemetry::Snapshot& state, telemetry::GroupSet groups, Instant received);
   void text(Topic topic, Instant at, std::string_view json);
-  // Raw bytes come by a budget of their own, so that a flood on the air leaves room on the disk and
-  // in the queue for everything else; what is over is left out and counted.
+  // Raw bytes have a byte budget, so that a flood on the radio leaves room on the disk and in the
+  // queue for everything else; records beyond it are left out and counted.
   static constexpr double kRawBytesPerSecond = 1e6, kRawBurstBytes = 2e6;
   void datagram(bool down, Instant at, const RadioDatagram& datagram);
   void receiver(std::size_t unit, Instant at, std::span<const std::uint8_t> bytes);
@@ -76,12 +76,12 @@ class Recorder {
   Instant raw_at_{};
   std::atomic<std::uint64_t> left_out_ = 0;
   mutable std::mutex mutex_;
-  ChainFigures reported_;  // as of the last turn of the writer
+  ChainFigures reported_;  // figures after the writer's last batch
   std::thread writer_;
 };
 
-// What each segment says of who wrote it: program, revision, schema; and of a file that it was
-// started with: its name and its hash, where it can be read.
+// Metadata of the writing program: program, revision, schema; and of a file it was started with:
+// name and, if it can be read, SHA-256.
 recording::Metadata program_metadata(const std::string& program);
 void append_file(recording::Metadata& run, const std::string& key, const std::string& path);
 // The clock of this process and machine.

@@ -1,16 +1,16 @@
 // Writer of a chain of one-minute segments, which continues after a full disk.
-//   in     records, the time now; a Disk
-//   out    segments as MCAP, each whole in itself: metadata, channels, then the picture as it was
-//          known; again every kPictureEvery, so that a reader can begin there
-//          where there is a disk for it, an LCM event log beside each, under the same name
+//   in     records, the time; a Disk
+//   out    segments as MCAP, each complete in itself: metadata, channels, then the picture of all
+//          known values, repeated every `picture`, so that a reader can begin there
+//          with a second Disk, an LCM event log beside each segment, under the same name
 //   invariants
-//          a chunk is handed to the disk after half a second of stamps or of time, whichever is
-//          first, or at 1 MiB: a process that is killed loses less than a second
-//          a segment ends when stamps have gone on by its length. When the disk fails, the segment
-//          ends as it is, records are lost and counted, and a new segment begins when the disk
-//          has room again
-//   errors figures(): what was lost and why; nothing here stops the caller
-//   cost   no allocation at a record, but for a new segment
+//          a chunk is written at 1 MiB, or earlier after half a second by the stamps or by the
+//          clock: a process that is killed loses less than a second
+//          a segment ends when the stamps have advanced by its length. If the disk fails, the
+//          segment ends at once, records are lost and counted, and a new segment begins when the
+//          disk has room again
+//   errors figures(): what was lost and why; no error stops the caller
+//   cost   no allocation per record, except for a new segment
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -32,7 +32,7 @@ namespace pitwall::recorder {
 struct ChainParams {
   Duration segment = seconds(60), chunk = milliseconds(500), picture = seconds(10);
   Duration retry = seconds(1);
-  std::uint64_t room_to_resume = std::uint64_t{8} << 20U;  // bytes that must be free
+  std::uint64_t room_to_resume = std::uint64_t{8} << 20U;  // free bytes needed after a failure
   recording::Metadata run{};
   ClockMap clock{};
   std::string name = "pitwall";  // of the files: NAME_UTC_NUMBER.mcap and .lcm
@@ -40,9 +40,9 @@ struct ChainParams {
 
 struct ChainFigures {
   std::uint64_t records = 0, bytes = 0, segments = 0;
-  std::uint64_t lost = 0;           // records that came while the disk took none
-  std::uint64_t refused = 0;        // records that no file takes: their number is our mistake
-  std::uint64_t interruptions = 0;  // times that the disk failed
+  std::uint64_t lost = 0;           // records not written because of the disk
+  std::uint64_t refused = 0;        // records that no file accepts: a program error
+  std::uint64_t interruptions = 0;  // failures of the disk
   bool recording = false;
   std::string segment, problem;  // the newest
   LcmFigures lcm;                // of the logs beside the segments
@@ -50,7 +50,7 @@ struct ChainFigures {
 
 class SegmentChain {
  public:
-  // `lcm`: takes an LCM event log beside each segment; nullptr: none.
+  // `lcm`: disk for an LCM event log beside each segment; nullptr: no LCM log.
   SegmentChain(Disk& disk, ChainParams params, Disk* lcm = nullptr);
   ~SegmentChain();  // closes the open segment
 
@@ -73,14 +73,14 @@ class SegmentChain {
   Disk& disk_;
   ChainParams params_;
   ChainFigures figures_;
-  Known known_;  // sample times as in the file
+  Known known_;  // with the sample times of the file
   std::unique_ptr<recording::McapWriter> writer_;
   std::optional<LcmTwin> lcm_;
   std::uint64_t waiting_ = 0;  // records of the open chunk
   std::uint64_t number_ = 0;
-  std::optional<Instant> retry_at_;  // the disk has failed
+  std::optional<Instant> retry_at_;  // set after a failure of the disk
   Instant now_{}, segment_end_{}, picture_at_{}, flush_at_{};
-  bool has_chunk_ = false;  // the open segment, on the disk
+  bool has_chunk_ = false;  // a chunk of the open segment is on the disk
 };
 
 }  // namespace pitwall::recorder

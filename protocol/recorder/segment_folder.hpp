@@ -1,10 +1,10 @@
-// The segments of a folder: which there are, and those that a killed base left made whole.
+// Segments of one folder: their list, and the repair of those that a killed base left.
 //   in     a folder or files
-//   out    paths in the order of their time; lines that tell what was recovered
+//   out    paths in the order of their time; lines that describe the recovery
 //   invariants
-//          a file that another process writes is left alone. A file is replaced as a whole, and
-//          only by one that holds every message that can be read of it; where bytes in its middle
-//          were damaged, the old file stays beside it as FILE.damaged
+//          a file that another process is writing is not touched. A file is replaced as a whole,
+//          and only by one with every message that can be read from it; if bytes in the middle were
+//          damaged, the old file is kept as FILE.damaged
 //   errors Problem with the path; one bad file does not stop the others
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
@@ -18,9 +18,9 @@ namespace pitwall::recorder {
 
 Result<std::vector<std::string>, Problem> segments_of(const std::string& folder);
 
-// What became of it, for a person.
+// Returns a line for the log that says what was recovered.
 Result<std::string, Problem> recover_file(const std::string& path);
-// Of all segments that have no end; a line for each.
+// Recovers all segments without an end; one line each.
 std::vector<std::string> recover_folder(const std::string& folder);
 
 }  // namespace pitwall::recorder

@@ -1,12 +1,11 @@
-// What a tick of the car was given beside the bytes and frames that are recorded for themselves:
-// with it a run can be driven again. The message /car/tick of the black box, after all that the
-// tick heard and said.
+// Inputs of one tick of the car that are not recorded as bytes or frames; with them a run can be
+// replayed. It is the message /car/tick of the black box, after all traffic of the tick.
 //
 //   file  ... bytes of receivers, datagrams, received frames, sent frames, TICK, states ...
 //
 //   units  seconds, m/s, fractions as their names say; instants: nanoseconds on the car's clock,
-//          kNever where there is none; log time: the tick's own
-//   errors from_record() gives nothing for commands that are cut
+//          kNever if there is none; log time: that of the tick
+//   errors commands_of() returns nullopt for cut commands
 //   cost   no allocation
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
@@ -38,7 +37,7 @@ struct TickCommand {
 inline constexpr std::size_t kTickCommandBytes = 21, kTickCommandsMax = 16;
 
 struct TickRecord {
-  std::uint64_t number = 0;  // of the ticks of the run, from 0
+  std::uint64_t number = 0;  // tick number of the run, from 0
   std::int64_t dt_ns = 0;
   std::uint32_t frames_received = 0, frames_sent = 0, receiver_bytes = 0;
   std::uint8_t requests = 0;  // bits: arm, reset, stop, emergency stop, may arm, last run armed
@@ -55,7 +54,7 @@ struct TickRecord {
   double bus_load = 0.0;
   std::uint8_t guardian = 0;  // bits: drives, stopped
   std::int64_t drove_from_ns = 0, drove_until_ns = 0;
-  std::uint32_t guardian_counters = 0;  // brake, throttle, steering, report; a byte each
+  std::uint32_t guardian_counters = 0;  // brake, throttle, steering, report; one byte each
   std::int64_t guardian_at_ns = 0;
   double guardian_road_wheel_rad = kUnset, guardian_throttle = kUnset, guardian_brake_kpa = kUnset;
   std::uint8_t guardian_gear = 0;
@@ -103,7 +102,7 @@ constexpr auto cdr_fields(std::type_identity<TickRecord>) {
 }
 using TickBytes = std::array<std::uint8_t, recording::cdr_bytes_max<TickRecord>()>;
 
-// False: there is no room for another one.
+// False if there is no room for another command.
 inline bool append(TickRecord& tick, const TickCommand& command) {
   const auto put = [&](std::uint64_t bits, unsigned bytes) {
     for (unsigned i = 0; i < bytes; ++i)

@@ -1,5 +1,5 @@
-// Flat structs as ROS 2 messages, so that MCAP tools (Foxglove, PlotJuggler) read every value.
-// A struct S describes itself once, in its own namespace:
+// Serialisation of flat structs as ROS 2 messages, so that MCAP tools (Foxglove, PlotJuggler) read
+// every value. A struct S describes itself once, in its own namespace:
 //
 //   struct EgoSample { double speed_mps; std::uint8_t validity; };
 //   constexpr CdrName cdr_name(std::type_identity<EgoSample>) { return "EgoSample"; }
@@ -8,13 +8,14 @@
 //                       CdrField{"validity", &EgoSample::validity}};
 //   }
 //
-// and from that come the schema's name and text (encoding "ros2msg") and its bytes ("cdr").
+// From that follow the name and text of the schema (encoding "ros2msg") and the bytes ("cdr").
 //   fields float64, float32, int64, int32, uint64, uint32, uint16, uint8, bool, and
-//          FixedVector<std::uint8_t, N> (sequence uint8[<=N])
+//          FixedVector<std::uint8_t, N> (sequence uint8[] of at most N bytes)
 //   bytes  encapsulation header 00 01 00 00, then little-endian XCDR1: each number aligned to its
-//          own size counted from after the header
-//   errors from_cdr gives false for bytes that are too short, too many, of another encapsulation,
-//          a sequence over its bound, or a bool that is neither 0 nor 1; never reads past them
+//          own size, counted from after the header
+//   errors from_cdr() returns false for bytes that are too short, too long or of another
+//          encapsulation, a sequence over its bound, or a bool other than 0 or 1; it never reads
+//          past the end
 //   cost   O(fields), no allocation in to_cdr and from_cdr
 //   source OMG DDSI-RTPS 2.3, 10; ROS 2 interface definition
 // SPDX-License-Identifier: Apache-2.0
@@ -59,7 +60,7 @@ struct CdrSequence : std::false_type {};
 template <std::size_t N>
 struct CdrSequence<CdrBytes<N>> : std::true_type {};
 
-// How ROS 2 spells the type of a field.
+// ROS 2 name of the type of a field.
 template <class T>
 constexpr std::string_view ros2_type() {
   if constexpr (CdrSequence<T>::value) return "uint8[]";
@@ -74,7 +75,7 @@ constexpr std::string_view ros2_type() {
   if constexpr (std::is_same_v<T, bool>) return "bool";
 }
 
-// Bytes at offset `at` (after the header) that a field of type T may take: most, with alignment.
+// Largest size of a field of type T, with its alignment padding.
 template <class T>
 constexpr std::size_t cdr_field_bytes_max() {
   if constexpr (CdrSequence<T>::value) {
@@ -94,7 +95,7 @@ constexpr std::size_t cdr_bytes_max() {
       cdr_fields(std::type_identity<S>{}));
 }
 
-// Puts numbers one after another into a buffer that is large enough.
+// Writer of numbers into a buffer that is large enough.
 class CdrWriter {
  public:
   explicit CdrWriter(std::span<std::uint8_t> buffer) : buffer_(buffer) {
@@ -168,7 +169,7 @@ class CdrReader {
   bool ok_ = true;
 };
 
-// The bytes of `s`, in `buffer`.
+// Writes `s` into `buffer` and returns the bytes in use.
 template <class S>
 std::span<const std::uint8_t> to_cdr(const S& s,
                                      std::span<std::uint8_t, cdr_bytes_max<S>()> buffer) {
@@ -199,7 +200,7 @@ Schema cdr_schema() {
   return {"pitwall_msgs/msg/" + name, "ros2msg", text};
 }
 
-// A channel whose messages are S.
+// Channel with messages of type S.
 template <class S>
 Channel cdr_channel(std::string topic) {
   return {std::move(topic), "cdr", cdr_schema<S>(), {}};

@@ -1,8 +1,8 @@
-// The record of one run: an MCAP file whose channels are flat structs at any rate (CDR) and events
-// in words (JSON), and whose SHA-256 names the run: same build, scenario and seed, same digest.
+// Record of one run: an MCAP file with channels of flat structs at any rate (CDR) and events as
+// text (JSON). Its SHA-256 identifies the run: same build, scenario and seed give the same digest.
 //   in     metadata of the run and a sink; channels, until start(); then samples and events
 //   out    bytes to the sink; a digest of all of them
-//   errors as McapWriter: refused and counted, never an exception
+//   errors as McapWriter: refused and counted, no exception
 //   cost   as McapWriter; no allocation between start() and close()
 //
 //   EventLog log{{{"scenario", name}}, sink};
@@ -26,7 +26,7 @@
 namespace pitwall::recording {
 
 inline constexpr std::string_view kEventTopic = "/events";
-// Longer names and texts are cut there; an event is a line for a person, not a container.
+// Longer names and texts are cut: an event is one line of text for people.
 inline constexpr std::size_t kEventNameMax = 64, kEventTextMax = 1024;
 
 template <class S>
@@ -37,10 +37,10 @@ struct SampleChannel {
 class EventLog {
  public:
   EventLog(Metadata run, Sink sink, McapLimits limits = {});
-  EventLog(const EventLog&) = delete;  // the writer's sink knows where the log's hash lies
+  EventLog(const EventLog&) = delete;  // the writer's sink points to the hash of this log
   EventLog& operator=(const EventLog&) = delete;
 
-  // Before start() only.
+  // Call before start() only.
   template <class S>
   SampleChannel<S> channel(std::string topic) {
     return {add(cdr_channel<S>(std::move(topic)))};
@@ -48,20 +48,20 @@ class EventLog {
   ChannelId add(Channel channel);
   void start();
 
-  // After start(). False: refused and counted.
+  // Call after start(). False: refused and counted.
   template <class S>
   bool sample(SampleChannel<S> channel, Instant at, const S& value) {
     std::array<std::uint8_t, cdr_bytes_max<S>()> buffer;
     return write(channel.id, at, to_cdr(value, std::span{buffer}));
   }
-  // {"name":...,"text":...} on /events. Bytes that are no printable ASCII become '?'.
+  // {"name":...,"text":...} on /events. Bytes outside of printable ASCII become '?'.
   bool event(Instant at, std::string_view name, std::string_view text);
-  // A message in the encoding that the channel has declared.
+  // Message in the declared encoding of the channel.
   bool write(ChannelId channel, Instant at, std::span<const std::uint8_t> data);
   bool flush();
   bool close();
 
-  // Of all bytes that the sink has kept so far.
+  // Digest of all bytes that the sink has accepted so far.
   bits::Sha256::Digest digest() const;
   McapCounters counters() const;
 

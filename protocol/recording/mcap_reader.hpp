@@ -1,17 +1,16 @@
-// Reader of an MCAP file (version 0) in memory, from front to back: whole files, files of a process
-// that died, and any other bytes.
-//   in     bytes, which must outlive the reader and what it hands out; who decompresses chunks:
-//          nobody, and a compressed chunk is skipped
-//   out    messages in the order of the file; channels and schemas as they become known, those of
-//          an intact summary at once
-//   errors a file that is cut delivers everything before that place; end() tells the reason and the
-//          place. Behind a record that contradicts itself reading goes on at the next chunk that
-//          an intact summary names. A chunk whose CRC is wrong, or that cannot be decompressed, is
-//          skipped as a whole; of a chunk that contradicts itself the rest is. gaps() tells each of
-//          them. Messages of a chunk that the cut goes through are delivered, though its CRC
-//          cannot be checked; they are counted as unverified, and skipped where their time is none
-//          of the chunk's
-//   cost   O(bytes); allocates for channels, schemas, gaps and the index of a summary only
+// Reader of an MCAP file (version 0) in memory, from front to back: whole files, files of a killed
+// process, and any other bytes.
+//   in     bytes, which must outlive the reader and its results; an optional function that
+//          decompresses chunks: without it compressed chunks are skipped
+//   out    messages in the order of the file; channels and schemas as they are read, or at once
+//          from an intact summary
+//   errors a cut file gives everything before the cut; end() has the reason, place() the place.
+//          After an inconsistent record reading continues at the next chunk in an intact summary. A
+//          chunk with a wrong CRC, or that cannot be decompressed, is skipped as a whole; of an
+//          inconsistent chunk the rest is skipped. gaps() lists each of them. Messages of a chunk
+//          that the end of the file cuts are returned, although its CRC cannot be checked; they
+//          count as unverified, and are skipped if their time is outside that of the chunk
+//   cost   O(bytes); allocates only for channels, schemas, gaps and the index of a summary
 //   source https://mcap.dev/spec
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
@@ -39,10 +38,10 @@ struct McapMessage {
 
 enum class McapEnd : std::uint8_t {
   kReading,    // there may be more
-  kComplete,   // footer and closing magic are there
+  kComplete,   // with footer and closing magic
   kNoMagic,    // not an MCAP file
   kTruncated,  // ends inside a record, or without a footer
-  kMalformed,  // a record whose inside contradicts its length
+  kMalformed,  // a record whose content contradicts its length
 };
 
 struct McapReaderCounters {
@@ -50,22 +49,22 @@ struct McapReaderCounters {
   std::uint64_t unverified = 0;  // of those, without a CRC that could be checked
   std::uint64_t chunks = 0;
   std::uint64_t bad_chunk_crc = 0;      // chunks skipped
-  std::uint64_t compressed_chunks = 0;  // chunks skipped: nobody could decompress them
-  std::uint64_t broken_chunks = 0;      // of which the rest was skipped
-  std::uint64_t bytes_skipped = 0;      // of broken chunks, and on the way to the next chunk
+  std::uint64_t compressed_chunks = 0;  // chunks skipped: not decompressed
+  std::uint64_t broken_chunks = 0;      // chunks whose rest was skipped
+  std::uint64_t bytes_skipped = 0;      // of broken chunks, and up to the next chunk
   std::uint64_t bad_data_crc = 0, bad_summary_crc = 0;
   std::uint64_t unknown_channel = 0;  // messages skipped
-  std::uint64_t implausible = 0;      // skipped: in a cut chunk, outside of the time that it names
-  std::uint64_t other_records = 0;    // of kinds that carry no message: passed over
+  std::uint64_t implausible = 0;      // messages skipped: in a cut chunk, outside of its time range
+  std::uint64_t other_records = 0;    // skipped records of kinds that carry no message
 };
 
-// What was passed over: bytes from the start of the file, how many, and why.
+// Skipped bytes: their offset in the file, their number, and the reason.
 struct McapGap {
   std::uint64_t place = 0, bytes = 0;
   std::string what;
 };
 
-// The bytes of a compressed chunk as they were; they must outlive what is read of them. Or why not.
+// Returns the decompressed chunk, which must outlive everything read from it, or the error.
 using Decompress = std::function<Result<std::span<const std::uint8_t>, std::string>(
     std::string_view compression, std::span<const std::uint8_t> bytes, std::uint64_t plain_bytes)>;
 
@@ -73,18 +72,18 @@ class McapReader {
  public:
   explicit McapReader(std::span<const std::uint8_t> file, Decompress decompress = {});
 
-  // The next message, or none: then end() tells why.
+  // The next message; nullopt at the end, for which end() has the reason.
   std::optional<McapMessage> next();
 
   McapEnd end() const { return end_; }
-  // Where reading stopped: bytes from the start of the file.
+  // Where reading stopped: offset in the file.
   std::uint64_t place() const { return place_; }
-  // Where the newest message lies; of one in a compressed chunk, where the chunk does.
+  // Offset of the newest message; for one in a compressed chunk, that of the chunk.
   std::uint64_t message_place() const { return message_place_; }
   const McapReaderCounters& counters() const { return counters_; }
   const std::vector<McapGap>& gaps() const { return gaps_; }
   const std::map<std::uint16_t, Channel>& channels() const { return channels_; }
-  // The metadata record "run" that the writer puts in front.
+  // The metadata record "run", which the writer puts first.
   const Metadata& run() const { return run_; }
 
  private:
@@ -95,7 +94,7 @@ class McapReader {
   };
 
   std::uint64_t place_of(std::span<const std::uint8_t> rest) const;
-  // The same of bytes of the open chunk; of a compressed one, where its record lies.
+  // The same for bytes of the open chunk; for a compressed chunk, the offset of its record.
   std::uint64_t place_in_chunk(std::span<const std::uint8_t> rest) const;
   void pass_over(std::uint64_t place, std::uint64_t bytes, std::string what);
   void read_summary();
@@ -120,8 +119,8 @@ class McapReader {
   std::span<const std::uint8_t> file_, rest_, chunk_;
   Decompress decompress_;
   std::vector<McapGap> gaps_;
-  std::vector<std::uint64_t> chunk_places_;  // by the summary, rising
-  std::uint64_t chunk_place_ = 0;            // of the record of the open chunk
+  std::vector<std::uint64_t> chunk_places_;  // from the summary, ascending
+  std::uint64_t chunk_place_ = 0;            // offset of the record of the open chunk
   bool in_chunk_ = false, chunk_verified_ = false, chunk_cut_ = false, chunk_apart_ = false;
   std::uint64_t chunk_start_ns_ = 0, chunk_end_ns_ = 0;
   McapEnd end_ = McapEnd::kReading;

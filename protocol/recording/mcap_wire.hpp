@@ -1,7 +1,7 @@
-// The bytes of MCAP version 0: opcodes, and little-endian fields written to and read from memory.
-//   in     values (McapAppender), bytes from anywhere (McapCursor)
-//   errors a cursor that is asked for more than there is gives zeros and ok() turns false for good;
-//          it never reads past its bytes
+// Wire format of MCAP version 0: opcodes, and little-endian fields in memory.
+//   in     values (McapAppender), bytes from any source (McapCursor)
+//   errors a cursor that reads past the end returns zeros, and ok() stays false; it never reads
+//          outside of its bytes
 //   source https://mcap.dev/spec
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
@@ -35,7 +35,7 @@ enum class McapOpcode : std::uint8_t {
   kDataEnd = 0x0F,
 };
 
-// Appends to a vector of the caller; where the caller has reserved enough, nothing allocates.
+// Appends to a vector of the caller; does not allocate if the caller has reserved enough.
 class McapAppender {
  public:
   explicit McapAppender(std::vector<std::uint8_t>& out) : out_(out) {}
@@ -46,12 +46,12 @@ class McapAppender {
   void u64(std::uint64_t v) { little_endian(v, sizeof v); }
   void bytes(std::span<const std::uint8_t> v) { out_.insert(out_.end(), v.begin(), v.end()); }
   void string(std::string_view v);
-  // A record's opcode and a place for its length; end_record fills it in.
+  // Writes the opcode of a record and reserves its length, which end_record() fills in.
   std::size_t begin_record(McapOpcode opcode);
   void end_record(std::size_t begin) { end_record_around(begin, 0); }
-  // The same for a record whose last `more` bytes are still to come.
+  // The same for a record whose last `more` bytes are written later.
   void end_record_around(std::size_t begin, std::size_t more);
-  // A map's or array's place for its length in bytes; end_block fills it in.
+  // Reserves the length in bytes of a map or array, which end_block() fills in.
   std::size_t begin_block();
   void end_block(std::size_t begin);
 

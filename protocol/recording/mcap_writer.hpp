@@ -1,14 +1,15 @@
-// Writes an MCAP file (version 0, uncompressed chunks) through a sink that the caller gives.
+// Writer of an MCAP file (version 0, uncompressed chunks) to a sink.
 //   in     channels and metadata at construction; then messages, each with its time
 //   out    bytes, in order, to the sink: magic, header, metadata, schemas, channels, then chunks
 //          with CRC-32 and message indexes; close() adds data end, summary and footer.
 //          The same input gives the same bytes.
 //   units  times are Instants (ns on the run's own clock); sequences count per channel from 0
-//   errors a message for no channel, before time zero, or larger than a chunk is refused and
-//          counted; once the sink has failed the file has a gap, so everything after is refused
+//   errors a message for an unknown channel, before time zero, or larger than a chunk is refused
+//          and counted. After a failure of the sink the file has a gap, so all later messages are
+//          refused
 //   cost   O(size of the message); memory for one chunk, its indexes and the summary of
-//          `limits.chunks` chunks is reserved at construction. A run with more chunks goes on and
-//          then allocates at a flush, never at a message
+//          `limits.chunks` chunks is reserved at construction. A run with more chunks continues,
+//          and then allocates at a flush, never at a message
 //   source https://mcap.dev/spec
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
@@ -25,7 +26,7 @@
 
 namespace pitwall::recording {
 
-// Takes bytes to wherever they are kept; false: they were not kept (disk full, link gone).
+// Stores bytes; false: they were not stored (disk full, connection lost).
 using Sink = std::function<bool(std::span<const std::uint8_t>)>;
 
 struct Schema {
@@ -57,7 +58,7 @@ struct McapLimits {
   std::size_t chunks = 4096;         // reserved in the summary: more than an hour
 };
 
-// A message as it stood in another file, which a copy must not change.
+// Stamps and sequence of a message in another file, which a copy must not change.
 struct McapStamps {
   Instant logged{}, published{};
   std::uint32_t sequence = 0;
@@ -65,7 +66,7 @@ struct McapStamps {
 
 struct McapCounters {
   std::uint64_t messages = 0;
-  std::uint64_t bytes = 0;  // handed to the sink and kept
+  std::uint64_t bytes = 0;  // accepted by the sink
   std::uint64_t chunks = 0;
   std::uint64_t refused_channel = 0, refused_time = 0, refused_size = 0, refused_sink = 0,
                 refused_closed = 0;
@@ -79,15 +80,15 @@ class McapWriter {
  public:
   McapWriter(std::vector<Channel> channels, const Metadata& run, Sink sink, McapLimits limits = {});
 
-  // False: refused, and counted by its reason.
+  // False: refused and counted by reason.
   bool write(ChannelId channel, Instant at, std::span<const std::uint8_t> data);
-  // `published` is when the sender made the message, `logged` when it was taken down.
+  // `published`: when the sender created the message; `logged`: when it was recorded.
   bool write(ChannelId channel, Instant logged, Instant published,
              std::span<const std::uint8_t> data);
   bool copy(ChannelId channel, const McapStamps& stamps, std::span<const std::uint8_t> data);
-  // Hands the open chunk to the sink; false when the sink has failed, now or before.
+  // Writes the open chunk to the sink; false if the sink has failed, now or before.
   bool flush();
-  // Flushes and writes the summary; false when the sink has failed. Later calls do nothing.
+  // Flushes and writes the summary; false if the sink has failed. Later calls do nothing.
   bool close();
   const McapCounters& counters() const { return counters_; }
 
@@ -120,7 +121,7 @@ class McapWriter {
   McapCounters counters_;
   std::vector<ChannelTally> tallies_;
   std::vector<std::uint8_t> chunk_;          // message records of the open chunk
-  std::vector<std::uint8_t> scratch_;        // one group of records on its way to the sink
+  std::vector<std::uint8_t> scratch_;        // one group of records before it goes to the sink
   std::vector<std::uint8_t> chunk_indexes_;  // summary records of the chunks so far
   std::vector<std::uint8_t> metadata_index_;
   std::vector<IndexEntry> index_;

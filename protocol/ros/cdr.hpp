@@ -1,16 +1,17 @@
-// The bytes of a ROS 2 message: plain CDR of XCDR version 1 behind its header of four bytes, as
-// DDS carries them, and as Foxglove and MCAP do under the encoding `cdr`.
+// Codec of ROS 2 messages in plain CDR, XCDR version 1 with its header of four bytes, as in DDS
+// and, under the encoding `cdr`, in Foxglove and MCAP.
 //
-//     00 01 00 00   little endian; what follows is aligned to its own size, counted from here on
+//     00 01 00 00   little endian; values are aligned to their own size, counted from here on
 //     string        u32 length with the NUL, characters, NUL
 //     sequence      u32 count, elements         fixed array: elements
 //     no fields     one zero byte
-//   in     a message (protocol/ros/message.hpp), or bytes from anywhere, of either byte order
+//   in     a message (protocol/ros/message.hpp), or bytes from any source, of either byte order
 //   out    bytes, appended; or the message
 //   errors encode: none. decode: a Problem with the field's name for another representation, an
-//          end inside of a field, a length beyond the end, a string without NUL, a bool beyond 1,
-//          more than three bytes behind the end (the padding of RTPS)
-//   cost   O(bytes); numbers in one piece; a length allocates at most what the bytes can hold
+//          end inside of a field, a length beyond the end, a string without NUL, a bool above 1,
+//          more than three bytes after the end (the padding of RTPS)
+//   cost   O(bytes); numbers are copied in one piece; a length never allocates more than the bytes
+//          can hold
 //   source OMG DDS-XTypes 1.3 section 7.4.1 (XCDR1), OMG DDSI-RTPS 2.5 section 10.2
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
@@ -28,7 +29,7 @@ inline constexpr std::size_t kCdrHeader = 4;
 
 class CdrWriter {
  public:
-  // Appends behind what `out` holds; alignment counts from the header that this writes.
+  // Appends to `out`; alignment counts from the end of the header that this writes.
   explicit CdrWriter(std::vector<std::uint8_t>& out);
 
   template <class T>
@@ -100,14 +101,14 @@ class CdrReader {
     }
   }
 
-  // Nothing but padding may follow.
+  // Refuses anything but padding at the end.
   void finish();
   void refuse(std::string why);
   bool ok() const { return !problem_; }
   const Problem& problem() const { return *problem_; }
 
  private:
-  // An element never takes less, whatever its alignment.
+  // Smallest size of an element, whatever its alignment.
   template <class T>
   static constexpr std::size_t least_bytes() {
     if constexpr (Number<T>) return sizeof(T);
@@ -144,7 +145,7 @@ class CdrReader {
   bool take_flag();
   void take_numbers(void* numbers, std::size_t count, std::size_t bytes_each);
 
-  std::span<const std::uint8_t> bytes_;  // behind the header
+  std::span<const std::uint8_t> bytes_;  // after the header
   std::size_t at_ = 0;
   bool swapped_ = false;
   std::string_view field_;

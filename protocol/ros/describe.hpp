@@ -1,10 +1,10 @@
-// Type description of a message for programs that were not compiled with it: its fields and those
-// of every nested message, as rosidl describes them; from that the .msg text and the type hash.
+// Type description of a message for programs that were compiled without it: its fields and those of
+// every nested message, as rosidl describes them; from these the .msg text and the type hash.
 //   in     a message (protocol/ros/message.hpp), or fields listed at run time
 //   out    TypeDescription; text of encoding `ros2msg`; hash "RIHS01_" and 64 hexadecimal digits
 //   invariants
-//          the hash depends on names, types and order of the fields, and on nothing else:
-//          constants and comments are text
+//          the hash depends only on names, types and order of the fields: constants and comments
+//          are part of the text only
 //   source ros2/rosidl: type_description_interfaces, rosidl_generator_type_description (RIHS01);
 //          MCAP and Foxglove: schema encoding "ros2msg"
 // SPDX-License-Identifier: Apache-2.0
@@ -16,7 +16,7 @@
 
 namespace pitwall::ros {
 
-// FieldType of type_description_interfaces: those that a .msg of ours can have.
+// FieldType of type_description_interfaces, restricted to the types of our .msg files.
 enum class TypeId : std::uint8_t {
   kNested = 1,
   kInt8 = 2,
@@ -43,8 +43,8 @@ struct FieldDescription {
   Many many = Many::kOne;
   std::uint64_t count = 0;  // of a fixed array
   std::string nested{};     // "std_msgs/msg/Header"; empty unless kNested
-  std::size_t bound = 0;    // of a string that has one
-  std::string comment{};    // behind the field in the text, one line
+  std::size_t bound = 0;    // of a bounded string
+  std::string comment{};    // after the field in the text, one line
 };
 
 struct StructDescription {
@@ -55,7 +55,7 @@ struct StructDescription {
 
 struct TypeDescription {
   StructDescription type;
-  std::map<std::string, StructDescription> referenced;  // by name: the order of the hash
+  std::map<std::string, StructDescription> referenced;  // by name, in the order of the hash
 };
 
 template <class T>
@@ -122,9 +122,9 @@ TypeDescription describe() {
   return all;
 }
 
-// The .msg file of one message alone.
+// Text of the .msg file of one message alone.
 std::string file_text(const StructDescription& type);
-// The .msg file, and behind it each message inside, as `ros2msg`.
+// Text as `ros2msg`: the .msg file, followed by those of all nested messages.
 std::string message_text(const TypeDescription& type);
 std::string type_hash(const TypeDescription& type);
 

@@ -1,5 +1,5 @@
-// Definition of a ROS 2 message by one list of its fields: encoder, decoder, .msg text and type
-// hash all follow from it.
+// Definition of a ROS 2 message by one list of its fields. Encoder, decoder, .msg text and type
+// hash are derived from it.
 //
 //     struct Header {
 //       Time stamp;
@@ -11,8 +11,8 @@
 //     };
 //
 //   invariants
-//          fields stand in the order of the .msg file; a field is a number, bool, Byte, string
-//          (with a bound or without), another message, or a std::array (fixed) or std::vector (any
+//          fields are in the order of the .msg file; a field is a number, bool, Byte, string (with
+//          or without a bound), another message, or a std::array (fixed length) or std::vector (any
 //          length) of these
 //   source rosidl, the .msg files of ROS 2 Humble to Jazzy
 // SPDX-License-Identifier: Apache-2.0
@@ -29,7 +29,7 @@
 
 namespace pitwall::ros {
 
-// `byte` of a .msg file: the octet of an IDL, and another type than `uint8`.
+// `byte` of a .msg file: an IDL octet, which is a different type than `uint8`.
 enum class Byte : std::uint8_t {};
 
 // `string<=N` of a .msg file.
@@ -57,7 +57,7 @@ constexpr Field<M, T> field(std::string_view name, T M::*member) {
   return {name, member};
 }
 
-// `uint8 ADD=0`: part of the text, not of the bytes and not of the type hash.
+// Constant such as `uint8 ADD=0`: part of the text, not of the bytes and not of the type hash.
 struct Constant {
   std::string_view type, name, value;
 };
@@ -90,7 +90,7 @@ struct IsFixedArray<std::array<T, N>> : std::true_type {};
 template <class T>
 concept FixedArray = IsFixedArray<T>::value;
 
-// f(const Field<M, T>&) for each field, in order.
+// Calls f(const Field<M, T>&) for each field, in order.
 template <Message M, class F>
 constexpr void for_each_field(F&& f) {
   std::apply([&f](const auto&... fields) { (f(fields), ...); }, M::members());

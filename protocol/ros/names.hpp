@@ -13,7 +13,7 @@
 
 namespace pitwall::ros {
 
-inline constexpr std::size_t kTopicMax = 247;  // 255 of DDS less the prefixes of rmw
+inline constexpr std::size_t kTopicMax = 247;  // 255 of DDS minus the prefixes of rmw
 
 Result<std::string, Problem> dds_topic(std::string_view topic);
 // `type` is the kType of a message.

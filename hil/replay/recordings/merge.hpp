@@ -1,15 +1,14 @@
-// Several recordings as one, on one time base: a car's black box and its rival's, the segments of
-// one run, a bus log beside a bag.
-//   in     recordings, each with a label and with what its stamps are moved by; their order is
-//          their rank
-//   out    one recording in total order (stamp, source, sequence): sources stand in the order of
+// Merge of several recordings into one on a common time base: for example of two cars, of the
+// segments of one run, or of a bus log and a bag.
+//   in     recordings, each with a label and a time offset; their order in the list is their rank
+//   out    one recording in total order (stamp, source, sequence). Sources stand in the order of
 //          the recordings, so the rank decides between equal stamps, then the source, then the
 //          order of the file
 //   invariants
-//          no record is lost or made; records of one recording keep their order. The same inputs
+//          no record is lost or added; records of one recording keep their order. The same inputs
 //          give the same output, and merging in steps gives the same as merging at once
-//          a source of the same label, name, kind and type as an earlier one goes on in it: so the
-//          segments of one run become one recording
+//          sources with equal label, name, kind and type become one source, so the segments of one
+//          run become one recording
 //   errors Problem for an offset beyond kLongestOffset
 //   cost   O(n log n) comparisons; bytes are moved, not copied
 // SPDX-License-Identifier: Apache-2.0
@@ -27,7 +26,7 @@ inline constexpr Duration kLongestOffset = seconds(2'000'000'000);  // 63 years
 
 struct MergeInput {
   Recording recording;
-  std::string label{};  // "car7": its sources are "car7:/can/in"; empty: they keep their names
+  std::string label{};  // prefix of the sources: "car7" gives "car7:/can/in"; empty: no prefix
   Duration offset{};    // added to every stamp
 };
 

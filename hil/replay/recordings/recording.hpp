@@ -1,12 +1,14 @@
-// A recording with CAN and sensor traffic as a value: its sources, its records in one total order,
-// and what was left out of it and where.
-//   out    records ordered by (stamp, source, sequence): for every reader and every run the same
+// Recording of CAN and sensor traffic as a value: its sources, its records in total order, and what
+// a reader left out, with the place.
+//   out    records ordered by (stamp, source, sequence); the order is the same for every reader and
+//          every run
 //   units  stamps: nanoseconds on the calendar clock of the recording
 //   invariants
-//          of one source, sequences count from 0 in the order of the file; first and last of a
-//          source are the earliest and the latest stamp
-//          a record of CAN holds a frame, every other one bytes; bytes belong to the recording
-//          whatever a reader leaves out is counted and told in a remark
+//          the sequences of a source count from 0 in the order of the file; `first` and `last` of a
+//          source are its earliest and latest stamp
+//          a record of a CAN source holds a frame, every other record bytes; the recording owns the
+//          bytes
+//          everything that a reader leaves out is counted and described in a remark
 //   cost   some 100 bytes for a record beside the bytes of the file
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
@@ -26,9 +28,9 @@ namespace pitwall::traffic {
 
 enum class SourceKind : std::uint8_t {
   kCan,       // frames of a bus
-  kReceiver,  // bytes of a GNSS or inertial receiver, as they came
+  kReceiver,  // bytes of a GNSS or inertial receiver, as received
   kRos,       // ROS 2 messages: encapsulated CDR of the type that the source names
-  kOther,     // bytes in an encoding that only their maker knows: datagrams, JSON, LCM messages
+  kOther,     // bytes in another encoding: datagrams, JSON, LCM messages
 };
 std::string_view to_string(SourceKind kind);
 
@@ -37,7 +39,7 @@ struct Source {
   SourceKind kind = SourceKind::kOther;
   std::string type;  // "novatel", "sensor_msgs/msg/Imu", "json"
   std::uint64_t records = 0;
-  std::uint64_t backward = 0;  // records stamped earlier than the one before in the file
+  std::uint64_t backward = 0;  // records with a stamp before that of the previous one in the file
   UtcTime first{}, last{};
 
   bool operator==(const Source&) const = default;
@@ -45,7 +47,7 @@ struct Source {
 
 struct Record {
   UtcTime at;
-  std::uint32_t source = 0;  // place in Recording::sources
+  std::uint32_t source = 0;  // index in Recording::sources
   std::uint64_t sequence = 0;
   std::variant<Bytes, can::Frame> content;
 
@@ -58,16 +60,16 @@ inline bool precedes(const Record& a, const Record& b) {
 }
 
 struct RecordingCounters {
-  std::uint64_t refused = 0;       // messages left out: not what their type, stamp or format says
-  std::uint64_t error_frames = 0;  // reports of a CAN controller, no traffic: left out
+  std::uint64_t refused = 0;       // messages left out: type, stamp or format is wrong
+  std::uint64_t error_frames = 0;  // CAN error frames, left out because they are not traffic
   std::uint64_t unverified = 0;    // records without a checksum that could be checked
   std::uint64_t lost_blocks = 0;   // chunks or pages of the file that could not be read
-  std::uint64_t lost_bytes = 0;    // of the file, in no record
+  std::uint64_t lost_bytes = 0;    // bytes of the file that are in no record
 
   bool operator==(const RecordingCounters&) const = default;
 };
 
-// What a reader has to tell: where first, what, and how often.
+// Remark of a reader: the first place, what happened there, and how often it happened.
 struct Remark {
   std::string place;  // "run.mcap: byte 4711"
   std::string what;
@@ -82,9 +84,9 @@ struct Recording {
   std::vector<Record> records;
   RecordingCounters counters;
   std::vector<Remark> remarks;
-  BytePool pool;  // what the records' bytes lie in
+  BytePool pool;  // memory that holds the bytes of the records
 
-  // Of all records; of none: zero.
+  // Stamp of the first and of the last record; zero without records.
   UtcTime first() const { return records.empty() ? UtcTime{} : records.front().at; }
   UtcTime last() const { return records.empty() ? UtcTime{} : records.back().at; }
 };

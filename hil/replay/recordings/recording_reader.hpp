@@ -1,7 +1,7 @@
-// Reader of any recording with sensor traffic, recognised by its content.
+// Reader of any recording with sensor traffic; it detects the format by the content.
 //   in     the whole file, also compressed as a whole by rosbag2 (.mcap.zstd, .db3.zstd); its name
-//   out    what the reader of its format gives
-//   errors Problem for a file of none of these formats, with what is read
+//   out    the recording from the reader of its format
+//   errors Problem for a file of another format; it lists the formats that are supported
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -18,7 +18,7 @@ namespace pitwall::traffic {
 enum class RecordingFormat : std::uint8_t { kNone, kMcap, kSqliteBag, kLcm, kReceiver };
 std::string_view to_string(RecordingFormat format);
 
-// Of the bytes as they are after decompression.
+// Expects decompressed bytes.
 RecordingFormat format_of(Bytes file);
 
 Result<Recording, Problem> read_recording(transport::FileBytes file, const std::string& name,

@@ -1,9 +1,9 @@
-// A SQLite database in memory, read only, and the rows of its queries.
+// SQLite database in memory, read only, and the result rows of its queries.
 //   in     the bytes of a database file
-//   out    rows; columns by their number, none where a column is of another type
-//   errors a query that cannot be prepared gives nothing; rows that end early say so; fault() is
-//          SQLite's own text of the last failure
-//   cost   SQLite reads the bytes where they lie
+//   out    rows; columns by number, empty if the column has another type
+//   errors query() returns nullopt if the statement cannot be prepared; failed() is true if an
+//          error ended the rows early; fault() is SQLite's own text of the last failure
+//   cost   SQLite reads the bytes in place, without a copy
 //   source https://sqlite.org/c3ref/deserialize.html, https://sqlite.org/fileformat2.html
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
@@ -27,8 +27,8 @@ class SqliteRows {
   bool next();
   bool failed() const { return failed_; }
   std::optional<std::int64_t> integer(int column) const;
-  std::string text(int column) const;           // empty where it is none
-  std::optional<Bytes> blob(int column) const;  // until the next row
+  std::string text(int column) const;           // empty if the column is not text
+  std::optional<Bytes> blob(int column) const;  // valid until the next row
 
  private:
   friend class SqliteImage;
@@ -45,11 +45,11 @@ class SqliteImage {
  public:
   static bool is_one(Bytes file);
   static bool had_write_ahead_log(Bytes file);
-  // How long the file was by its own header; 0 where it does not say.
+  // Length of the file by its own header; 0 if the header does not say.
   static std::uint64_t announced_bytes(Bytes file);
 
   explicit SqliteImage(transport::FileBytes file);
-  SqliteImage(const SqliteImage&) = delete;  // SQLite knows where the bytes lie
+  SqliteImage(const SqliteImage&) = delete;  // SQLite keeps a pointer to the bytes
   SqliteImage& operator=(const SqliteImage&) = delete;
 
   std::optional<SqliteRows> query(const char* sql);

@@ -1,8 +1,8 @@
-// A CAN log as Vector ASC, hexadecimal, with absolute stamps from the millisecond of the earliest
-// frame.
+// Writer of CAN logs in the format Vector ASC, hexadecimal, with absolute stamps from the
+// millisecond of the earliest frame.
 //   in     frames; the number of each channel (1 and up)
-//   out    text; a stamp of whole microseconds has 6 digits, any other 9. A direction that is not
-//          known is written as Rx
+//   out    text; a stamp of whole microseconds has 6 digits, any other 9. An unknown direction is
+//          written as Rx
 //   invariants
 //          read_asc() reads the same frames
 //   source python-can can/io/asc.py (ASCWriter)

@@ -1,10 +1,10 @@
-// A CAN log as Vector BLF: containers packed by zlib, CAN_MESSAGE and CAN_FD_MESSAGE, stamps in
-// nanoseconds from the millisecond of the earliest frame.
+// Writer of CAN logs in the format Vector BLF: containers compressed by zlib, CAN_MESSAGE and
+// CAN_FD_MESSAGE, stamps in nanoseconds from the millisecond of the earliest frame.
 //   in     frames; the number of each channel (1 and up)
-//   out    bytes. A direction that is not known is written as received
+//   out    bytes. An unknown direction is written as received
 //   invariants
 //          read_blf() reads the same frames
-//   errors Problem where zlib has no memory
+//   errors Problem if zlib has no memory
 //   source python-can can/io/blf.py (BLFWriter)
 // SPDX-License-Identifier: Apache-2.0
 #pragma once

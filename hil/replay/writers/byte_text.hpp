@@ -1,6 +1,6 @@
-// Little-endian and big-endian numbers at the end of a file in memory.
+// Append functions for little-endian and big-endian numbers in a binary file in memory.
 //   in     unsigned numbers
-//   out    bytes
+//   out    bytes at the end of the string
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

@@ -1,9 +1,9 @@
-// Bytes packed as one member of a gzip file.
+// Gzip compression of a file in memory, as one gzip member.
 //   in     the bytes of a whole file
-//   out    the packed file, without a name or a time: the same bytes give the same file
+//   out    the compressed file, without a name or a time: the same bytes give the same file
 //   invariants
-//          unpack_gzip() gives the bytes back
-//   errors Problem where zlib has no memory
+//          unpack_gzip() restores the bytes
+//   errors Problem if zlib has no memory
 //   source RFC 1952; zlib
 // SPDX-License-Identifier: Apache-2.0
 #pragma once

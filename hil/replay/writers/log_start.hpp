@@ -1,4 +1,4 @@
-// The zero of the stamps of a file that has a date and offsets from it.
+// Zero of the stamps in file formats that have a start date and offsets from it.
 //   in     a log
 //   out    the millisecond of the earliest frame; 1970 for a log without frames
 // SPDX-License-Identifier: Apache-2.0

@@ -1,10 +1,10 @@
-// A CAN log as a file of another format, which its name asks for.
+// Conversion of a CAN log into the file format that the suffix of the file name selects.
 //
 //   .log candump   .asc Vector ASC   .blf Vector BLF   .trc PEAK TRC 2.1
-//   .pcap .pcapng SocketCAN captures; .gz behind any of them: packed by gzip
+//   .pcap .pcapng SocketCAN captures; a further .gz compresses with gzip
 //
-//   in     a log that was read; the name of the file to be
-//   out    its bytes, and what the format cannot keep, in words
+//   in     a log that was read; the name of the output file
+//   out    the bytes of that file, and a text for each property that the format cannot keep
 //   errors Problem: another suffix, or stamps that the format cannot hold
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
@@ -27,7 +27,7 @@ struct WrittenLog {
 
 Result<WrittenLog, Problem> write_can_log(const CanLog& log, std::string_view file_name);
 
-// Numbers from 1 for formats without names: canN has N+1, others what is left.
+// Channel numbers from 1 for formats without names: canN gets N+1, others get free numbers.
 std::vector<unsigned> channel_numbers_of(const CanLog& log);
 
 }  // namespace pitwall::replay

@@ -1,8 +1,7 @@
-// A CAN log as a capture of SocketCAN: pcap, or pcapng with the names of the channels and the
-// directions.
+// Writer of CAN logs as SocketCAN captures: pcap, or pcapng with channel names and directions.
 //   in     frames with stamps up to 2106 for pcap
-//   out    bytes, little endian; pcap in microseconds unless a stamp has more digits, pcapng in
-//          nanoseconds. Frames are whole structs of the kernel, 16 or 72 bytes
+//   out    bytes, little endian; pcap in microseconds, or in nanoseconds if a stamp has more
+//          digits; pcapng in nanoseconds. Frames are whole structs of the kernel, 16 or 72 bytes
 //   invariants
 //          read_pcap(), read_pcapng() read the same frames; pcap has one channel and no direction
 //   source IETF draft-ietf-opsawg-pcap, draft-ietf-opsawg-pcapng; linktype 227

@@ -1,7 +1,7 @@
-// The sections of a DBC file that say more about messages, signals and nodes that are already
-// known: comments, attributes, names of values, floating point, extended multiplexing, senders.
-//   in      the scanner just behind the section's first word; a draft that is indexed
-//   out     the draft, filled; a warning for each reference to something that is not there
+// Parser of the DBC sections that refer to messages, signals and nodes defined elsewhere: comments,
+// attributes, names of values, floating point, extended multiplexing, senders.
+//   in      the scanner after the first word of the section; an indexed draft
+//   out     the draft, filled; a warning for each reference to something that does not exist
 //   errors  findings of the draft; a section that cannot be read is left out
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
@@ -13,8 +13,8 @@
 
 namespace pitwall::can {
 
-// In which turn a section of this word must be read, so that what it refers to is known; -1 where
-// it is none of these.
+// Pass in which a section with this word must be read, so that everything it refers to is known; -1
+// for other words.
 int turn_of(std::string_view word);
 inline constexpr int kTurns = 3;
 

@@ -1,7 +1,7 @@
-// A database while its file is being read: what the sections say, not yet put together.
-//   in      messages in the order of the file, then what refers to them by number and name
-//   out     finish(): the Database; selectors resolved, long names in place, plans made, everything
-//           that contradicts itself left out or marked
+// Draft of a database during parsing: the content of the sections, not yet combined.
+//   in      messages in the order of the file, then the items that refer to them by number and name
+//   out     finish(): the Database, with resolved selectors, long names and plans; everything
+//           inconsistent is left out or marked
 //   errors  findings of the database
 //   cost    n log n in the size of the file, whatever is in it
 // SPDX-License-Identifier: Apache-2.0
@@ -23,16 +23,16 @@
 namespace pitwall::can {
 
 inline constexpr std::uint32_t kExtendedBit = 0x80000000;
-inline constexpr std::string_view kNobody = "Vector__XXX";  // the receiver of what nobody receives
-// VECTOR__INDEPENDENT_SIG_MSG: where editors park signals that belong to no message.
+inline constexpr std::string_view kNobody = "Vector__XXX";  // placeholder: no receiver
+// VECTOR__INDEPENDENT_SIG_MSG: editors keep signals there that belong to no message.
 inline constexpr std::uint32_t kIndependentSignals = 0xC0000000;
 
-// Ends the reading of one statement.
+// Throws, which ends the parsing of this statement.
 [[noreturn]] void refuse_at(const std::string& place, const std::string& what);
 
 class DbcDraft {
  public:
-  // How a signal was marked: plain, M, m3 or m3M; and what SG_MUL_VAL_ says of it.
+  // Multiplexing mark of a signal: plain, M, m3 or m3M; and its entry in SG_MUL_VAL_.
   struct Mark {
     bool is_selector = false;
     std::optional<std::uint64_t> value;
@@ -47,13 +47,13 @@ class DbcDraft {
 
   // A second message with the same id is left out, one with the same name is marked.
   void add(std::uint32_t key, Message message, std::vector<Mark> marks);
-  // What refers to this number is no mistake of its own: its message was left out and told.
+  // References to this number are not reported: its message was left out with a finding.
   void leave_out(std::uint32_t key) { left_out_.insert(key); }
   void leave_out(std::uint32_t key, const std::string& signal) { lost_.insert({key, signal}); }
   bool is_left_out(std::uint32_t key, const std::string& signal) const {
     return left_out_.contains(key) || lost_.contains({key, signal});
   }
-  // After the last message; before anything is looked up.
+  // Call after the last message and before any lookup.
   void index();
 
   std::optional<std::size_t> message(std::uint32_t key) const;
@@ -61,16 +61,16 @@ class DbcDraft {
   std::optional<std::size_t> signal(std::size_t message, std::string_view name) const;
   std::optional<std::size_t> node(std::string_view name) const;
   const ValueTable* table(std::string_view name) const;
-  // Of that name, for every kind of owner that it is defined for.
+  // All definitions of that name, one per kind of owner.
   std::vector<AttributeDefinition*> definitions(std::string_view name);
   const AttributeDefinition* definition(AttributeOwner owner, std::string_view name);
 
-  // False where it replaces one of the same name.
+  // False if it replaces one of the same name.
   bool add(ValueTable table);
   bool add(AttributeDefinition definition);
 
   void find(Finding finding);
-  // An error of this message, for its table too.
+  // Adds an error of this message, also to its list of flaws.
   void flaw(Message& message, Finding finding);
   void lengthen(std::uint32_t key, std::string name);
   void lengthen(Found found, std::string name);
@@ -96,7 +96,7 @@ class DbcDraft {
   std::map<std::string, std::vector<std::size_t>, std::less<>> definitions_;  // by name
   struct LongName {
     std::size_t message = 0;
-    std::optional<std::size_t> signal;  // none: the message itself
+    std::optional<std::size_t> signal;  // empty: the message itself
     std::string name;
   };
   std::vector<LongName> long_names_;

@@ -1,7 +1,7 @@
-// Remarks on a database: definitions that are legal but probably not meant. None makes a file
-// unreadable.
+// Warnings about a DBC database: definitions that are legal but probably not intended. None of them
+// refuses the file.
 //   in      a message with its plans
-//   out     one warning for each oddity
+//   out     one warning per unusual definition
 //   cost    linear in signals and names of values
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
@@ -12,14 +12,14 @@
 
 namespace pitwall::can {
 
-// Lengths that no frame has.
+// A length that no frame has.
 std::vector<Finding> remarks_on(const Message& message);
 
 // Ranges wider than the field or without a representable value, names of values that the field
 // cannot hold, selector values that the selector cannot take, no receiver.
 std::vector<Finding> remarks_on(const Message& message, const Signal& signal);
 
-// Senders and receivers that are no nodes of the file, each told once.
+// Senders and receivers that are not nodes of the file; each name is reported once.
 std::vector<Finding> strangers(const Database& database);
 
 }  // namespace pitwall::can

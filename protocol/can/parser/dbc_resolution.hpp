@@ -1,10 +1,10 @@
-// The signals of one message put together: which multiplexer decides on which, where they lie, and
-// what contradicts itself.
-//   in      a message as it is written, with the mark of each signal
+// Resolution of the signals of one message: the multiplexer of each signal, its plan, and
+// contradictions.
+//   in      a message as written, with the multiplexing mark of each signal
 //   out     the message with selectors, depths and plans. Left out: signals outside their message,
-//           the second of an equal name, those whose multiplexer is missing, left out, not clear or
-//           part of a circle. Kept and marked: signals that overlap others
-//   errors  a finding for each of them
+//           the second one of the same name, those whose multiplexer is missing, left out,
+//           ambiguous or part of a cycle. Kept and marked: signals that overlap others
+//   errors  a finding for each of these
 //   cost    n log n in the signals
 // SPDX-License-Identifier: Apache-2.0
 #pragma once

@@ -1,7 +1,7 @@
-// One section of a DBC file that speaks of something that is already known: where it stands, what
-// it is about, how it ends, and what is told of it.
-//   in      the scanner just behind the section's first word
-//   errors  findings of the draft; also of the message that the section is about
+// Common part of the parsers of DBC sections that refer to an item defined elsewhere: the place of
+// the section, its subject, its end, and its findings.
+//   in      the scanner after the first word of the section
+//   errors  findings of the draft; also of the message that is the subject of the section
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -22,18 +22,18 @@ class DbcSection {
 
   std::string_view word() const { return word_; }
   std::string place() { return scan_.place_of(begin_); }
-  // The number of a message; from here on the section is about that one.
+  // Reads the number of a message, which becomes the subject of the section.
   std::uint32_t message_key();
 
-  // The end of the section; without a ';' the next statement or the end of the file.
+  // True at the end of the section. Without a ';' it ends at the next statement or the end of file.
   bool ends();
   void close();
-  // The whole section as it is, because what it speaks of is not read.
+  // Keeps the whole section as text, because its content is not used.
   void keep();
 
   void warn(FindingKind kind, std::string what, std::string subject = "");
   void report(FindingKind kind, const std::string& where, std::string what, std::string outcome);
-  // A warning for what the file does not have; none for what was left out and told before.
+  // Warns about a reference to a missing item, unless that item was left out with a finding.
   void stranger(std::uint32_t key, std::string_view signal);
 
  private:

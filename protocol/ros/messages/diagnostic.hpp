@@ -1,4 +1,4 @@
-// Messages of diagnostic_msgs: what is well and what is not, as rqt_robot_monitor shows it.
+// Messages of diagnostic_msgs: status of components, as rqt_robot_monitor shows it.
 //   source the .msg files of ROS 2 Jazzy; a test compares names, types and constants with them
 // SPDX-License-Identifier: Apache-2.0
 #pragma once

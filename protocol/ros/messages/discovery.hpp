@@ -1,8 +1,9 @@
-// Messages of the topic `ros_discovery_info`, in which each participant of ROS 2 names its nodes,
-// so that `ros2 node list` knows them.
+// Messages of the topic `ros_discovery_info`, in which each ROS 2 participant lists its nodes, so
+// that `ros2 node list` shows them.
 //   invariants
-//          a Gid has 24 bytes up to Humble, 16 from Iron on, under one and the same name: who says
-//          it to the other kind is not understood. The first 16 are the GUID of the endpoint
+//          a Gid has 24 bytes up to Humble and 16 from Iron on, under the same type name, so the
+//          two sides cannot read each other's message. The first 16 bytes are the GUID of the
+//          endpoint
 //   source ros2/rmw_dds_common: msg/{Gid,NodeEntitiesInfo,ParticipantEntitiesInfo}.msg, before and
 //          after commit 5ab4f59
 // SPDX-License-Identifier: Apache-2.0

@@ -1,5 +1,5 @@
-// Messages of geometry_msgs: metres, radians, seconds; right-handed, x ahead, y left, z up
-// (REP 103). A covariance is row by row.
+// Messages of geometry_msgs: metres, radians, seconds; right-handed, x forward, y left, z up
+// (REP 103). Covariances are stored row by row.
 //   source the .msg files of ROS 2 Jazzy; a test compares names, types and constants with them
 // SPDX-License-Identifier: Apache-2.0
 #pragma once

@@ -1,4 +1,4 @@
-// Messages of nav_msgs and tf2_msgs: where the car is and where it goes (REP 105 frames).
+// Messages of nav_msgs and tf2_msgs: odometry, path and transforms of the car (REP 105 frames).
 //   source the .msg files of ROS 2 Jazzy; a test compares names, types and constants with them
 // SPDX-License-Identifier: Apache-2.0
 #pragma once

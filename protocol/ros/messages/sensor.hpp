@@ -1,5 +1,5 @@
 // Messages of sensor_msgs: degrees and metres above the ellipsoid (NavSatFix), rad/s and m/s^2
-// (Imu); a covariance whose first number is -1 says that there is no measurement.
+// (Imu); a covariance that begins with -1 marks a missing measurement.
 //   source the .msg files of ROS 2 Jazzy; a test compares names, types and constants with them
 // SPDX-License-Identifier: Apache-2.0
 #pragma once

@@ -1,15 +1,16 @@
-// Whose console may command: one holder at a time, renewed each second by that console, expired
-// after three without. Its loss only bars commands; stops need none, and the car drives on.
+// Command authority: which console may send commands. There is one holder at a time; its console
+// renews the authority each second, and it expires after three seconds without a renewal. Its loss
+// only blocks commands: stops need no authority, and the car drives on.
 //   in     base: consoles take, renew and hand over. Car: the fields of Group::kAuthority
-//   out    holder and epoch; whether a command of it may be applied
+//   out    holder and epoch; whether a command of that holder may be applied
 //   invariants
-//          at most one holder. The epoch rises with every change; a packet of an older epoch
-//          changes nothing. Expiry is by the own clock, from the moment of a renewal whose number
-//          was new: a repeated packet renews nothing, and one that was long on its way renews from
-//          when it was said. While the clocks have not been compared nobody holds it
-//          a renewal is an act of the console: nothing here renews by itself
-//          an epoch that is heard no more for kAuthorityExpiry bars no other: a wrong one from the
-//          future, or from a run before, locks nobody out for longer
+//          there is at most one holder. The epoch rises with every change; a packet of an older
+//          epoch changes nothing. Expiry is by the own clock, counted from the time of the newest
+//          renewal number: a repeated packet renews nothing, and a delayed packet renews from the
+//          time of its renewal. While the clocks are not compared there is no holder
+//          every renewal is an action of the console: nothing here renews by itself
+//          an epoch that was not received for kAuthorityExpiry no longer blocks others: a wrong
+//          one, from the future or from a previous run, locks out consoles no longer than that
 //   units  Instant
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
@@ -28,7 +29,7 @@ inline constexpr Duration kAuthorityRenewal = seconds(1), kAuthorityExpiry = sec
 
 class AuthorityRegister {
  public:
-  bool take(HolderId who, Instant now);   // false: somebody else holds it
+  bool take(HolderId who, Instant now);   // false: another console is the holder
   bool renew(HolderId who, Instant now);  // false: not the holder
   bool hand_over(HolderId from, HolderId to, Instant now);
   void drop(HolderId who, Instant now);
@@ -36,7 +37,7 @@ class AuthorityRegister {
   void put(Values& values, Instant now) const;
 
  private:
-  friend struct Fingerprint;  // of the exhaustive explorer, which compares states
+  friend struct Fingerprint;  // state hash for the exhaustive state explorer
 
   void begin(HolderId who, Instant now);
 
@@ -50,17 +51,17 @@ class AuthorityView {
   void receive(const Values& values, const Received& received);
   HolderId holder(Instant now) const;
   bool held(Instant now) const { return holder(now) != 0; }
-  // Without another renewal nobody holds it after; in the past where nobody does now.
+  // Last instant with a holder unless there is another renewal; in the past if there is none now.
   Instant until() const;
   bool allows(const Command& command, Instant now) const;
   void base_restarted() { *this = {}; }
 
  private:
-  friend struct Fingerprint;  // of the exhaustive explorer, which compares states
+  friend struct Fingerprint;  // state hash for the exhaustive state explorer
 
-  HolderId holder_ = 0;  // 0 also after the base said that the epoch is over
+  HolderId holder_ = 0;  // 0 also after the base has ended this epoch
   std::uint16_t epoch_ = 0, renewal_ = 0;
-  std::optional<Instant> received_at_;  // a packet of this epoch
+  std::optional<Instant> received_at_;  // newest packet of this epoch
   std::optional<Instant> renewed_;
 };
 

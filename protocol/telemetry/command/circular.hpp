@@ -1,6 +1,6 @@
-// Numbers that begin again: which of two is the newer.
+// Comparison of sequence numbers that wrap around: which of two is newer.
 //   invariants
-//          of a circle of `size` numbers the half that follows `than` is newer
+//          of `size` numbers the half that follows `than` is newer
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

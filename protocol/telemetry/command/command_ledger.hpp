@@ -1,19 +1,20 @@
-// The car's end of commands: lets each reach its consumer at most once and in time, and remembers
-// what became of it for as long as the base may ask.
-//   in     records; the consumer's answers
+// Car side of the commands: delivers each to its consumer at most once and in time, and stores its
+// result for as long as the base may ask.
+//   in     records; the answers of the consumer
 //   out    commands that are due for the consumer; results for the next packet
 //   invariants
-//          at most once: a number that was seen is never handed out again, however often it comes,
-//          nor one that a later number has pushed out of memory
-//          in time: handed out only while now - issued <= time to live, `issued` mapped by the
-//          bound that is safe; where the clocks have not been compared nothing is applied: the
-//          command waits until a copy of it comes whose age can be told
-//          in order: of one type, an older one than the newest handed out is kSuperseded
-//          by authority: the console that gave it holds it when it comes and when it is handed out
-//          meant for this run of the car; given by the run of the base that we are met by
-//          take_due() checks the age again when the consumer asks, and decide() once more
-//   errors malformed records return false; a number whose place an undecided one still holds is
-//          counted as `full` and waits
+//          at most once: a number is never delivered again, however often it is received, and
+//          neither is a number that is older than the stored ones
+//          in time: delivered only while now - issued <= time to live, with `issued` mapped by its
+//          safe bound. While the clocks are not compared nothing is applied: the command waits for
+//          a copy whose age is known
+//          in order: a command older than the newest delivered one, or than a waiting one, of its
+//          type is kSuperseded
+//          by authority: its console is the holder on reception and on delivery
+//          meant for this run of the car, and from the run of the base in the present session
+//          take_due() checks the age again on delivery, and decide() once more
+//   errors malformed records return false; a number whose slot is occupied by an undecided command
+//          is counted as `full` and waits
 //   cost   no allocation
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
@@ -32,17 +33,17 @@
 namespace pitwall::telemetry {
 
 struct DueCommand {
-  // The ledger's own handle for decide(): another for each command that is ever handed out, so that
-  // an answer that comes after a restart of the base is not taken for one to a new command.
+  // Handle for decide(), unique for each delivered command, so that an answer after a restart of
+  // the base is not taken as the answer to a new command.
   CommandId id = 0;
-  CommandId number = 0;  // as the base counts
+  CommandId number = 0;  // number of the base
   Command command;
-  Instant expires{};  // own clock; the consumer compares it when it applies
+  Instant expires{};  // own clock; the consumer checks it when it applies the command
 };
 
 struct LedgerCounters {
   std::uint64_t received = 0, repeated = 0, applied = 0, malformed = 0, full = 0;
-  std::uint64_t other_base = 0;  // records of a run of the base that is not (or no more) ours
+  std::uint64_t other_base = 0;  // records from another run of the base
   std::array<std::uint64_t, kOutcomes> decided{};
 };
 
@@ -53,14 +54,14 @@ class CommandLedgerOf {
 
   explicit CommandLedgerOf(std::uint64_t own_boot);
 
-  // At each new session, with the base's Greeting::boot: of another one the numbers begin again.
+  // Call at each new session, with the base's Greeting::boot; with a new value numbers begin again.
   void meets(std::uint64_t base_boot);
 
-  // Groups of the packet come first: `authority` has heard them.
+  // Call after the groups of the packet, so that `authority` is up to date.
   bool take(const Record& record, const Received& received, const AuthorityView& authority);
   std::optional<DueCommand> take_due(Instant now, const AuthorityView& authority);
-  // The consumer's answer, `at` the time when it did it; kExpired is put for kApplied where the
-  // time had passed.
+  // Answer of the consumer, `at` the time of its action; kApplied after the expiry becomes
+  // kExpired.
   void decide(CommandId id, Outcome outcome, Instant at);
   std::size_t wanted() const;
   void fill(BodyWriter& body, Instant now);
@@ -68,15 +69,15 @@ class CommandLedgerOf {
   const LedgerCounters& counters() const { return counters_; }
 
  private:
-  friend struct Fingerprint;  // of the exhaustive explorer, which compares states
+  friend struct Fingerprint;  // state hash for the exhaustive state explorer
 
   struct Entry {
     CommandId number = 0;  // 0: free
     Command command;
-    CommandId handle = 0;            // 0: not handed out
-    std::optional<Instant> expires;  // unknown while no copy came whose age can be told
+    CommandId handle = 0;            // 0: not delivered
+    std::optional<Instant> expires;  // empty until a copy with a known age is received
     Outcome outcome = Outcome::kReceived;
-    bool result_known = false;  // to the base
+    bool result_known = false;  // acknowledged by the base
 
     bool waits() const { return number != 0 && handle == 0 && !is_final(outcome); }
   };

@@ -1,14 +1,14 @@
-// A command, what became of it, and the receipt for that, as payloads of records.
+// Payloads of records for a command, its result, and the acknowledgement of the result.
 //   wire   little endian
 //          kCommand           number u32, run of the base u32, boot of the car that it is meant for
-//                             u32, type u8, argument u16 (step of its row), age u16 (ms, at the
-//                             packet's time of sending), console u8
+//                             u32, type u8, argument u16 (step of its row), age u16 (ms, when the
+//                             packet is sent), console u8
 //          kCommandResult     number u32, run of the base u32, outcome u8
 //          kCommandResultAck  number u32, run of the base u32
 //   invariants
-//          the age is rounded up and saturates: nobody takes a command for younger than it is
-//   errors none for any bytes that the writer does not make; a type that this build does not know
-//          is no error, so that it can be answered
+//          the age is rounded up and saturates, so that a command never seems younger than it is
+//   errors nullopt for bytes that the writer cannot produce. A type unknown to this build is no
+//          error, so that it can be answered
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -24,7 +24,7 @@ namespace pitwall::telemetry {
 
 inline constexpr std::size_t kCommandSize = 18, kResultSize = 9, kResultAckSize = 8;
 
-// Greeting::boot as it stands in records: 32 of its bits, mixed of all.
+// Greeting::boot as in records: 32 bits, mixed from all 64.
 constexpr std::uint32_t short_boot(std::uint64_t boot) {
   return static_cast<std::uint32_t>(boot ^ boot >> 32U);
 }

@@ -1,9 +1,9 @@
-// Every command that a base may give. Commands are absolute: "120 km/h", never "10 faster" nor
-// "toggle", so that one which comes twice, late or out of order does no harm.
-//   wire   see command_record.hpp; arguments quantised as their row says
+// Table of all commands of a base. Commands are absolute ("120 km/h", never "10 faster" or
+// "toggle"), so that a command that is repeated, late or out of order does no harm.
+//   wire   see command_record.hpp; arguments quantised as in their row
 //   invariants
-//          commands of one slot replace each other: a newer one supersedes what was not applied
-//   units  as each row has it
+//          commands of one type replace each other: a newer one supersedes those not yet applied
+//   units  as in each row
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -20,12 +20,12 @@ namespace pitwall::telemetry {
 
 enum class CommandType : std::uint8_t {
   kArm,              // 0 disarm, 1 arm
-  kReset,            // 1: a stop that has ended is acknowledged by the operator
+  kReset,            // 1: the operator acknowledges a stop that has ended
   kSpeedLimit,       // m/s; the car never drives faster
   kRaceLine,         // number of the line
   kRole,             // 0 none, 1 defender, 2 attacker
-  kTrackFlag,        // as telemetry labels kTrackFlags; the most restrictive of all sources holds
-  kSensorsExcluded,  // a set of bits: which sensors the car does not believe; 0: uses all
+  kTrackFlag,        // as telemetry labels kTrackFlags; the most restrictive of all sources applies
+  kSensorsExcluded,  // bit set of the sensors that the car does not use; 0: it uses all
   kReleaseStop,      // argument: the car's challenge; see stop_latch.hpp
   kEndRun,           // 1: the car ends its run where it stands
   kSendParameters    // 1: as bulk
@@ -37,16 +37,16 @@ struct CommandRow {
   std::string_view name;
   std::string_view unit;
   double min, max, resolution;
-  Duration time_to_live;  // not applied later than this after it was given
+  Duration time_to_live;  // not applied later than this after the command was issued
   bool needs_authority;
-  // Of the values 0, 1, 2 ...; of a bit set: of the bits. "-": a value that means nothing.
+  // Names of the values 0, 1, 2 ..., or of the bits of a bit set. "-": a value without a meaning.
   std::string_view labels = {};
-  bool offered = true;  // some car carries it out
+  bool offered = true;  // at least one car executes it
 
   static constexpr std::string_view kBitSet = "bits", kNoValue = "-";
 
   constexpr bool is_set() const { return unit == kBitSet; }
-  // An argument that means something: in the range, and named where the values have names.
+  // True for a valid argument: in the range, and named if the values have names.
   constexpr bool has(double argument) const {
     if (!(argument >= min && argument <= max)) return false;
     if (labels.empty()) return true;
@@ -80,7 +80,7 @@ static_assert(kCommandTable.size() == kCommandTypes);
 static_assert([] {
   for (std::size_t i = 0; i < kCommandTypes; ++i) {
     if (static_cast<std::size_t>(kCommandTable[i].type) != i) return false;
-    if (kCommandTable[i].quantized().bits() > 16) return false;  // as command_record.hpp has it
+    if (kCommandTable[i].quantized().bits() > 16) return false;  // argument of a CommandRecord
   }
   return true;
 }());
@@ -89,25 +89,25 @@ constexpr const CommandRow& row_of(CommandType type) {
   return kCommandTable[static_cast<std::size_t>(type)];
 }
 
-using CommandId = std::uint32_t;  // rises within one run of the base, from 1
-using HolderId = std::uint8_t;    // a console that may hold the authority: 1 .. 254; 0: nobody
+using CommandId = std::uint32_t;  // ascending within one run of the base, from 1
+using HolderId = std::uint8_t;    // a console that can hold the authority: 1 .. 254; 0: none
 
 struct Command {
   CommandType type = CommandType::kArm;
   double argument = kUnset;
-  HolderId issuer = 0;  // the console that gave it
+  HolderId issuer = 0;  // the console that issued it
 };
 
-// What became of it, as the car says. All but kReceived are final.
+// Result of a command, from the car. All except kReceived are final.
 enum class Outcome : std::uint8_t {
-  kReceived,  // known to the car, its consumer has not answered
+  kReceived,  // received by the car, no answer of its consumer yet
   kApplied,
   kRefused,      // the consumer did not accept it in its present state
-  kUnsupported,  // this car has no such thing
-  kExpired,      // came, or was to be applied, after its time
+  kUnsupported,  // this car has no such function
+  kExpired,      // received, or due to be applied, after its time to live
   kSuperseded,   // a newer one of its type came first
-  kNoAuthority,  // the console that gave it did not hold the authority
-  kOtherRun      // meant for the run of the car before this one
+  kNoAuthority,  // the console that issued it did not hold the authority
+  kOtherRun      // meant for a previous run of the car
 };
 inline constexpr std::size_t kOutcomes = 8;
 constexpr bool is_final(Outcome outcome) { return outcome != Outcome::kReceived; }

@@ -1,16 +1,18 @@
-// The base's end of commands: gives each a number, repeats it in every packet until the car has
-// told what became of it, and knows at any time how far it came.
-//   in     commands, what the car answered, whether a later state of the car confirms it
-//   out    records for the next packet; stages: sent, received, applied, confirmed; a definite fate
+// Base side of the commands: numbers each command, repeats it in every packet until the car has
+// sent its result, and keeps its progress.
+//   in     commands, the results from the car, whether a later state of the car confirms one
+//   out    records for the next packet; stages: sent, received, applied, confirmed; a definite
+//          result
 //   invariants
-//          a command is in every packet until its result came, and past its time to live it still
-//          asks (the car then answers from memory, or "expired"), so each ends with a fate of the
-//          car's own words; only a car that restarted leaves kOtherRun
-//          a number is used again by nobody: not within a run of the base (they rise), and a run of
-//          the base is named in every record
+//          a command is in every packet until its result is received, even past its time to live
+//          (the car then answers with the stored result, or "expired"). So every result comes from
+//          the car, except kOtherRun after a restart of the car
+//          a number is never reused: numbers ascend within a run of the base, and every record
+//          names the run
 //   units  Instant on the base's clock
-//   errors issue(): none while no car was met, when kOpen commands are under way, or where the
-//          argument is not in its row's range; the caller is told
+//   errors issue() returns nullopt before the first session with a car, while kOpen commands are
+//          open, while the slot of the next number is occupied by an open one, or if the argument
+//          is out of the range of its row
 //   cost   no allocation
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
@@ -35,22 +37,22 @@ struct CommandProgress {
   std::optional<Outcome> fate;  // set once, final
 };
 
-// `Kept`: how many commands' progress can still be asked for.
+// `Kept`: number of commands whose progress is stored.
 template <std::size_t Kept>
 class CommandTransmitterOf {
  public:
-  static constexpr std::size_t kOpen = Kept < 16 ? Kept : 16;  // under way at once
+  static constexpr std::size_t kOpen = Kept < 16 ? Kept : 16;  // open at the same time
   static constexpr std::size_t kKept = Kept;
 
   explicit CommandTransmitterOf(std::uint64_t own_boot);
 
-  // At each new session, with the car's Greeting::boot: another one than before is a restart.
+  // Call at each new session, with the car's Greeting::boot; a new value means a restart.
   void meets(std::uint64_t car_boot, Instant now);
-  // The car restarted: what it had not decided is decided.
+  // The car restarted: every open command ends with kOtherRun.
   void car_restarted(Instant now);
 
   std::optional<CommandId> issue(const Command& command, Instant now);
-  // Adds its records to a packet; how many bytes it wants at least (its part of the safety share).
+  // fill() adds the records to a packet; wanted() is their size, the part in the safety share.
   std::size_t wanted() const;
   void fill(BodyWriter& body, Instant now);
   // False: the record is malformed (counted by the caller).
@@ -58,11 +60,11 @@ class CommandTransmitterOf {
   void confirm(CommandId id, Instant now);
 
   const CommandProgress* progress(CommandId id) const;
-  const CommandProgress* newest(CommandType type) const;  // of those that are kept
+  const CommandProgress* newest(CommandType type) const;  // of the stored ones
   std::size_t open() const { return open_; }
 
  private:
-  friend struct Fingerprint;  // of the exhaustive explorer, which compares states
+  friend struct Fingerprint;  // state hash for the exhaustive state explorer
 
   struct Entry {
     CommandProgress progress;
@@ -78,7 +80,8 @@ class CommandTransmitterOf {
   std::array<Entry, Kept> kept_{};
   CommandId newest_ = 0;
   std::size_t open_ = 0;
-  FixedVector<CommandId, 2 * kOpen> acks_due_;  // a result beyond is repeated, then acknowledged
+  // A result that does not fit is repeated by the car, then acknowledged.
+  FixedVector<CommandId, 2 * kOpen> acks_due_;
 };
 
 using CommandTransmitter = CommandTransmitterOf<256>;

@@ -1,16 +1,16 @@
-// The operator's joystick over the radio: it can only make the car slower, and only while fresh
-// samples of a live hand arrive.
+// Operator's joystick over the radio: it can only slow the car down, and only while fresh samples
+// of the device arrive.
 //   in     base: samples of the input device as they are read. Car: the fields of Group::kJoystick
-//          of each packet, and how old the packet is
-//   out    base: fields for the next packet. Car: throttle cap and brake demand, or nothing
+//          of each packet, and the age of the packet
+//   out    base: fields for the next packet. Car: throttle cap and brake demand, or nullopt
 //   invariants
-//          dead after 200 ms without a newer sample number, whatever packets say meanwhile: a
-//          repeated last value is no sample. A sample older than 100 ms when it is sent, or 200 ms
-//          when it is used (way and queue included), is none. Nothing here can raise the throttle
-//          there is no way to make a sample but from a device
-//          a number from far ahead locks nobody out: once its sample is dead, any number is new
+//          a sample expires at an age of 200 ms, whatever packets repeat meanwhile: a repeated
+//          sample number is no new sample. A sample older than 100 ms on sending, or 200 ms on use
+//          (transmission and queue included), is invalid. Nothing here can raise the throttle
+//          only an input device can create a sample
+//          a number far ahead locks out no later one: after its sample expires, any number is new
 //   units  throttle cap and brake 0 .. 1
-//   errors a sample that is no number is no sample; one out of range counts as its end
+//   errors a NaN sample is ignored; a value out of range is clamped
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -33,7 +33,7 @@ struct JoystickSample {
 
 class JoystickSender {
  public:
-  void sample(const JoystickSample& sample, Instant at);  // the device spoke
+  void sample(const JoystickSample& sample, Instant at);  // a reading of the device
   void put(Values& values, Instant now) const;
 
  private:
@@ -48,10 +48,10 @@ struct JoystickCounters {
 
 class JoystickReceiver {
  public:
-  // `received.sent_earliest` unset: the clocks are not compared, the sample is not used.
+  // If `received.sent_earliest` is empty, the clocks are not compared and the sample is not used.
   void receive(const Values& values, const Received& received);
   std::optional<JoystickSample> sample(Instant now) const;
-  // The time of the sample that sample() gives, on the car's clock, never later than the truth.
+  // Time of the sample from sample(), on the car's clock, never later than the true time.
   std::optional<Instant> sampled_at() const { return taken_at_; }
   void base_restarted();
   const JoystickCounters& counters() const { return counters_; }
@@ -61,7 +61,7 @@ class JoystickReceiver {
 
   JoystickSample newest_;
   std::uint16_t number_ = 0;
-  std::optional<Instant> taken_at_;  // the sample's own time, on the car's clock
+  std::optional<Instant> taken_at_;  // time of the sample, on the car's clock
   JoystickCounters counters_;
 };
 

@@ -1,16 +1,16 @@
-// Large things in pieces: paths, point sets, parameter dumps. First to starve: they get what room
-// the packets have left.
-//   wire   kBulk: object u16, kind u8, total bytes u24, first piece u16, one piece or more. The
-//          pieces are those of the object and its CRC-32 (IEEE 802.3, u32) one after the other; all
-//          are kBulkPiece bytes but the last
-//          kBulkAck: object u16, kind u8, the first piece that is missing u16, then for each piece
-//          after that one a bit, whether it came; no byte of zeros at the end
+// Transfer of large objects in pieces: paths, point sets, parameter dumps. Lowest priority: they
+// use the room that is left in the packets.
+//   wire   kBulk: object u16, kind u8, total bytes u24, first piece u16, one or more pieces. The
+//          pieces divide the object followed by its CRC-32 (IEEE 802.3, u32); all have kBulkPiece
+//          bytes except the last
+//          kBulkAck: object u16, kind u8, first missing piece u16, then one bit for each following
+//          piece: whether it was received; trailing zero bytes are omitted
 //   invariants
-//          an object is handed out whole and once, after its CRC-32 was checked, or not at all. Of
-//          one slot (kind) the newest object wins: an older one that is not complete is dropped and
-//          counted. Pieces may come in any order, twice, or not at all; lost ones are sent again.
-//          The kinds take turns
-//   bound  kBulkObject bytes, kBulkSlots at once; a larger one is refused by offer()
+//          an object is delivered whole and once, after a check of its CRC-32, or not at all. Of
+//          each slot (kind) the newest object wins: an older, incomplete one is dropped and
+//          counted. Pieces may arrive in any order, repeated, or not at all; lost ones are sent
+//          again. The kinds take turns
+//   bound  kBulkObject bytes per object, one object per kind at once; offer() refuses a larger one
 //   cost   no allocation after construction
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
@@ -30,16 +30,16 @@ namespace pitwall::telemetry {
 inline constexpr std::size_t kBulkObject = 64 * 1'024, kBulkPiece = 64;
 inline constexpr std::size_t kBulkStream = kBulkObject + sizeof(std::uint32_t);
 inline constexpr std::size_t kBulkPieces = (kBulkStream + kBulkPiece - 1) / kBulkPiece;
-// Pieces after the first missing one that an acknowledgement can name; none beyond is sent.
+// Pieces after the first missing one that fit into an acknowledgement; none beyond is sent.
 inline constexpr std::size_t kBulkWindow = 256;
 
 enum class BulkKind : std::uint8_t { kPath, kOpponentPaths, kPoints, kParameters, kSchema, kLog };
 inline constexpr std::size_t kBulkKinds = 6;
 
-// Sender: offered, acknowledged whole, replaced before that, pieces sent, of these again, refused
-// by offer(), bad or impossible acknowledgements. Receiver: begun, handed out, replaced before
-// that, pieces had, of these known, records of older objects, bad records, objects that did not fit
-// their checksum.
+// Sender, in order: objects offered, acknowledged whole, replaced before that, pieces sent, of
+// these repeated, objects refused by offer(), malformed or impossible acknowledgements. Receiver:
+// objects begun, delivered, replaced before that, pieces received, of these repeated, records of
+// older objects, malformed records, objects with a wrong checksum.
 struct BulkCounters {
   std::uint64_t objects = 0, delivered = 0, superseded = 0, pieces = 0, repeated = 0;
   std::uint64_t refused = 0, malformed = 0, bad_checksum = 0;
@@ -48,12 +48,12 @@ struct BulkCounters {
 class BulkSender {
  public:
   BulkSender();
-  // A new object of the kind; replaces one that is not delivered. False: too large or empty.
+  // New object of the kind; replaces one that is not delivered yet. False: too large or empty.
   bool offer(BulkKind kind, std::span<const std::uint8_t> bytes);
   bool idle() const;
   void fill(BodyWriter& body, Duration round_trip, Instant now);
   bool take(const Record& record, const Received& received);  // kBulkAck
-  void peer_restarted();  // begins again with what is not delivered
+  void peer_restarted();  // restarts the transfer of all objects not delivered
   const BulkCounters& counters() const { return counters_; }
 
  private:
@@ -64,7 +64,7 @@ class BulkSender {
   struct Slot {
     std::uint16_t object = 0;
     std::size_t bytes = 0;    // 0: nothing to send
-    std::size_t missing = 0;  // the first piece that is not acknowledged
+    std::size_t missing = 0;  // first piece that is not acknowledged
 
     std::size_t stream() const { return bytes + sizeof(std::uint32_t); }
     std::size_t pieces() const { return (stream() + kBulkPiece - 1) / kBulkPiece; }
@@ -81,7 +81,7 @@ class BulkSender {
   std::vector<Piece> pieces_;
   std::array<Slot, kBulkKinds> slots_{};
   std::uint16_t last_object_ = 0;
-  std::size_t turn_ = 0;  // the kind that goes first in the next packet
+  std::size_t turn_ = 0;  // kind that comes first in the next packet
   BulkCounters counters_;
 };
 
@@ -91,7 +91,7 @@ class BulkReceiver {
   bool take(const Record& record, const Received& received);  // kBulk
   struct Object {
     BulkKind kind;
-    std::span<const std::uint8_t> bytes;  // until the next take()
+    std::span<const std::uint8_t> bytes;  // valid until the next take()
   };
   std::optional<Object> next();
   void fill(BodyWriter& body, Instant now);  // kBulkAck
@@ -104,8 +104,8 @@ class BulkReceiver {
     Stage stage = Stage::kNone;
     std::uint16_t object = 0;
     std::size_t bytes = 0;
-    std::size_t missing = 0;  // the first piece that did not come
-    std::size_t end = 0;      // one past the last that came
+    std::size_t missing = 0;  // first missing piece
+    std::size_t end = 0;      // one past the last received piece
     bool ack_due = false;
 
     std::size_t stream() const { return bytes + sizeof(std::uint32_t); }
@@ -121,7 +121,7 @@ class BulkReceiver {
   bool refuse();
 
   std::vector<std::uint8_t> store_;
-  std::vector<std::uint8_t> came_;  // by kind and piece: 0 or 1
+  std::vector<std::uint8_t> came_;  // received pieces by kind and piece: 0 or 1
   std::array<Slot, kBulkKinds> slots_{};
   std::size_t turn_ = 0;
   BulkCounters counters_;

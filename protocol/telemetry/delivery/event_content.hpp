@@ -1,7 +1,7 @@
-// Content of an event: one struct for each kind, to payload bytes and back. Both ends use this, so
-// that neither counts bytes.
-//   wire   the fields in the order written here, little endian; f32 as IEEE 754
-//   errors content_of(): none where the length is not the kind's, or a flag is neither 0 nor 1
+// Content of an event: one struct per kind, with conversion to payload bytes and back. Both ends
+// use it, so that neither handles byte offsets.
+//   wire   the fields in the order of the struct, little endian; f32 as IEEE 754
+//   errors content_of(): nullopt if the length does not fit the kind, or a flag is neither 0 nor 1
 //   cost   no allocation
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
@@ -24,7 +24,7 @@ struct LostEvents {
 struct FaultEvent {
   std::uint8_t cause = 0;  // as in the registry's labels of first_stop_cause
   bool begins = true;
-  float value = 0.0F;  // age in s, sigma in m, count: what crossed its limit
+  float value = 0.0F;  // the value that crossed its limit: age in s, sigma in m, or a count
   bool operator==(const FaultEvent&) const = default;
 };
 struct ModeEvent {
@@ -43,7 +43,7 @@ struct ArmingEvent {
 };
 struct LapEvent {
   std::uint16_t number = 0;                                // laps finished
-  float time_s = std::numeric_limits<float>::quiet_NaN();  // of the last one; NaN: not known
+  float time_s = std::numeric_limits<float>::quiet_NaN();  // of the last lap; NaN: unknown
   bool operator==(const LapEvent&) const = default;
 };
 struct RestartEvent {
@@ -51,14 +51,14 @@ struct RestartEvent {
   bool operator==(const RestartEvent&) const = default;
 };
 struct TextEvent {
-  std::string_view text;  // content_of(): lives as long as the event; longer ones are cut
+  std::string_view text;  // from content_of(): valid as long as the event; longer texts are cut
   bool operator==(const TextEvent&) const = default;
 };
 struct ThreatEvent {
   std::uint8_t threat = 0;  // as in the registry's labels of radio.threats
   bool begins = true;
-  bool seen_by_base = false;     // else by the car
-  std::uint32_t most_per_s = 0;  // datagrams, until now
+  bool seen_by_base = false;     // false: by the car
+  std::uint32_t most_per_s = 0;  // highest rate of datagrams so far
   bool operator==(const ThreatEvent&) const = default;
 };
 
