@@ -58,7 +58,7 @@ StatePacket packet_of(const Snapshot& snapshot, Instant now);
 
 struct EncodeCounters {
   std::uint64_t packets = 0;
-  std::uint64_t saturated = 0;   // values out of their range, written as its end
+  std::uint64_t saturated = 0;   // values out of range, written as its nearest limit
   std::uint64_t not_finite = 0;  // infinite values, written as unset
 };
 

@@ -73,7 +73,7 @@ class Process {
 class StopSignal {
  public:
   static Result<StopSignal, Problem> install();
-  bool raised();                        // stays true
+  bool raised();                        // true from the first signal on
   int fd() const { return fd_.get(); }  // readable from the first signal until raised() is called
 
  private:

@@ -15,7 +15,7 @@ namespace pitwall::transport {
 
 struct RealtimeReport {
   bool memory_locked = false;  // mlockall of present and future pages
-  bool fifo = false;           // SCHED_FIFO at the asked priority
+  bool fifo = false;           // SCHED_FIFO at the requested priority
   int memory_error = 0;        // errno of the refusal
   int fifo_error = 0;
 };

@@ -80,7 +80,7 @@ class UdpSocket {
 
   UdpAddress local() const { return local_; }
   const UdpCounters& counters() const { return counters_; }
-  // Error number of the last send() or send_to() that returned false; 0: none did.
+  // Error number of the last send() or send_to() that returned false; 0: no call failed.
   int send_error() const { return send_error_; }
   int fd() const { return fd_.get(); }
 

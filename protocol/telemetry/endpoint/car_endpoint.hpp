@@ -3,7 +3,7 @@
 //   in     datagrams, the newest snapshot, the consumer's answers to commands
 //   out    datagrams; the current inputs of the operator, with their age
 //   invariants
-//          no operator input outlives its reception, except the latched stop
+//          an operator input ends when the operator no longer sends it, except the latched stop
 //   errors counters in report()
 //   cost   no allocation after construction; below 80 us a packet
 // SPDX-License-Identifier: Apache-2.0
@@ -30,7 +30,7 @@ namespace pitwall::telemetry {
 struct OperatorView {
   StopLevel stop = StopLevel::kNone;
   StopReason stop_reason = StopReason::kNone;
-  std::uint16_t stop_challenge = 0;  // 0: nothing is latched
+  std::uint16_t stop_challenge = 0;  // 0: no stop is latched
   std::optional<JoystickSample> joystick;
   std::optional<Instant> joystick_at;  // time of that sample; an estimate, never too late
   HolderId authority = 0;

@@ -34,7 +34,7 @@ class PathLane {
   double loss = 0.0;                       // share of the packets lost on this path lately
   Instant received_at{};                   // time of the last arrival on it
   std::uint64_t newest = 0, reported = 0;  // newest sequence received on it; last one reported
-  std::optional<std::uint64_t> proof;      // token that the peer asked to return
+  std::optional<std::uint64_t> proof;      // token to return to the peer
 
  private:
   std::uint64_t& bytes_in(std::int64_t tenth) {

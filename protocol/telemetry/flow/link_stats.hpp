@@ -96,7 +96,7 @@ class LinkStats {
   std::array<Number, kOpen> open_{};
   std::uint64_t newest_ = 0, next_judged_ = 0;  // 0: no session yet
   Instant newest_at_{};
-  double spacing_s_ = 0.0;  // time between numbers, summed, and how many
+  double spacing_s_ = 0.0;  // sum and number of the times between numbers
   std::uint64_t spacings_ = 0;
   std::array<PathBook, kPaths> books_{};
   std::uint64_t sent_on_both_ = 0, lost_on_both_ = 0;

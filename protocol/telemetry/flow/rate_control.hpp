@@ -33,7 +33,7 @@ class RateControl {
   void delivered(Instant sent, Instant received_by_peer, std::size_t bytes, Instant now);
   double factor(Instant now);
   Duration queue_delay() const;  // delay above the minimum of the last 5 to 10 s
-  bool congested() const;        // the rate is reduced and the queue is not yet empty
+  bool congested() const;        // the rate is reduced and a queue still stands
   std::uint64_t backoffs() const { return backoffs_; }
 
  private:

@@ -52,8 +52,8 @@ enum class Group : std::uint8_t {
   kBus,
   kRadio,
   kStop,      // up: the latched stop of the operator
-  kJoystick,  // up: the dead-man's samples
-  kAuthority  // up: whose console may command
+  kJoystick,  // up: samples of the joystick with its dead-man's switch
+  kAuthority  // up: the console that may send commands
 };
 inline constexpr std::size_t kGroups = 36;
 
@@ -67,7 +67,7 @@ struct GroupRow {
   Group group;
   std::string_view name;
   Direction direction;
-  Class priority;       // kSafety: in every packet, out of the reserved share
+  Class priority;       // kSafety: in every packet, paid from the reserved share
   Duration target_age;  // T_g of the scheduler
   double weight;        // w_g of the scheduler, > 0
 };

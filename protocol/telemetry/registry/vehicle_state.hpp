@@ -27,7 +27,7 @@ inline constexpr auto kVehicleState = [] {
   std::array<FieldIndex, kVehicleStateSize> fields{};
   std::size_t at = 0;
   for (FieldIndex i = 0; i < kFieldCount; ++i)
-    if (kVehicleStateSet.has(kFields[i].group)) fields[at++] = i;  // too many do not compile
+    if (kVehicleStateSet.has(kFields[i].group)) fields[at++] = i;  // an excess does not compile
   return fields;
 }();
 

@@ -10,7 +10,7 @@
 //          an attempt is repeated for kAttemptLife, so that paths with seconds of delay work; then
 //          a fresh attempt replaces it
 //   errors Refusal; the attempt continues
-//   cost   150 us for each attempt and each answer that fits; no allocation
+//   cost   150 us for each attempt and each valid answer; no allocation
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

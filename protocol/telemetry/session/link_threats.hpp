@@ -130,7 +130,7 @@ class ThreatMonitor {
   std::size_t next_ = 0;
   std::optional<Instant> sampled_;
   std::uint64_t exchanges_ = 0, peers_before_ = 0;  // second peers before the newest exchange
-  std::optional<Instant> taken_;                    // the newest exchange came after a second peer
+  std::optional<Instant> taken_;  // time of the newest exchange if a second peer came before
   Instant exchanged_{};
   ThreatSet active_;
   std::array<State, kThreats> states_{};

@@ -110,7 +110,7 @@ class CanSocket {
   // State in the newest error frame that reports one, and the time of that frame.
   BusState bus_state() const { return bus_state_; }
   Instant bus_state_at() const { return bus_state_at_; }
-  // As granted by the kernel; 0 on a unix bus.
+  // Size granted by the kernel; 0 on a unix bus.
   int receive_buffer_bytes() const { return receive_buffer_bytes_; }
   int fd() const { return unix_ ? unix_->receiver() : fd_.get(); }
   // The bus is a unix bus without a hub: nothing arrives and nothing goes out.

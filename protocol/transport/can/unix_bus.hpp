@@ -45,7 +45,7 @@ enum class Hearing : std::uint8_t { kEverything, kNothing };
 // The outcome has the error number; ENOENT and ECONNREFUSED mean that there is no hub.
 PosixOutcome connect_to_hub(const sockaddr_un& address, Hearing hearing, FileDescriptor& out);
 Problem hub_problem(std::string_view interface, const PosixOutcome& refused);
-// For a connection of Hearing::kNothing.
+// True until the connection is hung up; nothing is read from it.
 bool hub_is_there(int connection);
 bool hub_serves(const sockaddr_un& address);
 

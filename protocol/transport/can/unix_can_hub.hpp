@@ -79,7 +79,7 @@ class UnixCanHub {
   struct Batch;
 
   UnixCanHub(const sockaddr_un& address, const UnixCanHubOptions& options);
-  std::string claim();  // empty: the path is ours
+  std::string claim();  // empty on success, otherwise the reason
   std::string make_room() const;
   void accept_all();
   void admit(FileDescriptor fd);

@@ -15,7 +15,7 @@ namespace pitwall::transport {
 
 using TcpAddress = UdpAddress;
 
-// Starts to connect; connect_outcome() tells when it is done.
+// Starts to connect; connect_outcome() returns the outcome.
 Result<FileDescriptor, Problem> begin_connect(TcpAddress to);
 
 // An empty optional while the connect is under way, then its outcome. An error is returned once.

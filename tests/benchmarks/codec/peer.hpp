@@ -68,7 +68,7 @@ Peer ours();
 Peer sealed(const Peer& plain, const std::string& name);
 std::vector<Peer> protobuf();
 Peer lcm();
-inline constexpr std::size_t kLcmHeader = 8 + sizeof("STATE");  // LCM UDP multicast protocol, short
+inline constexpr std::size_t kLcmHeader = 8 + sizeof("STATE");  // short LCM UDP message
 std::vector<Peer> cdr();
 Peer flatbuffers();
 Peer cap_n_proto();

@@ -36,8 +36,8 @@ class CostGates {
   void at_most(CostGate gate);
   void count(std::string what, bool held);  // a gate of something other than time
   bool held() const;
-  std::string text() const;  // lines
-  std::string json() const;  // an array
+  std::string text() const;  // one line per gate
+  std::string json() const;  // array of gates
 
  private:
   struct Row {

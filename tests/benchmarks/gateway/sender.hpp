@@ -22,7 +22,7 @@ namespace pitwall::load {
 struct Lateness {
   double p50_us = kUnset, p99_us = kUnset, max_us = kUnset;
 };
-Lateness lateness_of(std::vector<double>& late_us);  // sorts them
+Lateness lateness_of(std::vector<double>& late_us);  // sorts the argument
 
 struct SenderFigures {
   std::uint64_t sent = 0, offered_again = 0;
