@@ -1,5 +1,5 @@
-// Unsigned numbers at fixed places of a datagram, least significant byte first.
-//   in     bytes that reach to `at` plus the number's size; the caller has checked the length
+// Little-endian load and store of unsigned integers at a fixed offset of a datagram.
+//   in     at least `at` plus sizeof(T) bytes; the caller has checked the length
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

@@ -1,15 +1,15 @@
-// Everything that the car tells, in one datagram for this machine only: the bench, tools and tests
-// read it over the loopback. It never goes on the air: it is neither authentic nor within a budget;
-// the radio is endpoint/car_endpoint.hpp. It holds the groups of Direction::kDown, no others.
-//   in     encode: values, sample ages (packet_of() makes both of a Snapshot), sequence, time of
-//          sending. parse: any bytes at all
+// Whole state of the car in one datagram, for the bench, tools and tests on the same machine, which
+// read it over the loopback. It is never sent over the radio, because it is neither authenticated
+// nor within a budget; see endpoint/car_endpoint.hpp. It holds the groups of Direction::kDown only.
+//   in     encode: values, sample ages (packet_of() makes both from a Snapshot), sequence, time of
+//          sending. parse: any bytes
 //   out    bytes in a buffer of the caller; a StatePacket
 //   wire   "PW", version u8, flags u8, schema hash u32, run u32, sequence u32, sent u64 (little
 //          endian), then bits, most significant first: sample age of each group of the car,
-//          value of each of their fields; zeros to a whole byte; CRC-32 of all before it, little
-//          endian
+//          value of each of their fields; zeros to a whole byte; CRC-32 of all bytes before it,
+//          little endian
 //   units  microseconds on the car's monotonic clock; values as in the registry
-//   errors PacketError; EncodeCounters. The CRC finds damage, it proves no origin.
+//   errors PacketError; EncodeCounters. The CRC detects damage; it does not prove the origin
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -38,7 +38,7 @@ inline constexpr int kStateRate_hz = 50;
 
 struct StatePacket {
   Source source = Source::kSimulation;
-  std::uint32_t run = 0;       // another number after every start of the sender
+  std::uint32_t run = 0;       // changes with every start of the sender
   std::uint32_t sequence = 0;  // +1 per packet, wraps
   Instant sent{};              // the sender's clock; whole microseconds on the wire
   // Age of each group's sample when the packet was sent; negative: never sampled.
@@ -53,18 +53,18 @@ struct StatePacket {
   constexpr Duration age_of(Group g) const { return sample_age[index_of(g)]; }
 };
 
-// Values and ages of the car's groups at this moment; who sends it and its number are the caller's.
+// Values and ages of the car's groups at this moment; the caller sets source, run and sequence.
 StatePacket packet_of(const Snapshot& snapshot, Instant now);
 
 struct EncodeCounters {
   std::uint64_t packets = 0;
-  std::uint64_t saturated = 0;   // values out of their range, written as its end
+  std::uint64_t saturated = 0;   // values out of range, written as its nearest limit
   std::uint64_t not_finite = 0;  // infinite values, written as unset
 };
 
 using PacketBuffer = std::array<std::uint8_t, kStatePacketBytes>;
 
-// Total: every packet has bytes. The result lies in `buffer`.
+// Never fails. The result points into `buffer`.
 std::span<const std::uint8_t> encode(const StatePacket& packet, PacketBuffer& buffer,
                                      EncodeCounters& counters);
 

@@ -1,9 +1,9 @@
-// Counts what a piece of code takes from the heap of its thread: operator new, malloc, Eigen's
-// buffers. For benchmarks and tests; a program that includes it nowhere has glibc's own malloc.
-//   out    how many blocks were taken since the thread began; the difference is what the work took
+// Counter of heap allocations per thread: operator new, malloc, Eigen's buffers. For benchmarks and
+// tests; a program that does not include this file has glibc's own malloc.
+//   out    number of blocks allocated since the thread began, or by one piece of work
 //   invariants
-//          any number of files of a program may include it: its functions are weak, hence one each
-//   errors under AddressSanitizer, which has a heap of its own, nothing is counted and
+//          any number of files of a program may include it, because its functions are weak
+//   errors under AddressSanitizer, which has its own heap, nothing is counted and
 //          kAllocationsCounted is false
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
@@ -38,7 +38,7 @@ std::size_t allocations_of(Work&& work) {
 }  // namespace pitwall::transport
 
 #ifndef PITWALL_ADDRESS_SANITIZER
-// glibc lets a program put its own in front: https://www.gnu.org/software/libc/manual, 3.2.5.
+// A program may replace malloc of glibc: https://www.gnu.org/software/libc/manual, 3.2.5.
 // NOLINTBEGIN(bugprone-reserved-identifier): the names are glibc's.
 extern "C" {
 void* __libc_malloc(std::size_t size);

@@ -1,6 +1,6 @@
-// Control data of a received message: when it arrived and how many were lost before.
+// Control data of a received message: time of arrival and number of messages lost before.
 //   in     the msghdr of a socket with SO_TIMESTAMPNS and SO_RXQ_OVFL
-//   out    stamp on the calendar clock (0: none); drop count of the socket's queue so far
+//   out    stamp on the calendar clock (0: no stamp); drop count of the socket's queue so far
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

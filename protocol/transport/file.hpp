@@ -1,6 +1,6 @@
-// Whole files in, checked appends out, and folders that vanish.
+// File access: reading and writing of whole files, checked appends, temporary folders.
 //   in     paths, bytes
-//   out    contents; counters of what reached the disk
+//   out    contents; counters of written and synced bytes
 //   units  bytes
 //   errors Problem with the path as place; AppendWriter counts failures and keeps the last reason
 // SPDX-License-Identifier: Apache-2.0
@@ -21,29 +21,30 @@ inline constexpr std::size_t kMaxFileBytes = std::size_t{1} << 30;
 
 Result<std::string, Problem> read_file(const std::string& path,
                                        std::size_t max_bytes = kMaxFileBytes);
-// Replaces the whole file: written beside it, flushed, then renamed, so no reader sees half of it.
+// Replaces the whole file: it is written under another name, flushed, then renamed, so that no
+// reader sees a part of it.
 Result<bool, Problem> write_file(const std::string& path, std::string_view contents,
                                  unsigned permissions = 0644);
 
-// A file that holds a secret: refused if others may read, change or replace it, see
+// Reads a file with a secret; refused if others may read, change or replace it, see
 // private_access.hpp.
 Result<std::string, Problem> read_private_file(const std::string& path,
                                                std::size_t max_bytes = kMaxFileBytes);
-// A new one, for its owner only; refused where it exists already or others may replace it.
+// Writes a new file, for its owner only; refused if it exists already or others may replace it.
 Result<bool, Problem> write_private_file(const std::string& path, std::string_view contents);
 
-// The whole text to an open descriptor (1 and 2 are standard output and errors).
+// Writes the whole text to an open descriptor (1 is standard output, 2 is standard error).
 bool write_to(int descriptor, std::string_view text);
 bool is_terminal(int descriptor);
 
 struct AppendCounters {
   std::uint64_t bytes = 0, writes = 0, syncs = 0;
-  std::uint64_t failures = 0;  // write() or sync() that did not succeed completely
+  std::uint64_t failures = 0;  // calls of write() or sync() that failed or were incomplete
   int last_error = 0;          // errno of the last failure
 };
 
-// Appends; every write is checked. A failed write leaves the file at the length it had before
-// where the disk allows it, so that a log has no half records.
+// Writer that appends to a file and checks every write. After a failed write the file is truncated
+// to its former length if the disk allows it, so that a log has no partial records.
 class AppendWriter {
  public:
   enum class Start : std::uint8_t { kAppend, kTruncate };
@@ -51,7 +52,7 @@ class AppendWriter {
 
   bool write(std::span<const std::uint8_t> bytes);
   bool write(std::string_view text);
-  bool sync();  // fdatasync: on the disk, not only in memory
+  bool sync();  // fdatasync: the data is on the disk, not only in memory
   const AppendCounters& counters() const { return counters_; }
   int fd() const { return fd_.get(); }
 
@@ -63,8 +64,8 @@ class AppendWriter {
   AppendCounters counters_;
 };
 
-// A new private folder in `parent`, or in $TMPDIR or /tmp; removed with all it holds at the end of
-// its life.
+// New private folder in `parent`, or in $TMPDIR or /tmp; the destructor removes it with its
+// contents.
 class TemporaryFolder {
  public:
   static Result<TemporaryFolder, Problem> create(std::string_view prefix, std::string parent = {});

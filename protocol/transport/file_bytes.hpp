@@ -1,11 +1,11 @@
-// The bytes of a whole file, however long it is: a regular file is mapped and not copied, so that
-// the kernel holds of it what is in use; anything else (a pipe) is read. Or bytes made in memory.
+// Bytes of a whole file of any length, or bytes in memory. A regular file is mapped and not copied,
+// so that only the pages in use take memory; another file (a pipe) is read.
 //   in     a path, or bytes
-//   out    a view of the bytes, valid as long as any copy of the owner lives; the writable one is
-//          a private copy of the pages that are written, the file never changes
+//   out    a view of the bytes, valid as long as any copy of the owner exists; writes to the
+//          writable view go to private copies of the pages and never to the file
 //   units  bytes
-//   errors map(): Problem with the path as place. A file that becomes shorter while it is mapped
-//          ends the program with a line that says so and exit code 2: what was read is gone
+//   errors map(): Problem with the path as place. If a mapped file becomes shorter, the program
+//          ends with a message and exit code 2, because the bytes no longer exist
 //   cost   copies share the bytes
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
@@ -22,7 +22,7 @@ namespace pitwall::transport {
 class FileBytes {
  public:
   static Result<FileBytes, Problem> map(const std::string& path);
-  FileBytes(std::string bytes);  // NOLINT(google-explicit-constructor): as good as a file
+  FileBytes(std::string bytes);  // NOLINT(google-explicit-constructor): equivalent to a file
 
   std::string_view text() const { return {bytes_.data(), bytes_.size()}; }
   std::span<const std::uint8_t> bytes() const;

@@ -1,7 +1,7 @@
-// Wrapper of system calls: the caller states what success is, EINTR is retried, errno becomes a
-// value. Also the owner of a file descriptor.
+// Wrapper of system calls: the caller states how success is returned, EINTR is retried, errno
+// becomes a value. Also the owner class of a file descriptor.
 //   in     a callable that makes one system call
-//   out    PosixOutcome: the returned value, or the error number with a text for people
+//   out    PosixOutcome: the returned value, or the error number with a readable text
 //   errors none of its own
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
@@ -44,8 +44,8 @@ template <class Call>
   }
 }
 
-// Closes what it owns exactly once. close() is not retried: on Linux the descriptor is gone even
-// after EINTR, and a second close could hit somebody else's.
+// Owner of a file descriptor; closes it exactly once. close() is not retried: on Linux the
+// descriptor is closed even after EINTR, and a second close could close another file.
 class FileDescriptor {
  public:
   FileDescriptor() = default;

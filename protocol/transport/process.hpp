@@ -1,7 +1,7 @@
-// Child processes and our own stop signal.
+// Child processes, and stop signals of this process.
 //   in     a ProcessPlan: argv, descriptors, environment
 //   out    Process: running child, its exit status
-//   errors spawn(): Problem that names the program; an exec that fails is found out at once
+//   errors spawn(): Problem that names the program, also if its exec fails
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -25,23 +25,23 @@ struct DescriptorMapping {
 
 struct ProcessPlan {
   std::vector<std::string> argv{};               // argv[0] is looked up in PATH
-  std::vector<DescriptorMapping> descriptors{};  // others but 0, 1, 2 are closed
-  std::vector<std::string> environment{};        // "NAME=value", on top of ours
+  std::vector<DescriptorMapping> descriptors{};  // all others except 0, 1, 2 are closed
+  std::vector<std::string> environment{};        // "NAME=value", added to our environment
   std::string folder{};                          // working folder; empty: ours
-  bool die_with_parent = true;  // SIGKILL when the thread that spawned it ends, however it ends
+  bool die_with_parent = true;  // SIGKILL when the thread that spawned it ends for any reason
   bool own_group =
-      false;  // a process group of its own: it is killed whole, also when the child ends
+      false;  // own process group, which is killed as a whole, also when the child ends
 };
 
 struct ExitStatus {
-  int code = 0;    // of exit()
-  int signal = 0;  // that ended it; 0: it exited
+  int code = 0;    // argument of exit()
+  int signal = 0;  // signal that ended it; 0: it exited
 
   bool success() const { return code == 0 && signal == 0; }
   int shell_code() const { return signal == 0 ? code : 128 + signal; }
 };
 
-// Ends with its owner: a child still running at destruction is killed and reaped.
+// Child process; one that still runs at destruction is killed and reaped.
 class Process {
  public:
   static Result<Process, Problem> spawn(const ProcessPlan& plan);
@@ -49,9 +49,9 @@ class Process {
   Process& operator=(Process&& other) noexcept;
   ~Process();
 
-  std::optional<ExitStatus> poll();                        // nothing while it runs
-  ExitStatus wait();                                       // as long as it takes
-  std::optional<ExitStatus> wait_until(Instant deadline);  // nothing if it outlives the deadline
+  std::optional<ExitStatus> poll();                        // empty while it runs
+  ExitStatus wait();                                       // without a time limit
+  std::optional<ExitStatus> wait_until(Instant deadline);  // empty if it still runs then
   void kill(int signal);
   pid_t pid() const { return pid_; }
   int fd() const { return pidfd_.get(); }  // readable once the child has ended
@@ -68,13 +68,13 @@ class Process {
   std::optional<ExitStatus> status_;
 };
 
-// SIGINT and SIGTERM as something to look at instead of something that interrupts. Make it first
-// thing in main, before any thread; children get their signals back (Process does that).
+// SIGINT and SIGTERM as a descriptor to poll instead of an interruption. Install it at the start of
+// main, before any thread; Process restores the signals for its children.
 class StopSignal {
  public:
   static Result<StopSignal, Problem> install();
-  bool raised();                        // stays true
-  int fd() const { return fd_.get(); }  // readable from the first signal until raised() is asked
+  bool raised();                        // true from the first signal on
+  int fd() const { return fd_.get(); }  // readable from the first signal until raised() is called
 
  private:
   explicit StopSignal(FileDescriptor fd) : fd_(std::move(fd)) {}

@@ -1,8 +1,9 @@
-// Waits until one of a few descriptors has something to read, or a deadline passes; and reads it.
+// Wait for readable descriptors with a deadline, and reads without waiting.
 //   in     at most kMaxWatched descriptors; negative ones are ignored; a deadline of the clock in
-//          use, and the longest wait by the wall clock: while bench time stands no deadline comes
+//          use, and the longest wait by the wall clock, because no deadline passes while bench time
+//          stands
 //   out    bit i set: descriptor i is readable or at its end
-//   errors an unreadable descriptor counts as ended
+//   errors a descriptor that cannot be read counts as ended
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -26,9 +27,9 @@ struct ReadOutcome {
   bool ended = false;  // the other end is closed and everything has been read
 };
 
-// What is there now, without waiting.
+// Reads the bytes that are available now, without waiting.
 ReadOutcome read_available(int descriptor, std::span<std::uint8_t> into);
-// Likewise of a descriptor that is non-blocking: one system call.
+// The same for a non-blocking descriptor: one system call.
 ReadOutcome read_now(int descriptor, std::span<std::uint8_t> into);
 
 }  // namespace pitwall::transport

@@ -1,8 +1,8 @@
-// Asks the kernel for what a real-time loop wants, and says what it got.
+// Real-time settings of threads and processes: locked memory, SCHED_FIFO, priorities, affinity.
 //   in     SCHED_FIFO priority 1..99 for the calling thread
-//   out    what was granted; the program runs on either way and the report is shown to people.
-//          Timers of the calling thread become exact in any case (no timer slack). Threads and
-//          processes that it starts are ordinary ones: they ask for themselves
+//   out    report of the granted settings, for operators; the program runs on without them too.
+//          The timers of the calling thread become exact in any case (no timer slack). Threads and
+//          processes that it starts are ordinary ones and make their own requests
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -15,29 +15,29 @@ namespace pitwall::transport {
 
 struct RealtimeReport {
   bool memory_locked = false;  // mlockall of present and future pages
-  bool fifo = false;           // SCHED_FIFO at the asked priority
+  bool fifo = false;           // SCHED_FIFO at the requested priority
   int memory_error = 0;        // errno of the refusal
   int fifo_error = 0;
 };
 
 RealtimeReport request_realtime(int priority);
-// Back to an ordinary thread: what it may take again lies unlocked and time-shared.
+// Makes the calling thread an ordinary, time-shared one and unlocks the memory of the process.
 void release_realtime();
-// Another process, and what it starts from now on, before ordinary ones that want the same
-// processor. False: not allowed here.
+// Raises the priority of another process, and of those that it starts from now on, above ordinary
+// ones on the same processor. False: not permitted.
 bool prefer(pid_t process);
-// For a thread whose work may wait: it, and threads that it starts, run after the ordinary ones
-// where they want the same processor.
+// Lowers the priority of the calling thread, and of threads that it starts, below ordinary ones on
+// the same processor.
 void give_way();
-// Only the memory lock.
+// Locks present and future pages only.
 bool lock_memory();
-// What was freed goes back to the kernel: after reading something large that is needed no more.
+// Returns freed memory to the kernel, for example after reading a large file.
 void return_free_memory();
 std::string to_string(const RealtimeReport& report);
 
-// While it lives the calling thread has one processor, the n-th of those that it may use, counted
-// round (-1 is the last); so have, for good, the threads and processes that it starts meanwhile.
-// What stops that processor stops them all alike: none of them can take another for dead.
+// Scope in which the calling thread runs on one processor: the n-th of its allowed ones, modulo
+// their number (-1 is the last). Threads and processes that it starts in the scope stay there. A
+// stop of that processor stops them all, so that none of them takes another one for dead.
 class OnOneProcessor {
  public:
   explicit OnOneProcessor(int n);

@@ -1,5 +1,5 @@
-// One IPv4 UDP socket: non-blocking, batched receive with sender and kernel time, every drop
-// counted. Loopback unless the caller names another address.
+// IPv4 UDP socket: non-blocking, batched receive with sender and kernel time, every drop counted.
+// Loopback unless the caller gives another address.
 //   in     addresses, datagrams to send
 //   out    datagrams with sender and receive time on the monotonic clock; counters
 //   errors bind(), connect(): Problem with the address as place; afterwards counters only
@@ -24,7 +24,7 @@ struct sockaddr_in;
 namespace pitwall::transport {
 
 inline constexpr std::uint32_t kLoopbackIp = 0x7F000001;  // 127.0.0.1
-inline constexpr std::uint32_t kAnyIp = 0;                // every interface: only behind a flag
+inline constexpr std::uint32_t kAnyIp = 0;                // every interface: only by an option
 
 struct UdpAddress {
   std::uint32_t ip = kLoopbackIp;  // host byte order
@@ -33,7 +33,7 @@ struct UdpAddress {
   bool operator==(const UdpAddress&) const = default;
 };
 
-// "127.0.0.1:5000" or "5000" (loopback). Numbers only: no name service in a race car.
+// "127.0.0.1:5000" or "5000" (loopback). Numbers only: a race car has no name service.
 Result<UdpAddress, Problem> parse_udp_address(std::string_view text);
 std::string to_string(const UdpAddress& address);
 
@@ -51,8 +51,8 @@ struct UdpDatagram {
 struct UdpSocketOptions {
   int receive_buffer_bytes = 1 << 20;
   bool reuse_address = false;
-  std::uint8_t dscp = 0;  // differentiated services code point of what is sent; [0, 63]
-  // Of kernel stamps: for sockets whose times are compared, as in CanSocketOptions.
+  std::uint8_t dscp = 0;  // differentiated services code point of sent datagrams; [0, 63]
+  // Offset of the kernel stamps, for sockets whose times are compared, as in CanSocketOptions.
   std::optional<Duration> clock_offset{};
 };
 
@@ -61,7 +61,7 @@ struct UdpCounters {
   std::uint64_t rx_truncated = 0;      // longer than kMaxDatagramBytes
   std::uint64_t rx_dropped_queue = 0;  // lost in this socket's receive queue
   std::uint64_t rx_failed = 0;
-  std::uint64_t rx_refused = 0;  // ICMP: nobody listened at the other end
+  std::uint64_t rx_refused = 0;  // ICMP: no socket listens at the other end
   std::uint64_t tx_would_block = 0, tx_failed = 0;
 };
 
@@ -70,17 +70,17 @@ class UdpSocket {
   static constexpr std::size_t kBatch = 32;
 
   static Result<UdpSocket, Problem> bind(UdpAddress local, const UdpSocketOptions& options = {});
-  // Afterwards send() goes there and only datagrams from there are received.
+  // Afterwards send() sends to `remote`, and only datagrams from it are received.
   Result<bool, Problem> connect(UdpAddress remote);
 
   bool send(std::span<const std::uint8_t> bytes);
   bool send_to(UdpAddress to, std::span<const std::uint8_t> bytes);
-  // Takes what is there, oldest first, at most datagrams.size(). Never blocks.
+  // Reads the datagrams that wait, oldest first, at most datagrams.size(). Never blocks.
   std::size_t receive(std::span<UdpDatagram> datagrams);
 
   UdpAddress local() const { return local_; }
   const UdpCounters& counters() const { return counters_; }
-  // Why the last send() or send_to() that gave false did; 0: none did.
+  // Error number of the last send() or send_to() that returned false; 0: no call failed.
   int send_error() const { return send_error_; }
   int fd() const { return fd_.get(); }
 
@@ -94,8 +94,8 @@ class UdpSocket {
   UdpAddress local_;
   UdpCounters counters_;
   int send_error_ = 0;
-  std::optional<Duration> clock_offset_;  // that was given
-  Instant empty_at_{};                    // a read that began then left nothing
+  std::optional<Duration> clock_offset_;  // from the options
+  Instant empty_at_{};                    // start of the last read that emptied the queue
 };
 
 }  // namespace pitwall::transport

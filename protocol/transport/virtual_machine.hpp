@@ -1,12 +1,13 @@
-// A machine whose processors are lent to it by a host, and what real time costs there.
-//   in     what the kernel says of its processors (/proc/cpuinfo) and of their time (/proc/stat)
-//   out    whether the machine is a virtual one; the time that its host kept from it; KeepAwake
+// Detection of a virtual machine, its steal time, and idle load that keeps its processors awake.
+//   in     /proc/cpuinfo (processors) and /proc/stat (their times)
+//   out    whether the machine is a virtual one; the time that its host took from it; KeepAwake
 //   invariants
-//          A host runs the processors of its guests in turn. One that falls asleep joins the end
-//          of a line when it wakes, some milliseconds long where the host is busy, a hundred times
-//          a second; one that never sleeps loses little. So a process of lowest priority keeps each
-//          busy ("idle=poll" of the kernel's parameters, for as long as it is wanted)
-//   errors none: a machine that cannot be read is no virtual one, its stolen time is unset
+//          A host schedules the processors of its guests in turn. A processor that sleeps waits for
+//          its turn at each wake-up, some milliseconds on a busy host, a hundred times per second;
+//          one that never sleeps loses little. So a process of lowest priority keeps each processor
+//          busy (like the kernel parameter "idle=poll", while KeepAwake exists)
+//   errors none: if the files cannot be read, the machine counts as not virtual and its steal time
+//          is empty
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -21,18 +22,18 @@
 
 namespace pitwall::transport {
 
-// A User-mode Linux is none: its processor is a process of the host, which sleeps as those do.
+// False for a User-mode Linux: its processor is a process of the host and sleeps as such.
 bool is_virtual_machine(std::string_view cpuinfo);
 bool is_virtual_machine();
 
-// Of all processors together since the start of the machine, in steps of 10 ms: they had work, and
-// the host ran others.
+// Steal time of all processors together since the start of the machine, in steps of 10 ms: they had
+// work, but the host ran other guests.
 std::optional<Duration> stolen_time(std::string_view stat);
 std::optional<Duration> stolen_time();
 
-// While it lives, no processor of a virtual machine sleeps: a process on each that this one may use
-// turns round, of the lowest priority in a session of the lowest share (SCHED_IDLE holds within a
-// session alone, see sched(7) on autogroups). Elsewhere it does nothing.
+// Scope in which no processor of a virtual machine sleeps: on each one that this process may use, a
+// process spins at the lowest priority in a session of the lowest share (SCHED_IDLE holds only
+// within a session, see sched(7) on autogroups). On other machines it has no effect.
 class KeepAwake {
  public:
   KeepAwake() : KeepAwake(is_virtual_machine()) {}

@@ -1,4 +1,4 @@
-// The bytes of a text, for what reads and writes bytes.
+// View of a text as bytes.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

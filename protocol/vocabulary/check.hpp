@@ -1,5 +1,6 @@
-// CHECK(condition): our own mistakes stop the process, in every build; the drive-by-wire's own
-// watchdog then stops the car. Never for bytes, files, sensors or operators: those get a Result.
+// Assertion in every build: CHECK(condition) stops the process at a programming error; the watchdog
+// of the drive-by-wire then stops the car. Never for input of networks, files, sensors or
+// operators: that gets a Result.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

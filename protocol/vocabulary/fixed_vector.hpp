@@ -1,5 +1,5 @@
-// A vector with a bound and no heap: push() past the bound returns false, and the caller counts it.
-// Trivially copyable when T is, so that states that hold one stay values.
+// Vector of bounded size without heap: push() beyond the bound returns false, and the caller counts
+// it. Trivially copyable if T is, so that a state with such a vector remains a plain value.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

@@ -1,5 +1,6 @@
-// Quantiles by nearest rank: the least sample that covers at least this share of all samples.
-//   in     0 < share <= 1; samples in rising order, or counts in cells of equal width
+// Quantiles by nearest rank: the smallest sample such that at least this share of all samples is
+// not larger.
+//   in     0 < share <= 1; samples in ascending order, or counts in cells of equal width
 //   source Hyndman and Fan, "Sample Quantiles in Statistical Packages" (1996), definition 1
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
@@ -12,14 +13,14 @@
 
 namespace pitwall {
 
-// Place of the quantile among `count` sorted samples, of which there is at least one.
+// Index of the quantile among `count` sorted samples, count >= 1.
 inline std::size_t nearest_rank(double share, std::size_t count) {
   const double rank = std::ceil(share * static_cast<double>(count));
   return static_cast<std::size_t>(std::clamp(rank, 1.0, static_cast<double>(count))) - 1;
 }
 
-// Counts in `cells` cells of width 1: adding allocates nothing. What is below 0 is in the first
-// cell, what is beyond the last in the last.
+// Histogram with `cells` cells of width 1: add() allocates nothing. Values below 0 count in the
+// first cell, values beyond the last cell in the last one.
 class Histogram {
  public:
   explicit Histogram(std::size_t cells) : cells_(cells) {}
@@ -32,7 +33,7 @@ class Histogram {
   void reset() { *this = Histogram(cells_.size()); }
   std::uint64_t count() const { return count_; }
 
-  // Upper edge of the cell that holds the quantile; 0 without samples.
+  // Upper edge of the cell with the quantile; 0 without samples.
   double quantile(double share) const {
     if (count_ == 0) return 0.0;
     const std::uint64_t wanted = nearest_rank(share, count_) + 1;

@@ -1,6 +1,7 @@
-// Random numbers that are the same on every machine and at every optimisation level.
+// Pseudo-random number generator with the same numbers on every machine and at every optimisation
+// level.
 //   invariants
-//          one seed, one sequence; uniform() lies in [0, 1)
+//          one seed gives one sequence; uniform() is in [0, 1)
 //   source SplitMix64 (Steele, Lea, Flood 2014)
 // SPDX-License-Identifier: Apache-2.0
 #pragma once

@@ -1,5 +1,5 @@
-// A value or the reason why there is none. Spelled like std::expected (C++23) so that it can be
-// exchanged for it. Accessing the wrong side is our own mistake and CHECKs.
+// Result type: a value or an error. It has the interface of std::expected (C++23), which can
+// replace it later. Access to the wrong side is a programming error (CHECK).
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -23,7 +23,7 @@ template <class T, class E>
 class [[nodiscard]] Result {
  public:
   Result(T value) : side_(std::in_place_index<0>, std::move(value)) {}  // NOLINT
-  explicit Result(std::in_place_t) : side_(std::in_place_index<0>) {}   // T{}, made in its place
+  explicit Result(std::in_place_t) : side_(std::in_place_index<0>) {}   // T{}, built in place
   Result(Unexpected<E> reason)
       : side_(std::in_place_index<1>, std::move(reason.error)) {}  // NOLINT
 
@@ -45,7 +45,7 @@ class [[nodiscard]] Result {
   std::variant<T, E> side_;
 };
 
-// What is wrong with an input that a person wrote, and where: "cars/av21.yaml:12:3".
+// Error in an input that a person wrote, with its place: "cars/av21.yaml:12:3".
 struct Problem {
   std::string place;
   std::string what;

@@ -1,6 +1,6 @@
-// Time as data: a span (Duration), a point on the monotonic clock (Instant) and a point on the
-// calendar (UtcTime, labels only). Instant and UtcTime never mix. Only protocol/transport/clock
-// knows what time it is; everybody else is told.
+// Time types: a span (Duration), a point on the monotonic clock (Instant) and a point on the
+// calendar (UtcTime, for labels only). Instant and UtcTime do not mix. Only
+// protocol/transport/clock reads the time; all other code gets it as an argument.
 //   units  int64 nanoseconds, range +-292 years
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
@@ -38,11 +38,11 @@ constexpr Duration from_seconds(double s) {
   return {static_cast<std::int64_t>(s * 1e9 + (s < 0.0 ? -0.5 : 0.5))};
 }
 
-// Monotonic: since the start of the clock in use (boot on a car, scenario start in lockstep).
+// Point on the monotonic clock: time since its start (boot on a car, scenario start in lockstep).
 struct Instant {
   std::int64_t ns = 0;
 
-  // Of what does not come: the deadline of who waits without end.
+  // Time of an event that never comes: the deadline of a wait without end.
   static constexpr Instant max() { return {INT64_MAX}; }
   constexpr double seconds() const { return static_cast<double>(ns) * 1e-9; }
   constexpr double milliseconds() const { return static_cast<double>(ns) * 1e-6; }
@@ -57,8 +57,8 @@ constexpr Instant& operator+=(Instant& a, Duration d) {
   return a;
 }
 
-// Calendar time since 1970-01-01T00:00:00Z, without leap seconds. Labels recordings, decides
-// nothing.
+// Calendar time since 1970-01-01T00:00:00Z, without leap seconds. It labels recordings and is not
+// used for decisions.
 struct UtcTime {
   std::int64_t ns = 0;
 

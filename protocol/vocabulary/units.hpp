@@ -1,4 +1,5 @@
-// Conversions at the edges; inside, everything is SI. kUnset marks a number that nobody has given.
+// Unit conversions for inputs and outputs; all other code uses SI units. kUnset marks a number
+// without a value.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -20,7 +21,7 @@ constexpr double to_deg(double angle_rad) { return angle_rad * (180.0 / std::num
 constexpr double from_rpm(double n_rpm) { return n_rpm * (std::numbers::pi / 30.0); }
 constexpr double to_rpm(double w_rad_per_s) { return w_rad_per_s * (30.0 / std::numbers::pi); }
 
-// To [-pi, pi]; constant time, NaN in NaN out.
+// Wraps an angle to [-pi, pi]; constant time; NaN gives NaN.
 inline double wrap_pi(double angle_rad) {
   return std::remainder(angle_rad, 2.0 * std::numbers::pi);
 }

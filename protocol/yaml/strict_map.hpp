@@ -1,9 +1,10 @@
-// Strict reading of YAML that a person wrote: parameters, scenarios, manifests. Start-up only.
+// Strict reader of YAML files that a person wrote: parameters, scenarios, manifests. Start-up only.
 //   in      one YAML document (a file or a text with a name for messages)
-//   out     numbers, texts, flags, lists and nested mappings, asked for by key and range
-//   errors  wrong kind, NaN or infinity, out of range, missing key, duplicate key, and a key that
-//           nobody asked for. Each is an InputError whose place is "file:line:column"; read() turns
-//           it into a Problem, so that no exception leaves the reader.
+//   out     numbers, texts, flags, lists and nested mappings, read by key and range
+//   errors  wrong kind, NaN or infinity, out of range, missing key, duplicate key, unknown key
+//           (one that the program did not read). Each is an InputError whose place is
+//           "file:line:column"; read() turns it into a Problem, so that no exception leaves the
+//           reader
 //
 //   auto car = yaml::load_file(path);
 //   auto mass_kg = yaml::read(*car, [](auto& map) { return map.number("mass_kg", 1, 5000); });
@@ -32,8 +33,8 @@ struct InputError : std::runtime_error {
   Problem problem;
 };
 
-// A mapping node. Copies share what has been asked for, so a copy may be passed on and the original
-// finished. finish() covers the mappings obtained from this one too.
+// Mapping node. Copies share the record of the keys read, so that a copy may be passed on and the
+// original finished. finish() also covers the mappings obtained from this one.
 class StrictMap {
  public:
   double number(const std::string& key, double min, double max);
@@ -59,11 +60,11 @@ class StrictMap {
   bool has(const std::string& key) const;
   // In the order of the file.
   std::vector<std::string> keys() const;
-  // Where the value of this key is written; where the mapping starts if there is none.
+  // Place of the value of this key; if there is none, place of the start of the mapping.
   std::string place(const std::string& key) const;
   std::string place() const;
   [[noreturn]] void fail(const std::string& key, const std::string& what) const;
-  // Throws on the first key, here or below, that nobody asked for.
+  // Throws for the first key, here or below, that was not read.
   void finish() const;
 
  private:
@@ -83,7 +84,7 @@ class StrictMap {
 class Document {
  public:
   const std::string& name() const { return name_; }
-  // A fresh reader of the root: nothing has been asked for yet.
+  // New reader of the root, with no key read yet.
   StrictMap root() const;
 
  private:
@@ -96,7 +97,7 @@ class Document {
 Result<Document, Problem> load_file(const std::string& path);
 Result<Document, Problem> load_text(std::string_view text, const std::string& name);
 
-// fn(StrictMap&) -> T, then finish() of the root; an InputError on the way becomes the Problem.
+// Calls fn(StrictMap&) -> T, then finish() of the root; an InputError becomes the Problem.
 template <class T = void, class Fn>
 auto read(const Document& document, Fn&& fn) {
   using Returned = std::invoke_result_t<Fn, StrictMap&>;

@@ -1,5 +1,5 @@
-// A pit wall in front of a healthy car under green: everything known, warm, fuelled, on a straight.
-// Tests then change one thing.
+// Fixture of the alarm evaluator with a healthy car under a green flag: all values known, tyres
+// warm, tank filled, on a straight. Each test then changes one thing.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -70,7 +70,7 @@ struct HealthyRace {
     for (const auto& [index, value] : kHealthy) set(index, value);
   }
 
-  // From the next packet on.
+  // Sets the value of a field from the next packet on.
   void set(telemetry::FieldIndex index, double value) {
     reported.snapshot.values[index] = value;
     known_.add(telemetry::kFields[index].group);
@@ -83,7 +83,7 @@ struct HealthyRace {
       set(index, celsius);
     }
   }
-  // Packets every 20 ms, and a look at the wall after each `polls` th part of that.
+  // Sends packets every 20 ms, and advances the evaluator `polls` times per packet.
   void run(Duration length, int polls = 1) {
     for (const Instant end = now + length; now < end;) {
       for (int i = 1; i < polls; ++i)

@@ -1,4 +1,4 @@
-// A picture that a test tells field by field, and the judgement that looks at it.
+// Vehicle state that a test publishes field by field.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -13,7 +13,7 @@ struct KnownState {
   telemetry::Snapshot snapshot;
   state::VehicleState vehicle;
 
-  // The group of the field is sampled at this time; its other fields stay as they were.
+  // The group of the field is sampled at this time; its other fields keep their values.
   void publish(telemetry::FieldIndex field, double value, Instant at) {
     snapshot.values[field] = value;
     touch(telemetry::kFields[field].group, at);
@@ -24,7 +24,7 @@ struct KnownState {
     groups.add(group);
     vehicle.update(snapshot, groups);
   }
-  // Every group that was ever told is sampled again, as by a car that goes on.
+  // All groups published before are sampled again, as by a car that keeps sending.
   void touch_all(Instant at) {
     telemetry::GroupSet groups;
     for (const telemetry::GroupRow& row : telemetry::kGroupTable) {

@@ -1,4 +1,5 @@
-// An oval: two straights along x and two half circles, driven to the left from mid-straight.
+// Oval course: two straights along x and two half circles, driven counterclockwise from the middle
+// of a straight.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

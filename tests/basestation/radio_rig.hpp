@@ -1,5 +1,5 @@
-// A car's end of the radio and the service of its base, with a link of a fixed delay between them,
-// in virtual time.
+// Fixture of a car's radio endpoint and the service of its base in virtual time, with a link of
+// fixed delay between them.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -45,10 +45,10 @@ struct RadioRig {
   link::Station* station = nullptr;  // of the base
   inputs::TextOperator person{inputs::kScriptPerson};
   telemetry::Snapshot snapshot;
-  telemetry::GroupSet sampled;  // anew at each tick
+  telemetry::GroupSet sampled;  // groups with a new sample at each tick
   std::deque<Travelling> air;
-  std::vector<telemetry::DueCommand> reported;  // commands that came to the car
-  // True: this datagram is lost.
+  std::vector<telemetry::DueCommand> reported;  // commands that arrived at the car
+  // Returns true for a datagram to lose.
   std::function<bool(bool to_base, telemetry::PathId)> loses = [](bool, telemetry::PathId) {
     return false;
   };
@@ -95,7 +95,7 @@ struct RadioRig {
     base->advance(now);
     while (const auto out = station->poll(now)) send(false, *out);
   }
-  // A text command at the base.
+  // Executes a text command at the base.
   Result<bool, Problem> execute(std::string_view line) {
     return person.execute(line, base->requests(), now);
   }

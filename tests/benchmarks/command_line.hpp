@@ -1,4 +1,4 @@
-// Command line and exit codes of every benchmark: those of pitwall-hil.
+// Command line and exit codes of all benchmarks, the same as those of pitwall-hil.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

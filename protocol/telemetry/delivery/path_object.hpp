@@ -1,12 +1,14 @@
-// The path that the car means to drive, as a bulk object: points and speeds on the map.
-//   wire   version u8 (1), count u16; of the first point x and y i32 [cm], of each later one the
-//          differences i16 [cm]; after x and y of each point its speed u16 [cm/s]. Little endian
-//   in     points at most kPathStep apart; any bytes at all
+// Codec of the planned path as a bulk object: points on the map with their speeds.
+//   wire   version u8 (1), count u16; x and y of the first point as i32 [cm], of each later point
+//          as difference i16 [cm]; after x and y of each point its speed u16 [cm/s]. Little endian
+//   in     encode: 1 to kPathPoints points, at most kPathStep_m apart in x and in y; decode: any
+//          bytes
 //   invariants
-//          |decoded - given| <= 0.5 cm and 0.5 cm/s: differences are of what was written, so no
-//          error adds up
-//   errors encode: none where a point is not finite, off the map or too far from the one before;
-//          decode: none for any other bytes
+//          |decoded - given| <= 0.5 cm and 0.5 cm/s: differences are taken between the rounded
+//          points, so rounding errors do not add up
+//   errors encode returns an empty optional if the number of points is out of range, or if a point
+//          is not finite, beyond kPathReach_m, too fast or too far from the point before; decode
+//          returns one for any bytes that encode does not write
 //   cost   encode: no allocation
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
@@ -34,7 +36,7 @@ inline constexpr std::size_t kPathHead = 3, kPathFirst = 10, kPathLater = 6;
 using PathBuffer =
     std::array<std::uint8_t, kPathHead + kPathFirst + (kPathPoints - 1) * kPathLater>;
 
-// The result lies in `buffer`.
+// The result points into `buffer`.
 std::optional<std::span<const std::uint8_t>> encode_path(std::span<const PathPoint> points,
                                                          PathBuffer& buffer);
 std::optional<Path> decode_path(std::span<const std::uint8_t> bytes);

@@ -1,9 +1,9 @@
-// The car's end of the radio: state, events and bulk down; stops, joystick, authority and commands
-// up. Sans-IO: the same in the car, the bench, the tests and the fuzzers.
+// Radio endpoint of the car: sends state, events and bulk data down; receives stops, joystick,
+// authority and commands. Sans-IO: the same in the car, the bench, the tests and the fuzzers.
 //   in     datagrams, the newest snapshot, the consumer's answers to commands
-//   out    datagrams; what the operator wants now, with its age
+//   out    datagrams; the current inputs of the operator, with their age
 //   invariants
-//          what the operator wanted and no longer says is never held on to, except the latched stop
+//          an operator input ends when the operator no longer sends it, except the latched stop
 //   errors counters in report()
 //   cost   no allocation after construction; below 80 us a packet
 // SPDX-License-Identifier: Apache-2.0
@@ -26,15 +26,15 @@
 
 namespace pitwall::telemetry {
 
-// What the base station wants of the car now.
+// Current inputs of the base station for the car.
 struct OperatorView {
   StopLevel stop = StopLevel::kNone;
   StopReason stop_reason = StopReason::kNone;
-  std::uint16_t stop_challenge = 0;  // 0: nothing is latched
+  std::uint16_t stop_challenge = 0;  // 0: no stop is latched
   std::optional<JoystickSample> joystick;
-  std::optional<Instant> joystick_at;  // of that sample, never later than the truth
+  std::optional<Instant> joystick_at;  // time of that sample; an estimate, never too late
   HolderId authority = 0;
-  // The base was alive then (time of sending of its newest packet, mapped to the car's clock).
+  // Time of sending of the base's newest packet, mapped to the car's clock.
   std::optional<Instant> alive_at;
 };
 
@@ -46,25 +46,26 @@ class CarEndpoint {
   CarEndpoint& operator=(CarEndpoint&&) noexcept;
 
   void feed(std::span<const std::uint8_t> datagram, PathId path, Address from, Instant at);
-  // The next datagram that is due; call until none. The snapshot is read when a packet is made.
+  // The next datagram that is due; call until it is empty. The snapshot is read when a packet is
+  // made.
   std::optional<Outgoing> poll(const Snapshot& snapshot, Instant now);
-  Instant due() const;  // nothing is due before
+  Instant due() const;  // time of the next poll()
 
   OperatorView view(Instant now) const;
   std::optional<DueCommand> next_command(Instant now);
   void decide(CommandId id, Outcome outcome, Instant now);
-  // kReleaseStop is decided here: the latch opens only at standstill.
+  // Input for kReleaseStop, which is decided here: the stop is released only at standstill.
   void standstill(bool stands);
   bool log(const Event& event);
   bool offer(BulkKind kind, std::span<const std::uint8_t> bytes);
-  // Where the car is, for loss by track position.
+  // Position of the car, for the statistics of loss by track position.
   void place(double station_m, double lap_length_m, Instant now);
 
-  // Safety groups of both ends are the same; else the car must not be armed. False before the
-  // first session. The base says which differ: StationEndpoint::schema_difference().
+  // True if the safety groups of both ends are the same; otherwise the car must not be armed. False
+  // before the first session. StationEndpoint::schema_difference() lists the differences.
   bool schema_agrees() const;
   LinkReport report(Instant now) const;
-  // Attacks and key errors that this end saw begin or end, as of the newest poll(); each once.
+  // Next start or end of an attack or a key error at this end, as of the newest poll(); each once.
   std::optional<ThreatChange> next_threat();
 
  private:

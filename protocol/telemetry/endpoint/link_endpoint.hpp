@@ -1,15 +1,15 @@
 // Link endpoint: the part of the radio that car and base share (association, budgets,
-// acknowledgements, clock, figures). It does not know what packets mean.
+// acknowledgements, clock, statistics). It is independent of the content of the packets.
 //   in     datagrams of each path; bodies to send
 //   out    opened bodies, each once; datagrams for each path, within its budget
 //   invariants
-//          a packet each kSlot, and one half a slot later where something waits; what the budget
-//          has no room for is skipped, never queued. A stop has a packet at once, on every path
-//          that has room, or as soon as one has: out of the same budget. One sequence number is one
-//          plaintext: copies for several paths are the same bytes
-//          a packet of another session than the one in use changes nothing
-//          a base's replies to openings and lost sessions have no part of safety's share, and wait
-//          while a stop does
+//          one packet is sent each kSlot, and one half a slot later if content waits. A packet for
+//          which the budget has no room is skipped, never queued. A stop is sent at once on every
+//          path that has room, or as soon as one path has room; it is paid from the same budget.
+//          One sequence number is one plaintext: copies for several paths are the same bytes
+//          a packet of a session that is not in use changes nothing
+//          the base's replies to openings and to lost sessions are not paid from the safety share,
+//          and they wait while a stop waits
 //   errors counted by Association, BodyError and the modules below
 //   cost   no allocation after construction
 // SPDX-License-Identifier: Apache-2.0
@@ -40,60 +40,63 @@
 namespace pitwall::telemetry {
 
 struct LinkEndpointConfig {
-  AssociationConfig association;  // greeting: boot 0 is drawn, schema hashes 0 are the registry's
+  // In its greeting, boot 0 is replaced by a random number, schema hashes 0 by the registry's.
+  AssociationConfig association;
   std::array<BudgetParams, kPaths> budget{};
   PathPolicy policy = PathPolicy::kDuplicate;
-  double early_share = StateLane::kEarlyShare;  // of a packet, for what is not yet due
-  const SchemaClaim* schema = nullptr;          // none: of the registry. Outlives the end
+  double early_share = StateLane::kEarlyShare;  // share of a packet for groups that are not yet due
+  const SchemaClaim* schema = nullptr;  // nullptr: that of the registry. Outlives the endpoint
 };
 
-// For a packet between slots.
+// What waits to be sent: the reason for a packet between slots.
 enum class Waits : std::uint8_t { kNothing, kContent, kStop };
 
 struct Outgoing {
   PathId path = 0;
   Address to;
-  std::span<const std::uint8_t> bytes;  // until the next call
+  std::span<const std::uint8_t> bytes;  // valid until the next call
 };
 
 struct PacketRoom {
-  std::size_t whole = 0;    // bytes of body
-  std::size_t records = 0;  // of them for safety's records, which are written after the groups
+  std::size_t whole = 0;    // bytes of the body
+  std::size_t records = 0;  // part of it for safety records, which are written after the groups
   bool only_safety = false;
 };
 
-// A body that came, once.
+// A received body; a duplicate gives none.
 struct ReceivedBody {
   Body body;
   Received received;
-  FixedVector<Delivery, 33> delivered;  // what its acknowledgement says
+  FixedVector<Delivery, 33> delivered;  // packets newly acknowledged by it
 };
 
 class LinkEndpoint {
  public:
-  // CHECKs what make() of the budgets would refuse: callers have asked it.
+  // CHECKs the budgets, which the caller has validated by PathBudget::make().
   LinkEndpoint(const LinkEndpointConfig& config, Direction sends, Randomness& randomness);
 
   struct Fed {
-    bool new_session = false;  // the books of both ends begin anew
+    bool new_session = false;  // all counts by sequence number start again at both ends
     bool peer_restarted = false;
-    const ReceivedBody* body = nullptr;  // until the next call
+    const ReceivedBody* body = nullptr;  // valid until the next call
   };
   Fed feed(std::span<const std::uint8_t> datagram, PathId path, Address from, Instant at);
 
-  // Sending: take() until none, then plan(); with a plan begin(), fill, send(), and again.
+  // Sending: call take() until it is empty, then plan(). For each plan call begin(), fill the body,
+  // call send(), and start again.
   std::optional<Outgoing> take(Instant now, Waits waits);
   std::optional<PacketPlan> plan(Instant now, Waits waits);
-  // For a packet whose safety groups take `state` bytes and whose records want `records`.
+  // Room of a packet whose safety groups take `state` bytes and whose records need `records`.
   PacketRoom room_for(const PacketPlan& plan, std::size_t state, std::size_t records,
                       Instant now) const;
-  // Of the room, what only safety may use: with so much of it in the body.
+  // Bytes of `room` that only safety content may use if the body has `safety` bytes of it.
   std::size_t kept_from_others(const PacketPlan& plan, const PacketRoom& room, std::size_t safety,
                                Instant now) const;
-  BodyWriter begin(const PacketPlan& plan, std::size_t room, Instant now);  // with the ack
-  // Records of the paths; before all others.
+  // The body starts with the acknowledgement.
+  BodyWriter begin(const PacketPlan& plan, std::size_t room, Instant now);
+  // Adds the records of the paths; they are written before all others.
   void add_path_records(BodyWriter& body, const PacketPlan& plan, Instant now);
-  // Where `safety` bytes of the body are safety's. Returns the packet's number.
+  // `safety` bytes of the body are safety content. Returns the sequence number of the packet.
   std::uint64_t send(const BodyWriter& body, const PacketPlan& plan, std::size_t safety,
                      Instant now);
   Instant due() const { return due_; }
@@ -104,26 +107,26 @@ class LinkEndpoint {
   const LinkStats& stats() const { return stats_; }
   bool ready() const { return association_.ready(); }
   Stamp newest_stamp() const { return association_.newest_stamp(); }
-  Duration round_trip() const;  // a guess of kSlot * 3 until it is known
+  Duration round_trip() const;  // 60 ms until it is measured
   bool schema_agrees() const;
   const SchemaClaim& claim() const { return *claim_; }
   // Groups that may be sent now.
   GroupSet peer_knows() const;
-  // Records that are no business of the ends.
+  // True for the record types that this class handles itself.
   bool takes(RecordType type) const;
   void place(double station_m, double lap_length_m, Instant now) {
     stats_.place(station_m, lap_length_m, now);
   }
   void report(LinkReport& out, Instant now) const;
-  // Attacks and key errors that began or are over, as of the newest take(); each once.
+  // Next start or end of an attack or a key error, as of the newest take(); each once.
   std::optional<ThreatChange> next_threat() { return threats_.next_change(); }
-  // Of each path's rate, (0, 1].
+  // Limits each path to this share of its rate, (0, 1].
   void cap(double share) {
     for (PathLane& lane : lanes()) lane.cap = share;
   }
 
  private:
-  // What was heard lately, for the other path's copy of it.
+  // A recently received packet, to recognise its copy on the other path.
   struct Lately {
     std::uint64_t sequence = 0;
     std::uint32_t tx_time_100us = 0;
@@ -157,7 +160,7 @@ class LinkEndpoint {
   ReceiptBook receipts_;
   SentBook sent_;
   ClockSync clock_;
-  Instant acked_at_{};  // when it was last heard that something arrived
+  Instant acked_at_{};  // time of the last acknowledgement of a new packet
   LinkStats stats_;
   std::uint64_t session_ = 0;
   std::optional<std::uint64_t> peer_boot_;
@@ -169,10 +172,10 @@ class LinkEndpoint {
   Instant due_{};
   FixedVector<PacketPlan, kPaths> plans_;
   std::size_t next_plan_ = 0;
-  FixedVector<Outgoing, 2 * kPaths> out_;  // exchange and packet of each
+  FixedVector<Outgoing, 2 * kPaths> out_;  // one exchange message and one packet per path
   std::size_t next_out_ = 0;
   std::array<std::array<std::uint8_t, kMaxExchangeSize>, kPaths> exchange_bytes_{};
-  // Of this slot and the one before.
+  // Datagrams of this slot and of the one before.
   std::array<std::array<std::uint8_t, kMaxDatagram>, 4> datagrams_{};
   std::size_t next_datagram_ = 0;
   std::array<std::uint8_t, kMaxBody> body_{}, plain_{};

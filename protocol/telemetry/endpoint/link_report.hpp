@@ -1,4 +1,5 @@
-// All figures of one end of the radio at one moment: what views, logs and tests show.
+// Status report of one end of the radio link at one moment, for views, logs and tests.
+//   units  in the names or by the type; shares 0 .. 1
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -19,9 +20,9 @@
 namespace pitwall::telemetry {
 
 struct PathReport {
-  PathFigures received;     // of what comes to this end
-  BudgetCounters spent;     // of what leaves it
-  double budget_use = 0.0;  // of the last second, 0 .. 1 of the whole rate
+  PathFigures received;     // traffic that arrives at this end
+  BudgetCounters spent;     // traffic that leaves it
+  double budget_use = 0.0;  // traffic sent in the last second, 0 .. 1 of the whole rate
   double rate_factor = 1.0;
   Duration queue_delay{};
   Address peer;
@@ -33,7 +34,7 @@ struct LinkReport {
   std::uint64_t sessions = 0;
   std::array<PathReport, kPaths> paths{};
   AssociationCounters association;
-  ThreatSet threats;  // that this end sees
+  ThreatSet threats;  // active at this end
   std::array<std::uint64_t, kBodyErrors> bad_bodies{};
   std::uint64_t bad_records = 0;
   std::uint64_t slots = 0, slots_skipped = 0;

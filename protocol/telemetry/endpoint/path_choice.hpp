@@ -1,11 +1,11 @@
-// On which paths the packets of a slot go, and to which of the peer's addresses.
+// Selection of the paths for the packets of a slot, and of the peer's address on each path.
+//   out    one plan per packet; no plan if no path has room
 //   invariants
-//          kDuplicate: one packet on all paths that have room. kBest: safety on all, the rest on
-//          the better one. A path whose peer must prove an address, or that has much less room than
-//          the other, has a packet of its own
-//          the token that proves an address goes to that address alone: on the slot the packet goes
-//          to the address on trial, half a slot later to the proved one
-//   out    no plan where no path has room
+//          kDuplicate: one packet on all paths that have room. kBest: safety content on all paths,
+//          the rest on the better one. A path on which an address is not yet validated, or that has
+//          much less room than the other, gets its own packet
+//          the token that proves an address is sent to that address only: the packet on the slot
+//          goes to the address on trial, the packet half a slot later to the validated one
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -21,35 +21,36 @@
 
 namespace pitwall::telemetry {
 
-// Which class of content goes on which of two paths.
+// Distribution of the content over two paths.
 enum class PathPolicy : std::uint8_t {
   kDuplicate,  // everything on all paths that have room
-  kBest        // safety on all, the rest on the better one
+  kBest        // safety content on all paths, the rest on the better one
 };
 
-// Around a body: header and tag.
+// Bytes of a packet beside its body: header and tag.
 inline constexpr std::size_t kAround = kHeaderSize + kTagSize;
 inline constexpr std::size_t kTokenSize = 8;  // of kPathProbe and kPathProof
 
 constexpr bool has(std::uint8_t paths, PathId path) { return (paths & bit_of(path)) != 0; }
 
-// A packet that may be made now.
+// Plan of one packet that may be sent now.
 struct PacketPlan {
-  std::uint8_t paths = 0;       // it goes on these
-  std::size_t safety_room = 0;  // bytes of body, if only safety is in it
-  bool only_safety = false;     // all else goes another way
+  std::uint8_t paths = 0;       // bit mask of the paths that it is sent on
+  std::size_t safety_room = 0;  // bytes of the body if it has safety content only
+  bool only_safety = false;     // all other content goes on the other path
   bool between = false;         // half a slot later
-  bool trial = false;           // to the address that has yet to prove itself
-  std::size_t most = kMaxBody;  // that may go there
-  double rate = 0.0;            // bytes per second, at present, of the narrowest of its paths
+  bool trial = false;           // to the address that is not yet validated
+  std::size_t most = kMaxBody;  // largest body that may be sent to that address
+  double rate = 0.0;            // present rate of the slowest of its paths, bytes per second
 };
 
 struct PathChoice {
   const Association& association;
   std::span<const PathLane> lanes;
   PathPolicy policy;
-  bool in_doubt;         // what leaves may be lost: a packet between slots is worth its price
-  bool at_once = false;  // so is one with a stop; on every path, whatever the policy
+  // No acknowledgement came lately: a packet between slots is sent even if there is little room.
+  bool in_doubt;
+  bool at_once = false;  // a stop waits: as in_doubt, and on every path under either policy
 
   FixedVector<PacketPlan, kPaths> plans(bool between, Instant now) const;
 

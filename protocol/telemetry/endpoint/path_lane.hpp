@@ -1,7 +1,7 @@
-// State and budget of one path at one end.
+// Send budget, rate control and state of one radio path at one end.
 //   units  bytes per second; sizes are UDP payload, the overhead is added here
 //   invariants
-//          nothing leaves by the path but through spend()
+//          every packet that is sent on the path is paid by spend()
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -17,31 +17,31 @@ namespace pitwall::telemetry {
 
 class PathLane {
  public:
-  // CHECKs what PathBudget::make() would refuse: callers have asked it.
+  // CHECKs the parameters, which the caller has validated by PathBudget::make().
   explicit PathLane(const BudgetParams& params);
 
-  // The rate that the path carries at present, once for each slot.
+  // Applies rate control and `cap` to the budget; called once per slot.
   void adapt(Instant now);
-  // A packet of so many bytes, of them so many safety's, may go.
+  // True if a packet of `size` bytes with `safety` bytes of safety content may be sent.
   bool fits(std::size_t size, std::size_t safety, Instant now) const;
   void spend(std::size_t size, std::size_t safety, Instant now);
-  double use(Instant now) const;  // of the whole rate, in the last second
+  double use(Instant now) const;  // share of the whole rate that was used in the last second
 
   PathBudget budget;
   RateControl rate;
-  double cap = 1.0;                        // of the rate, as its people want it, (0, 1]
-  double factor = 1.0;                     // of the rate, by adapt()
-  double loss = 0.0;                       // of what came lately by this path
-  Instant received_at{};                   // the last arrival by it
-  std::uint64_t newest = 0, reported = 0;  // sequence that came by it; of it told the peer
-  std::optional<std::uint64_t> proof;      // asked for by the peer
+  double cap = 1.0;                        // share of the rate that the operators allow, (0, 1]
+  double factor = 1.0;                     // share of the rate in use, set by adapt()
+  double loss = 0.0;                       // share of the packets lost on this path lately
+  Instant received_at{};                   // time of the last arrival on it
+  std::uint64_t newest = 0, reported = 0;  // newest sequence received on it; last one reported
+  std::optional<std::uint64_t> proof;      // token to return to the peer
 
  private:
   std::uint64_t& bytes_in(std::int64_t tenth) {
     return tenths_[static_cast<std::size_t>(tenth) % tenths_.size()];
   }
 
-  std::array<std::uint64_t, 11> tenths_{};  // bytes of the last second and of this tenth
+  std::array<std::uint64_t, 11> tenths_{};  // bytes per 100 ms: the last second and the current one
   std::int64_t tenth_ = 0;
 };
 

@@ -1,8 +1,8 @@
-// Newest packet received on each path, reported to its sender: an acknowledgement does not say by
-// which path a packet came first, and rate control is of one path.
+// Receipts for the newest packet received on each path. Rate control works per path, and an
+// acknowledgement does not say on which path a packet arrived first.
 //   wire   kPathReceipt: path u8, sequence u16 (low bits), hold u16 (100 us)
 //   invariants
-//          names what was sent on that path, or is ignored
+//          a receipt for a packet that was not sent on that path is ignored
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

@@ -1,13 +1,13 @@
-// Exchange of group lists between two ends whose telemetry registries differ. Each end tells the
-// other which groups its packets may hold; the other reads the groups that both know and skips the
-// rest.
+// Exchange of group lists between two ends whose telemetry registries differ. Each end sends the
+// list of groups that its packets may hold; the other end reads the groups that both registries
+// have and skips the rest.
 //   wire   kSchema: have u8 (1: the peer's list is complete here), total u8, first u8, then for
 //          each place from the first on: hash u32 (low half of the group's), bits u16
-//   out    the layout to read the peer's packets by; which of our groups may be sent
+//   out    the layout of the peer's packets; which of our groups may be sent
 //   invariants
-//          nothing is sent while both registries are the same. Otherwise no group is sent before
-//          the peer has the whole list. A group with another hash is another group, even under the
-//          same name
+//          no list is sent while both registries are the same. Otherwise no group is sent before
+//          the peer has the whole list. Two groups with different hashes are different groups, even
+//          under the same name
 //   cost   no allocation
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
@@ -20,7 +20,7 @@
 
 namespace pitwall::telemetry {
 
-// What one end says that its registry is. Tests make up those of other versions.
+// Description of one end's registry. Tests build descriptions of other versions.
 struct SchemaClaim {
   struct Place {
     std::uint32_t hash = 0;
@@ -30,7 +30,7 @@ struct SchemaClaim {
 
   Places down, up;  // in the order of the bits of the set
   std::uint64_t safety_hash = 0, whole_hash = 0;
-  std::string_view safety_text;  // empty: the registry's
+  std::string_view safety_text;  // empty: the text of the registry
 
   const Places& of(Direction direction) const { return direction == Direction::kDown ? down : up; }
 };
@@ -40,10 +40,10 @@ class SchemaTalk {
  public:
   SchemaTalk(const SchemaClaim& own, Direction sends);
 
-  // A new session with a peer of this registry.
+  // Starts a session with a peer whose registry has this hash.
   void begin(std::uint64_t peer_whole_hash);
   bool take(std::span<const std::uint8_t> payload);
-  std::size_t size() const;  // of the record in the next packet
+  std::size_t size() const;  // bytes of the record in the next packet
   void write(BodyWriter& body);
 
   const Layout& sending() const { return sending_; }
@@ -57,8 +57,8 @@ class SchemaTalk {
   Direction sends_;
   Layout sending_, own_reading_, reading_;
   bool differs_ = false, peer_has_ours_ = false;
-  std::size_t next_ = 0;        // place that the next record begins with
-  std::uint8_t total_ = 0;      // places of the peer; 0: not heard
+  std::size_t next_ = 0;        // first place of the next record
+  std::uint8_t total_ = 0;      // number of places of the peer; 0: not yet received
   std::uint64_t received_ = 0;  // bit k: place k
   std::array<GroupPlace, kMaxPlaces> places_{};
 

@@ -1,15 +1,14 @@
-// Schedule of packets: one each kSlot, one half a slot later where something waits, and one at any
-// time for what cannot wait: a stop.
+// Send schedule: one packet each kSlot, one half a slot later if content waits, and one at any time
+// for urgent content, which is a stop.
 //
-//   |---- slot ----|---- slot ----|        the grid stands still: a poll that comes late moves
-//   state   between state   between        none of the slots after it
+//   |---- slot ----|---- slot ----|        the grid is fixed: a late poll does not move the slots
+//   state   between state   between        after it
 //
-//   in     the time of each poll; whether something cannot wait; whether a packet was made
-//   out    whose turn it is; when to ask again
+//   in     the time of each poll; whether urgent content waits; whether a packet was made
+//   out    the kind of packet to make now; the time of the next poll
 //   invariants
-//          a slot that found no room within its first half is skipped and counted, never queued
-//          what cannot wait is asked for at each poll until it was made; it takes the place of the
-//          packet between
+//          a slot that finds no room within its first half is skipped and counted, never queued
+//          an urgent packet is due at each poll until it is made; it replaces the packet between
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -21,7 +20,7 @@
 namespace pitwall::telemetry {
 
 inline constexpr Duration kSlot = milliseconds(20);
-// A poll so little before its slot is the slot's: loops that tick at 10 ms do so with jitter.
+// A poll at most this early counts for the coming slot, because loops of 10 ms have jitter.
 inline constexpr Duration kSlotEarly = milliseconds(2);
 
 class Slots {
@@ -30,10 +29,10 @@ class Slots {
 
   Turn turn(Instant now, bool at_once = false);
   void done(Turn turn, bool made, Instant now);
-  // Nothing is anybody's turn before.
+  // Time of the next poll: no packet is due before.
   Instant due(Instant now, bool at_once = false) const;
 
-  // The slot has had its packet, and half of it is over.
+  // True if the packet of the slot is done and half of the slot is over.
   bool is_between(Instant now) const {
     return slot_ && stage_ != Stage::kDue && now + kSlotEarly >= half() &&
            now + kSlotEarly < *slot_ + kSlot;

@@ -1,11 +1,12 @@
-// State of one direction for each packet: safety groups first and always, then by the scheduler, as
-// far as there is room; what is not yet due fills a share of a packet that has room.
+// Selection of the state groups for each packet of one direction: all safety groups, then groups in
+// the order of the scheduler as far as there is room; groups that are not yet due may fill a share
+// of a packet that has room.
 //   in     the newest snapshot at the moment when a packet is made; the present rate of the path
-//   out    groups in the packet; what of it is safety's
-//   invariants  a slow group (health, statistics) goes before bulk from half of its target age on,
-//          or from the age refresh_period() on, whichever is sooner. The period is the shortest
-//          with which all state takes at most half of the present rate: at 256 kbit/s some 50 ms
-//          for all groups of the car; at 128 kbit/s there is none, target ages alone count
+//   out    groups in the packet; the bytes of it that are safety content
+//   invariants  a slow group (health, statistics) is sent before bulk data once its age is half of
+//          its target age, or refresh_period() if that is sooner. The period is the shortest with
+//          which all state takes at most half of the present rate: about 50 ms at 256 kbit/s for
+//          all groups of the car. At 128 kbit/s there is no period; only the target ages count
 //   units  bytes per second, with IP and UDP
 //   cost   no allocation
 // SPDX-License-Identifier: Apache-2.0
@@ -23,36 +24,35 @@ namespace pitwall::telemetry {
 
 class StateLane {
  public:
-  // Of a packet with nothing better to carry: what slow groups get before they are due. It makes
-  // each packet later by as much of a slot at most.
+  // Share of a packet that slow groups may fill before they are due, if nothing else waits. It
+  // delays each packet by at most the same share of a slot.
   static constexpr double kEarlyShare = 0.1;
 
   explicit StateLane(Direction direction, double early_share = kEarlyShare);
 
-  // The path of a packet: its round trip, and the rate that its budget has at present (0: target
-  // ages alone count).
+  // Round trip of the path of a packet, and the present rate of its budget (0: only target ages
+  // count).
   struct Path {
     Duration round_trip{};
     double bytes_per_s = 0.0;
   };
-  // What the next packet shall have. Returns the bytes of it that are safety's: the share of the
-  // budget that is asked for must be the one that is used.
-  // `known`: groups that may be sent.
+  // Selects the groups of the next packet. Returns the bytes of its safety groups: the caller
+  // requests this part of the budget and spends the same. `known`: groups that may be sent.
   std::size_t choose(const Snapshot& snapshot, GroupSet known, Path path, Instant now);
-  // Between two packets with the same slow group of these, where state takes half of the rate;
-  // Scheduler::kNoPeriod where safety and motion in each slot take it.
+  // Time between two packets with the same slow group of `groups` if state takes half of the rate;
+  // Scheduler::kNoPeriod if safety and motion in each slot already take half.
   Duration refresh_period(GroupSet groups, double bytes_per_s) const;
   struct Writing {
     bool only_safety = false;
     bool between = false;  // half a slot later
     bool something_waits = false;
   };
-  // Returns the bytes of what was written that are safety's.
+  // Returns the bytes written that are safety content.
   std::size_t write(BodyWriter& body, const Snapshot& snapshot, Writing how, Instant now);
-  // The packet that write() was for has this number.
+  // The packet that write() filled was sent under this sequence number.
   void sent(std::uint64_t sequence, const Snapshot& snapshot, Instant now);
   void acked(std::uint64_t sequence) { scheduler_.acked(sequence); }
-  // A new session: the other end is known to have nothing.
+  // Starts a new session: no sample counts as received by the other end.
   void forget() { scheduler_.forget(); }
 
   const GroupFigures& figures(Group group) const { return scheduler_.figures(group); }
@@ -64,7 +64,7 @@ class StateLane {
 
   Direction direction_;
   double early_share_;
-  std::size_t fast_size_;  // of safety and motion
+  std::size_t fast_size_;  // bytes of the safety and motion groups
   Scheduler scheduler_;
   CodecCounters codec_;
   GroupSet late_, wanted_, written_;

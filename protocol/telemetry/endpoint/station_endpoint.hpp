@@ -1,11 +1,11 @@
-// The base's end of the radio: see car_endpoint.hpp.
+// Radio endpoint of the base, the counterpart of car_endpoint.hpp.
 //   in     datagrams; stops, joystick samples, authority, commands
-//   out    datagrams; the newest value of every field with the time of its sample; events, bulk;
-//          how far each command came
+//   out    datagrams; the newest value of every field with the time of its sample; events, bulk
+//          data; the progress of each command
 //   invariants
 //          a value never goes back in time: of two samples of a group the newer one is kept
-//          a stop leaves with the next poll(), as soon as the budget has room for a packet; due()
-//          is past until it was tried
+//          a stop is sent by the next poll() for which the budget has room for a packet; due() is
+//          in the past until the first attempt
 //   errors counters in report()
 //   cost   no allocation after construction
 // SPDX-License-Identifier: Apache-2.0
@@ -44,44 +44,45 @@ class StationEndpoint {
   StationEndpoint(StationEndpoint&&) noexcept;
   StationEndpoint& operator=(StationEndpoint&&) noexcept;
 
-  // What of the state is newer for it; none where the datagram brought none.
+  // The groups of the state that the datagram updates; an empty optional if there are none.
   std::optional<Arrival> feed(std::span<const std::uint8_t> datagram, PathId path, Address from,
                               Instant at);
   std::optional<Outgoing> poll(Instant now);
   Instant due() const;
 
-  // Values, and the time of each group's sample on the base's clock: never younger than the truth
-  // while the clocks are compared; before, the time of reception minus the age that the car told.
+  // Values, and the time of each group's sample on the base's clock. While the clocks are compared
+  // that time is never too late; before, it is the time of reception minus the age in the packet.
   const Snapshot& state() const;
   bool clock_known() const;
 
-  // None as CommandTransmitter has it, and for a release of the stop while another is under way.
+  // Returns an empty optional where CommandTransmitter does, and for a release of the stop while
+  // another release is under way.
   std::optional<CommandId> issue(const Command& command, Instant now);
   const CommandProgress* progress(CommandId id) const;
-  const CommandProgress* newest(CommandType type) const;  // of those that are kept
+  const CommandProgress* newest(CommandType type) const;  // of the commands still kept
   StopTransmitter& stop();
   const StopTransmitter& stop() const;
   AuthorityRegister& authority();
   const AuthorityRegister& authority() const;
   JoystickSender& joystick();
-  // Of each path's rate, (0, 1]: what its people want to spend at most. Safety's share stays.
+  // Limits each path to the share of its rate that operators allow, (0, 1]; safety keeps its share.
   void set_budget_share(double share);
   std::optional<Event> next_event();
   std::optional<BulkReceiver::Object> next_bulk();
 
-  // What the car told of itself when the session began; none before.
+  // Greeting of the car at the start of the session; empty before.
   const std::optional<Greeting>& peer() const;
   // The greatest stamp of the car's openings, for the next start: AssociationConfig::newest_stamp.
   Stamp newest_stamp() const;
-  // Where the car is, for loss by track position: see LinkStats.
+  // Position of the car, for the statistics of loss by track position: see LinkStats.
   void place(double station_m, double lap_length_m, Instant now);
   double loss_at(std::size_t bin) const;
 
   bool schema_agrees() const;
-  // One line for each difference of the safety groups; empty where there is none.
+  // One line for each difference of the safety groups; empty if they are the same.
   std::string schema_difference() const;
   LinkReport report(Instant now) const;
-  // Attacks and key errors that this end saw begin or end, as of the newest poll(); each once.
+  // Next start or end of an attack or a key error at this end, as of the newest poll(); each once.
   std::optional<ThreatChange> next_threat();
 
  private:

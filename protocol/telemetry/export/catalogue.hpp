@@ -1,4 +1,4 @@
-// The registry as JSON: groups in the order of the air with their fields, and the commands.
+// Export of the registry as JSON: groups in wire order with their fields, and the commands.
 //   units  as in the registry; ages in ms; hashes as 16 hexadecimal digits
 // SPDX-License-Identifier: Apache-2.0
 #pragma once

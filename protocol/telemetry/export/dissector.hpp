@@ -1,10 +1,10 @@
-// A dissector for Wireshark in Lua: what it knows of fields comes from the registry, what it knows
-// of packets is said in packet/header.hpp and packet/body.hpp.
-//   use    wireshark -X lua_script:pitwall.lua; the port of the base is a preference. What goes to
-//          it comes from the car
+// Generator of the Wireshark dissector in Lua. The fields come from the registry; the packet format
+// is that of packet/header.hpp and packet/body.hpp.
+//   use    wireshark -X lua_script:pitwall.lua; the port of the base is a preference. Packets to
+//          that port come from the car
 //   invariants
-//          packets that are signed are shown to the last field; of sealed ones only the clear part.
-//          Nothing is verified: it has no keys
+//          signed packets are shown to the last field, without verification. Sealed packets are
+//          opened by the key log if its preference is set; otherwise only the clear part is shown
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

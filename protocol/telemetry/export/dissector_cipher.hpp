@@ -1,9 +1,9 @@
-// The part of the dissector that opens sealed packets of the bench with the keys of a key log
+// Lua code of the dissector that decrypts sealed packets of the bench with the keys of a key log
 // (protocol/telemetry/session/key_log.hpp); Lua 5.2 and later, arithmetic in doubles.
 //   source RFC 8439 (ChaCha20-Poly1305); the multiplication modulo 2^130 - 5 on bytes, whose sums
 //          stay far below 2^53, follows TweetNaCl (Bernstein et al., 2014)
 //   invariants
-//          what is shown as opened had a tag that fits: a wrong key shows nothing
+//          a packet is shown as opened only if its tag is valid: a wrong key shows nothing
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

@@ -1,4 +1,4 @@
-// The part of the dissector that no field of the registry changes; Lua 5.2, as Wireshark has it.
+// Lua code of the dissector that does not depend on the registry; Lua 5.2, as in Wireshark.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

@@ -1,11 +1,11 @@
 // Exports of the registry for other programs; all of them are generated.
-//   kinds  schema     canonical text, whose hash both ends compare
-//          golden     test vectors: codes of every field of a group and the bits that they become
+//   kinds  schema     canonical text; both ends compare its hash
+//          golden     test vectors: codes of every field of a group and their encoded bits
 //          json       catalogue of groups, fields and commands for consoles and tools
-//          markdown   the page to read
+//          markdown   handbook of the registry
 //          lua        dissector for Wireshark
-//          lcm        types for lcm-gen, as the LCM logs have them
-//   errors none for a kind that there is not
+//          lcm        types of the LCM logs, for lcm-gen
+//   errors an unknown kind returns an empty optional
 //   cost   allocates; not for the 100 Hz path
 // SPDX-License-Identifier: Apache-2.0
 #pragma once

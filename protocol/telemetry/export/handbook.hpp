@@ -1,4 +1,4 @@
-// The registry as a page to read: sizes, groups with their fields, commands. Markdown.
+// Export of the registry as a handbook page in Markdown: sizes, groups with their fields, commands.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

@@ -1,10 +1,11 @@
-// Acknowledgements: what arrived (ReceiptBook, written into each packet) and what is known to have
-// arrived (SentBook).
+// Acknowledgement state of one end: ReceiptBook for the packets received, whose Ack goes into each
+// packet; SentBook for the packets sent and their acknowledgements.
 //   invariants
-//          a packet is acknowledged at most once; what an Ack does not name is unknown, not lost
+//          a packet is acknowledged at most once; a packet that an Ack does not name has an unknown
+//          state, it is not lost
 //   units  64-bit sequence numbers of one session, from 1
-//   errors an Ack that names what was never sent is counted and ignored as a whole; one that is
-//          older than what is kept is ignored
+//   errors an Ack that names a packet that was never sent is counted and ignored as a whole; an Ack
+//          for packets that are no longer kept is ignored
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -23,9 +24,9 @@ inline constexpr std::size_t kAckNames = 33;  // the newest and its mask
 class ReceiptBook {
  public:
   void received(std::uint64_t sequence, Instant at);
-  // None until something was received.
+  // An empty optional until a packet is received.
   std::optional<Ack> ack(Instant now) const;
-  bool due(Instant now) const;  // something new since the last written one, or 50 ms have passed
+  bool due(Instant now) const;  // a packet came since the last written Ack, or 50 ms have passed
   void written(Instant now);
   void forget() { *this = {}; }
 
@@ -46,11 +47,12 @@ class SentBook {
  public:
   static constexpr std::size_t kKept = 256;
 
-  // Sequence numbers rise.
+  // CHECKs that sequence numbers increase.
   void sent(std::uint64_t sequence, Instant at, std::size_t bytes);
   struct News {
-    FixedVector<Delivery, kAckNames> delivered;  // newly known to have arrived
-    std::optional<Delivery> newest;  // that the Ack names, for the clock, if its hold is known
+    FixedVector<Delivery, kAckNames> delivered;  // acknowledged for the first time
+    // Newest packet that the Ack names, for the clock; empty if the hold time is saturated.
+    std::optional<Delivery> newest;
   };
   News take(const Ack& ack);
   std::uint64_t nonsense() const { return nonsense_; }
@@ -61,7 +63,7 @@ class SentBook {
     Delivery delivery;
     bool acked = false;
   };
-  // None: older than what is kept, or never sent.
+  // nullptr: older than the kept packets, or never sent.
   const Entry* find(std::uint64_t sequence) const;
   bool makes_sense(std::uint64_t newest, std::uint32_t mask) const;
   void note(std::uint64_t sequence, News& news);

@@ -1,15 +1,15 @@
-// Statistics of one direction of a path: loss, bursts of loss, one-way delay, rate; and where on
-// the track.
+// Statistics of one direction of the link, per path: loss, bursts of loss, one-way delay, rate; and
+// loss by track position.
 //   in     sequence numbers as they arrive (64 bit, with the paths each was sent on), delays,
 //          station of the car
 //   out    figures of the last seconds and of the run; two-state loss model fitted to the bursts;
 //          loss by track position
 //   invariants
-//          a duplicate, a packet that comes late or by the other path is never loss; a number
-//          counts as lost when 1024 newer ones have come, or one second has passed, without it.
-//          One that comes after that is taken back and counts as late
-//          a number that came by no path is taken to have been sent on the paths of the next that
-//          came
+//          a duplicate, a late packet or one that arrives on the other path is never loss. A number
+//          counts as lost once 1024 newer ones or one second have passed without it. If it arrives
+//          after that, the loss is taken back and it counts as late
+//          a number that arrived on no path counts as sent on the paths of the next number that
+//          arrived
 //   source Gilbert (1960) for the loss model: mean burst = 1 / P(bad to good); see loss_model.hpp
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
@@ -29,14 +29,14 @@ struct PathFigures {
   double loss = 0.0;  // of the last 5 s, 0 .. 1
   double rate_bytes_per_s = 0.0;
   Duration delay_p50{}, delay_p95{}, delay_p99{}, jitter{};
-  Duration mean_good{}, mean_bad{};  // of the fitted model; zero until there was a burst
+  Duration mean_good{}, mean_bad{};  // of the fitted model; zero until the first burst
 };
 
 inline constexpr std::size_t kTrackBins = 64;
 
 class LinkStats {
  public:
-  // `paths_mask` zero: as of the copy that came before.
+  // `paths_mask` zero: that of the copy received before.
   void received(std::uint64_t sequence, std::uint8_t paths_mask, PathId path, std::size_t bytes,
                 Instant at);
   void delay(PathId path, Duration one_way, Instant at);
@@ -44,23 +44,23 @@ class LinkStats {
   void advance(Instant now);
 
   PathFigures figures(PathId path, Instant now) const;
-  double both_lost() const;  // of what was sent on both: fraction that came by neither
-  // Loss where the car was in this bin of the lap: fraction of the numbers that came by no path;
-  // unset where it never was.
+  double both_lost() const;  // fraction of the packets sent on both paths that arrived on neither
+  // Fraction of the numbers that arrived on no path while the car was in this bin of the lap; unset
+  // if it never was there.
   double loss_at(std::size_t bin) const;
-  // Numbers start anew; what is open is not judged.
+  // Starts the numbers again; open numbers count neither as lost nor as received.
   void new_session();
 
  private:
   static constexpr std::size_t kOpen = 1'024;  // numbers that are kept
-  static constexpr std::size_t kTenths = 50;   // of a second, of the figures of the last 5 s
+  static constexpr std::size_t kTenths = 50;   // intervals of 100 ms in the figures of the last 5 s
   static constexpr std::size_t kDelays = 256;  // about 5 s of 50 packets per second
   static constexpr std::size_t kPlaces = 64;
 
   struct Number {
     std::uint64_t sequence = 0;
-    Instant about{};   // when it came, or by its neighbours would have
-    Instant missed{};  // when a newer one came
+    Instant about{};   // time of arrival; of a missing one, as its neighbours suggest
+    Instant missed{};  // time when a newer one arrived
     std::uint8_t sent_on = 0, came_by = 0;
     bool judged = false;
   };
@@ -96,7 +96,7 @@ class LinkStats {
   std::array<Number, kOpen> open_{};
   std::uint64_t newest_ = 0, next_judged_ = 0;  // 0: no session yet
   Instant newest_at_{};
-  double spacing_s_ = 0.0;  // time between numbers, summed, and how many
+  double spacing_s_ = 0.0;  // sum and number of the times between numbers
   std::uint64_t spacings_ = 0;
   std::array<PathBook, kPaths> books_{};
   std::uint64_t sent_on_both_ = 0, lost_on_both_ = 0;

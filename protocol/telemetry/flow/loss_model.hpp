@@ -1,11 +1,11 @@
-// Two-state loss model fitted to a series of packets that came or did not: in the bad state all is
-// lost, in the good state a packet is lost now and then, by itself.
-//   in     outcomes in order of sending, and the mean time between two
+// Two-state (Gilbert) model of packet loss, fitted to a series of received and lost packets: in the
+// bad state all packets are lost, in the good state single packets at random, with probability g.
+//   in     outcomes in order of sending, and the mean time between two packets
 //   out    mean time in the good and in the bad state
 //   invariants
-//          losses of the good state are correlated with nothing, so the covariance of losses k
-//          packets apart is  C_k = good bad (1 - g)^2 r^k  with the share of each state and the
-//          decay r per packet of the two-state chain; the share that comes is good (1 - g). Hence
+//          losses in the good state are uncorrelated, so the covariance of losses k packets apart
+//          is  C_k = good bad (1 - g)^2 r^k  with the share of each state and the decay r per
+//          packet of the two-state chain; the share that arrives is came = good (1 - g). Hence
 //          bad / good = C_0' / came^2 with C_0' = C_1 / r, and 1 / (1 - r) packets is
 //          T_good T_bad / (T_good + T_bad)
 //   cost   a few integer additions per packet; no memory of the packets beyond the last kLag
@@ -27,20 +27,20 @@ class LossModel {
   static constexpr unsigned kLag = 4;  // C_1 and C_kLag give the decay
 
   void note(bool lost);
-  void note_lost(std::uint64_t count);  // in a row
+  void note_lost(std::uint64_t count);  // `count` packets in a row
 
   struct Fit {
     Duration mean_good{}, mean_bad{};
   };
-  // None until there were bursts beyond chance.
+  // An empty optional until there are more bursts than random single losses explain.
   std::optional<Fit> fit(Duration between_packets) const;
 
  private:
   double covariance(unsigned lag) const;
 
   std::uint64_t packets_ = 0, lost_ = 0;
-  std::array<std::uint64_t, kLag + 1> both_lost_{};  // pairs so far apart
-  std::uint32_t last_ = 0;                           // bit k: the one k + 1 before was lost
+  std::array<std::uint64_t, kLag + 1> both_lost_{};  // element k: lost pairs k packets apart
+  std::uint32_t last_ = 0;                           // bit k: the packet k + 1 before was lost
 };
 
 }  // namespace pitwall::telemetry

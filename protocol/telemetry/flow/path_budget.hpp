@@ -1,22 +1,23 @@
-// Token bucket of one path at one end: bytes and packets per second, IP and UDP overhead counted,
-// with a share that only safety may use. Nothing bypasses it: acknowledgements, key exchange and
-// repetitions are spent from it like all else.
+// Token bucket of one radio path at one end: bytes and packets per second, IP and UDP overhead
+// included, with a share reserved for safety content. All traffic is paid from it, including
+// acknowledgements, key exchange and repetitions.
 //   invariants
 //          in every window of 100 ms (at any start) bytes <= rate / 10 + one largest packet and
 //          packets <= packet rate / 10 + 1; in every window of 1 s bytes <= rate
-//          what safety may use is never less than its share; others never touch the share
-//          it begins empty when it is first asked: what was spent before a restart is not known
+//          safety may always use at least its share; other content never uses the share
+//          the bucket is empty at the first call, because the use before a restart is not known
 //   units  bytes and packets per second; sizes are UDP payload, the overhead is added here
-//   errors make(): Problem where the share, the largest packet or the rate contradict each other
-//   source token bucket, split in two; depth is latency, so both together hold one largest packet.
-//          They fill with the rate less that packet per second, so any window w sees at most
-//          rate w + packet (1 - w / 1 s). Packets keep a schedule of 1 / packet rate, and may be
-//          early by half of what rounding their number in 100 ms down leaves: a loop that ticks
-//          with jitter loses none
+//   errors make(): Problem if a value is out of range, or if the share, the largest packet and the
+//          rate contradict each other
+//   source token bucket, split in two. Depth is latency, so both parts together hold one largest
+//          packet. They fill at the rate minus that packet per second, so any window w has at most
+//          rate w + packet (1 - w / 1 s). Packets keep a schedule of 1 / packet rate. A packet may
+//          be early by half of what rounding down their number in 100 ms leaves, so that a loop
+//          with jitter loses no packet
 //
-//        rate - packet -+-> share (safety's rate) --- full: spills over --> rest
-//                       +-> rest (what is left)
-//        safety takes from the share, then from the rest; all else from the rest alone
+//        rate - packet -+-> share (safety rate) --- overflow if full --> rest
+//                       +-> rest (remaining rate)
+//        safety content takes from the share, then from the rest; other content from the rest only
 //
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
@@ -39,34 +40,32 @@ struct BudgetParams {
 struct BudgetCounters {
   std::uint64_t bytes = 0, packets = 0;  // spent, with overhead
   std::uint64_t safety_bytes = 0;
-  std::uint64_t refused = 0;  // times that something wanted to go and could not
+  std::uint64_t refused = 0;  // requests that found no room
 };
 
 class PathBudget {
  public:
   // A message of the key exchange must always fit beside the share.
   static constexpr std::size_t kLeastLargest = 192;
-  // What never comes by waiting: later than any clock.
 
   static Result<PathBudget, Problem> make(const BudgetParams& params);
 
-  // UDP payload that may go now in one packet that is all safety's, and in one that has none of
-  // it. Zero: no packet.
+  // UDP payload that may be sent now in one packet with safety content only, and in one without
+  // safety content. Zero: no packet may be sent.
   std::size_t room_for_safety(Instant now) const;
   std::size_t room_for_all(Instant now) const;
-  // Payload of a whole packet of which `safety_payload` is safety's; the overhead then is, too.
-  // Zero: not even the safety part may go.
+  // UDP payload of a whole packet with `safety_payload` bytes of safety content; the overhead then
+  // counts as safety content too. Zero: not even the safety part may be sent.
   std::size_t room_beside(std::size_t safety_payload, Instant now) const;
-  // A packet went. CHECKs that there was room for it. `safety_payload`: how much of it was
-  // safety's.
+  // Pays for a packet with `safety_payload` bytes of safety content. CHECKs that it has room.
   void spend(std::size_t payload, std::size_t safety_payload, Instant now);
   void note_refused() { ++counters_.refused; }
-  // Of the rate: what rate control leaves of it, (0, 1]; safety's share is never scaled.
+  // Scales the rate by the factor of rate control, (0, 1]; the safety share is never scaled.
   void scale(double factor, Instant now);
-  // Bytes per second that come at present: the rate as it is scaled, less a largest packet.
+  // Bytes per second at present: the scaled value of the rate minus a largest packet.
   double present_rate() const { return static_cast<double>(scaled_rate_); }
-  // The earliest time at which a packet of this payload may go as all else; Instant::max() if it
-  // is too large.
+  // The earliest time at which a packet of this payload may be sent without safety content;
+  // Instant::max() if it is too large.
   Instant due(std::size_t payload, Instant now) const;
 
   std::size_t largest_payload() const { return static_cast<std::size_t>(largest_payload_); }
@@ -89,7 +88,7 @@ class PathBudget {
   std::int64_t largest_payload_ = 0;
   std::int64_t share_rate_ = 0, whole_rate_ = 0, scaled_rate_ = 0;  // bytes per second
   Levels full_, at_;
-  // Asking is what begins it, hence mutable.
+  // Mutable because the first query starts the bucket.
   mutable bool begun_ = false;
   mutable Instant at_time_{}, next_packet_{};
   Duration spacing_{}, early_{};

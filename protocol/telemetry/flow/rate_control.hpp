@@ -1,14 +1,15 @@
-// Rate control of a path: the share of the budget that it carries at present, by the gradient of
-// its one-way delay. A queue that grows is congestion; loss alone is a fade and changes nothing.
-//   in     deliveries: when a packet was sent (our clock) and received (theirs; any offset), and
-//          the bytes that arrived since the delivery before, its own included
+// Rate control of a path: the share of its budget that the path carries at present, from the
+// gradient of its one-way delay. A growing queue is congestion; loss alone is a fade and changes
+// nothing.
+//   in     deliveries: times when a packet was sent (our clock) and received (the peer's clock, any
+//          offset), and the bytes that arrived since the delivery before, its own included
 //   out    factor of the budget, (0, 1]
 //   invariants
-//          overuse: a queue of more than kLeastQueue whose delay, by a straight line through the
-//          last half second (and at least eight deliveries), grows faster than kOveruse and than
-//          its noise explains. Then 0.85 of the rate that arrived between fades; else, unless a
-//          queue stands, + 5 % of the budget per second; never below the floor that safety needs.
-//          Without deliveries nothing changes
+//          overuse is a queue of at least kLeastQueue whose delay grows faster than kOveruse and
+//          than its noise explains, by a straight line through the last half second (and at least
+//          eight deliveries). The rate is then set to 0.85 of the rate that arrived, fades left
+//          out. Otherwise it rises by 5 % of the budget per second unless a queue stands. It never
+//          falls below the floor that safety needs. Without deliveries nothing changes
 //   source trendline filter of Google congestion control (draft-ietf-rmcat-gcc-02, 5.3 to 5.5), its
 //          delay part only
 // SPDX-License-Identifier: Apache-2.0
@@ -31,8 +32,8 @@ class RateControl {
 
   void delivered(Instant sent, Instant received_by_peer, std::size_t bytes, Instant now);
   double factor(Instant now);
-  Duration queue_delay() const;  // above the least of the last 5 to 10 s
-  bool congested() const;        // grows, or still stands
+  Duration queue_delay() const;  // delay above the minimum of the last 5 to 10 s
+  bool congested() const;        // the rate is reduced and a queue still stands
   std::uint64_t backoffs() const { return backoffs_; }
 
  private:
@@ -59,7 +60,7 @@ class RateControl {
   Instant origin_sent_{}, origin_received_{};
   Instant changed_{};  // last change of the factor
   double hold_until_s_ = 0.0;
-  std::array<double, 2> least_s_{};  // of the interval under way and the one before
+  std::array<double, 2> least_s_{};  // minima of the current interval and of the one before
   double interval_start_s_ = 0.0;
   double smoothed_s_ = 0.0;
   std::uint64_t backoffs_ = 0;

@@ -1,15 +1,15 @@
-// Order of the groups for the next packet: safety always, then by age of what the other end is
-// known to have.
-//   invariants  index_g = w_g * (max(0, age_g - T_g / 2) / T_g)^2 / sqrt(bits_g); age_g since the
-//          sample that was acknowledged, or is under way for less than a round trip and the wait
-//          of an acknowledgement to be written. Ages grow without bound, so no group starves. A
-//          sample that the other end has is not offered again
-//          behind the groups with an index above zero go those that are as old as the period that
-//          the caller gives, the oldest first
-//          while nothing comes back that was sent since, what is under way counts as lost: after a
-//          fade the first packet that arrives has what is oldest
-//   in     snapshots, what was written into which packet, which packets were acknowledged
-//   out    groups in falling order; counters that explain each choice
+// Scheduler of the groups for the next packet: safety groups always, then by the age of the newest
+// sample that the other end is known to have.
+//   invariants  index_g = w_g * (max(0, age_g - T_g / 2) / T_g)^2 / sqrt(bits_g). age_g counts from
+//          the sample that was acknowledged, or that is under way for less than a round trip and
+//          the wait for the acknowledgement to be written. Ages grow without bound, so no group
+//          starves. A sample that the other end has is not offered again
+//          after the groups with an index above zero come the slow groups that are as old as the
+//          period that the caller gives, the oldest first
+//          while packets stay without acknowledgement for too long, those under way count as lost:
+//          so the first packet that arrives after a fade has the oldest groups
+//   in     snapshots, the groups written into each packet, the acknowledged packets
+//   out    groups in falling order of priority; counters that explain each choice
 //   cost   O(G log G), no allocation
 //   source Kadota et al., "Scheduling Policies for Minimizing Age of Information in Broadcast
 //          Wireless Networks", 2018, max-weight policy
@@ -27,8 +27,8 @@ namespace pitwall::telemetry {
 
 struct GroupFigures {
   std::uint64_t chosen = 0,
-                skipped = 0;  // packets that had it; had no room for it though it was due
-  Instant acked_sample = kNeverSampled;  // newest that the other end is known to have
+                skipped = 0;  // packets that had it; packets without room for it though it was due
+  Instant acked_sample = kNeverSampled;  // newest sample that the other end is known to have
 };
 
 class Scheduler {
@@ -37,10 +37,12 @@ class Scheduler {
 
   using Order = FixedVector<Group, kGroups>;
   static constexpr Duration kNoPeriod{INT64_MAX};
-  // Groups with index zero.
+  // Offer of groups with index zero.
   struct Early {
-    Duration period = kNoPeriod;  // offered at this age
-    bool fill = false;            // all others, too: the nearer to being due, the sooner
+    Duration period = kNoPeriod;  // age from which slow groups are offered
+    // Offers all others too: motion before the groups of `period`, the rest after them; in each
+    // part the group nearest to its target age first.
+    bool fill = false;
   };
   // Sampled groups: those of class kSafety first, then by falling index, then the early ones.
   Order order(const Snapshot& snapshot, Duration round_trip, Instant now, Early early) const;
@@ -51,8 +53,8 @@ class Scheduler {
   void sent(std::uint64_t sequence, GroupSet written, GroupSet wanted, const Snapshot& snapshot,
             Instant now);
   void acked(std::uint64_t sequence);
-  void forget();  // a new session: the other end is known to have nothing
-  // Of what was sent, all that should have been acknowledged by now was not.
+  void forget();  // new session: no sample counts as received by the other end
+  // True if packets that should be acknowledged by now are not.
   bool silent(Duration round_trip, Instant now) const;
 
   const GroupFigures& figures(Group group) const { return figures_[index_of(group)]; }
@@ -72,8 +74,9 @@ class Scheduler {
   Direction direction_;
   std::array<GroupFigures, kGroups> figures_{};
   std::array<Packet, kKept> packets_{};
-  std::array<Instant, kGroups> last_sample_{}, last_sent_{};  // newest under way, by group
-  Instant oldest_doubtful_ = kNeverSampled;  // sending of the first packet after the acked ones
+  std::array<Instant, kGroups> last_sample_{}, last_sent_{};  // newest sent, by group
+  // Time of sending of the first packet after the newest acknowledged one.
+  Instant oldest_doubtful_ = kNeverSampled;
   std::uint64_t newest_acked_ = 0, newest_ = 0;
 };
 

@@ -1,4 +1,4 @@
-// Body of a data packet once it is opened: time of sending, acknowledgement, groups of state,
+// Body of a data packet after decryption: time of sending, acknowledgement, groups of state,
 // records.
 //   wire   tx_time u24 (100 us units of the sender's clock, wraps), flags u8
 //            flags: has_ack 1, has_groups 2, paths sent on 4 (0x04 << path), 6 bits used
@@ -7,7 +7,7 @@
 //           each group of the set; the groups' bits back to back; zeros to a whole byte]
 //          records to the end: type u8, length u8 or (length >= 0xF0) two bytes, payload
 //   invariants
-//          parse accepts exactly what BodyWriter makes: one form for each meaning
+//          parse_body accepts exactly what BodyWriter writes: each content has one encoding
 //   errors BodyError for any other bytes; nothing is read past the end
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
@@ -35,11 +35,11 @@ constexpr std::uint8_t bit_of(PathId path) { return static_cast<std::uint8_t>(1U
 inline constexpr std::size_t kMaxRecords = 48;
 inline constexpr std::size_t kBodyFixed = 4, kAckSize = 8;
 
-// Which of the last 33 packets arrived: newest, and bit k for newest - 1 - k.
+// Acknowledgement of the last 33 packets: the newest one, and bit k for newest - 1 - k.
 struct Ack {
   std::uint16_t newest_low = 0;  // low 16 bits of the sequence
   std::uint32_t mask = 0;
-  Duration hold{};  // between its arrival and the sending of this packet
+  Duration hold{};  // from the arrival of the newest one to the sending of this packet
 };
 
 enum class RecordType : std::uint8_t {
@@ -54,7 +54,7 @@ enum class RecordType : std::uint8_t {
   kSchemaGroup,  // one group's definition as text
   kPathProbe,
   kPathProof,
-  kPathReceipt  // the newest arrival by one path
+  kPathReceipt  // newest packet received on one path
 };
 inline constexpr std::uint8_t kRecordTypeMax = 12;
 
@@ -65,22 +65,22 @@ struct Record {
 
 class BodyWriter {
  public:
-  // `room`: at most so many bytes, <= kMaxBody.
+  // `room`: largest size of the body in bytes, <= kMaxBody.
   BodyWriter(std::span<std::uint8_t> buffer, std::size_t room, Direction direction)
       : BodyWriter(buffer, room, own_layout(direction)) {}
-  // As a sender of another registry would; the layout outlives the writer.
+  // Writes by the layout of another registry; the layout outlives the writer.
   BodyWriter(std::span<std::uint8_t> buffer, std::size_t room, const Layout& layout);
 
-  // In this order, each at most once; groups before records.
+  // Calls in this order: begin() once, add_ack() and add_groups() at most once, then records.
   void begin(Instant now, std::uint8_t paths_mask);
   bool add_ack(const Ack& ack);
-  // Those of `wanted` that the layout has and that fit, in the order given; returns the set that
-  // was written.
+  // Writes those of `wanted` that the layout has and that fit, in the given order; returns the set
+  // of the written groups.
   GroupSet add_groups(const Snapshot& snapshot, std::span<const Group> wanted, Instant now,
                       CodecCounters& counters);
   bool add_record(RecordType type, std::span<const std::uint8_t> payload);
 
-  // The last so many bytes of the room stay free, until another call; what is written stays.
+  // Keeps the last `bytes` of the room free until another call; written bytes are not affected.
   void hold_back(std::size_t bytes) { held_back_ = bytes; }
 
   std::size_t room_left() const;
@@ -102,8 +102,8 @@ enum class BodyError : std::uint8_t {
   kTooShort,
   kTooLong,  // more than kMaxBody
   kBadFlags,
-  kBadGroups,  // a set that the direction does not have, or an empty one
-  kBadValue,   // a bit pattern that no value makes
+  kBadGroups,  // the set is empty or has a bit that the direction does not have
+  kBadValue,   // a bit pattern that encodes no value
   kBadPadding,
   kBadRecord,  // unknown type, length past the end, or not in its shortest form
   kTooManyRecords
@@ -115,9 +115,9 @@ struct Body {
   std::uint32_t tx_time_100us = 0;  // 24 bits
   std::uint8_t paths_mask = 0;
   std::optional<Ack> ack;
-  GroupSet groups;  // without those that are unknown here
+  GroupSet groups;  // without groups that are unknown here
   std::array<std::uint8_t, kGroups> age_codes{};
-  Values values;                             // of the groups of the set; others unset
+  Values values;                             // of the groups in the set; others unset
   FixedVector<Record, kMaxRecords> records;  // point into the bytes parsed
 };
 

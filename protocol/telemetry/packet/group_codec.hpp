@@ -1,13 +1,12 @@
-// Values of groups as bits, and the ages of their samples as four bits each.
+// Bit codec of the groups' values, and of the ages of their samples as four bits each.
 //   invariants
-//          |decoded - value| <= resolution / 2 inside a field's range; a value out of range is
-//          written as its end and counted; NaN is "unset"; an infinite value is written as unset
-//          and counted
-//          an age is rounded up: the receiver never takes a sample for younger than it is. One of
-//          more than an hour is written as "never sampled"
-//   errors encode: false where the group did not fit; the writer takes no more then
-//          decode: false where a bit pattern is none that encode makes; the group's values are
-//          unset then, and untouched where too few bits were there
+//          |decoded - value| <= resolution / 2 inside the range of a field. A value out of range is
+//          saturated and counted; NaN is "unset"; an infinite value is written as unset and counted
+//          an age is rounded up, so that a sample never appears younger than it is. An age of more
+//          than an hour is written as "never sampled"
+//   errors encode: false if the group does not fit; the writer then accepts no more
+//          decode: false if a bit pattern encodes no value; the group's values are then unset. If
+//          there are too few bits the values stay unchanged
 //   cost   no allocation; encode 300 ns, decode 400 ns for a hundred fields
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
@@ -26,12 +25,12 @@ struct CodecCounters {
   std::uint64_t saturated = 0, not_finite = 0;
 };
 
-// Fields of at most 32 bits one after the other, gathered into words: 32 bits are written at once
-// sooner than a few at a time. What is gathered stays in registers during a call.
+// Writer of consecutive fields of at most 32 bits. It gathers them into words of 32 bits, because
+// one write per word is faster than one per field. The word stays in registers during a call.
 class FieldWriter {
  public:
   explicit FieldWriter(bits::BitWriter& out) : out_(out) {}
-  // fields(put), which calls put(value, bits).
+  // Calls fields(put), which calls put(value, bits) for each field.
   template <class Fields>
   void write(Fields&& fields) {
     std::uint64_t word = word_;
@@ -46,7 +45,7 @@ class FieldWriter {
     word_ = word;
     filled_ = filled;
   }
-  // The rest of the last word. False where not all did fit.
+  // Writes the rest of the last word. Returns false if not all fields fitted.
   bool finish() { return out_.write(word_ & ((std::uint64_t{1} << filled_) - 1), filled_); }
 
  private:
@@ -57,11 +56,11 @@ class FieldWriter {
   unsigned filled_ = 0;  // < kWord between two fields
 };
 
-// The other way round; `total`: all bits that are taken, which are there.
+// Reader of such fields; `total`: number of bits to read, which the caller has checked.
 class FieldReader {
  public:
   FieldReader(bits::BitReader& in, std::size_t total) : in_(in), left_(total) {}
-  // What fields(take) returns, which calls take(bits).
+  // Returns the result of fields(take), which calls take(bits) for each field.
   template <class Fields>
   bool read(Fields&& fields) {
     std::uint64_t word = word_;
@@ -92,13 +91,13 @@ class FieldReader {
 
 void encode_group(Group group, const Values& values, FieldWriter& out, CodecCounters& counters);
 bool decode_group(Group group, FieldReader& in, Values& values);
-// A group by itself.
+// The same for one group alone.
 bool encode_group(Group group, const Values& values, bits::BitWriter& out, CodecCounters& counters);
 bool decode_group(Group group, bits::BitReader& in, Values& values);
 
 inline constexpr unsigned kAgeCodeBits = 4;
 inline constexpr std::uint8_t kNeverCode = 15;  // never sampled
-std::uint8_t age_code(Duration age);            // the smallest code that is at least this old
+std::uint8_t age_code(Duration age);            // the smallest code whose age is at least `age`
 Duration age_of_code(std::uint8_t code);        // code < kNeverCode
 
 }  // namespace pitwall::telemetry

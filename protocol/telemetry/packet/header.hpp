@@ -1,8 +1,8 @@
-// The clear part of every datagram: what it is, and whose keys open it. It is authenticated with
-// the rest, but not hidden.
+// Header of every datagram: the kind of packet and the session whose keys open it. It is
+// authenticated with the rest, but not encrypted.
 //   wire   u8 = version:3 | kind:3 | key phase:1 | 0:1, receiver u16, sequence (low half) u32;
 //          little endian
-//   in     any bytes at all
+//   in     any bytes
 //   out    a Header, or HeaderError
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
@@ -24,10 +24,10 @@ inline constexpr std::size_t kMaxBody = kMaxDatagram - kHeaderSize - kTagSize;
 enum class Kind : std::uint8_t {
   kOpening,     // first message of the key exchange
   kAnswer,      // second
-  kNewerStamp,  // "an opening must have a greater stamp than this"
+  kNewerStamp,  // reply to an opening whose stamp is too old: the stamp that the next must exceed
   kSealed,      // data, encrypted
   kSigned,      // data, readable, authenticated
-  kUnknown      // "I have no session of that number"; a hint, proves nothing
+  kUnknown      // reply: no session has that number; an unauthenticated hint
 };
 inline constexpr std::size_t kKinds = 6;
 
@@ -35,7 +35,7 @@ struct Header {
   Kind kind = Kind::kSealed;
   bool key_phase = false;
   std::uint16_t receiver = 0;      // the receiver's number of the session
-  std::uint32_t sequence_low = 0;  // of 64 bits; the receiver knows the rest
+  std::uint32_t sequence_low = 0;  // low half of 64 bits; the receiver restores the upper half
 };
 
 enum class HeaderError : std::uint8_t {

@@ -1,8 +1,8 @@
-// One row of the telemetry registry: what a number means and how it is written on the air.
+// Row of the telemetry registry: meaning and wire encoding of one field.
 //   units  min, max and resolution in the unit of the field; angles in radians
-//   wire   as bits::Quantized has it; all ones is "unset"
-//   kind   a number without a unit in whole steps is an integer or an enumeration; one that is
-//          labelled "no|yes" says yes or no; any other is real
+//   wire   as in bits::Quantized; all ones is "unset"
+//   kind   a field without a unit, or a bit set, of resolution 1 is an integer or an enumeration;
+//          one with the labels "no|yes" is a boolean; any other is real
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -23,7 +23,7 @@ struct FieldRow {
   std::string_view name;
   std::string_view unit;
   double min, max, resolution;
-  std::string_view labels = {};  // of the values 0, 1, 2 ...: "off|on"; of a bit set: of the bits
+  std::string_view labels = {};  // of the values 0, 1, 2 ...: "off|on"; for a bit set, of its bits
 
   constexpr bits::Quantized quantized() const { return {min, max, resolution}; }
   constexpr FieldKind kind() const {
@@ -31,7 +31,7 @@ struct FieldRow {
     const bool bare = unit.empty() || unit == kBitSet;
     return bare && resolution == 1.0 ? FieldKind::kInteger : FieldKind::kReal;
   }
-  // Of the group: its fields travel together.
+  // Properties of the group, whose fields are always sent together.
   constexpr Class priority() const { return row_of(group).priority; }
   constexpr Duration target_age() const { return row_of(group).target_age; }
 
@@ -40,7 +40,7 @@ struct FieldRow {
 
 namespace rows {
 
-// Rows that many groups have.
+// Rows that several groups use.
 constexpr FieldRow count(Group group, std::string_view name, double max = 16'777'213.0) {
   return {group, name, "", 0, max, 1};  // 24 bits: 46 h at 100 Hz
 }

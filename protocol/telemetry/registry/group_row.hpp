@@ -1,6 +1,6 @@
-// Groups of the telemetry registry: fields that are sampled together, travel together and share one
-// sample age. A group is written whole or not at all, so that any packet that holds it replaces
-// what was known of it.
+// Groups of the telemetry registry: fields that are sampled and sent together and share one sample
+// age. A group is written whole or not at all, so that each packet with the group replaces all of
+// its former values.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -52,14 +52,14 @@ enum class Group : std::uint8_t {
   kBus,
   kRadio,
   kStop,      // up: the latched stop of the operator
-  kJoystick,  // up: the dead-man's samples
-  kAuthority  // up: whose console may command
+  kJoystick,  // up: samples of the joystick with its dead-man's switch
+  kAuthority  // up: the console that may send commands
 };
 inline constexpr std::size_t kGroups = 36;
 
 constexpr std::size_t index_of(Group group) { return static_cast<std::size_t>(group); }
 
-// The part of the link that a group may claim when not all fits; first is kept longest.
+// Priority of a group when a packet has no room for all groups; the first has the highest.
 enum class Class : std::uint8_t { kSafety, kMotion, kHealth, kStatistics };
 inline constexpr std::size_t kClasses = 4;
 
@@ -67,13 +67,13 @@ struct GroupRow {
   Group group;
   std::string_view name;
   Direction direction;
-  Class priority;       // kSafety: in every packet, out of the reserved share
+  Class priority;       // kSafety: in every packet, paid from the reserved share
   Duration target_age;  // T_g of the scheduler
   double weight;        // w_g of the scheduler, > 0
 };
 
-// Ages: a fast group is in nearly every packet of 50 Hz; one of health follows its sensor (AV-21
-// sends engine and tyres at 10 Hz and slower); of statistics nobody needs more than one a second.
+// Target ages: a fast group is in nearly every packet of 50 Hz; a health group follows its sensor
+// (the AV-21 sends engine and tyres at 10 Hz and slower); statistics need at most one per second.
 
 inline constexpr auto kGroupTable = [] {
   using enum Group;
@@ -127,7 +127,7 @@ static_assert([] {
 
 constexpr const GroupRow& row_of(Group group) { return kGroupTable[index_of(group)]; }
 
-// A set of groups, one bit each in the order of Group.
+// Set of groups, one bit each in the order of Group.
 struct GroupSet {
   std::uint64_t bits = 0;
 

@@ -1,4 +1,4 @@
-// Names of the values of enumerated fields, in the order of the enumerations of vehicle/world and
+// Labels of the values of enumerated fields, in the order of the enumerations of vehicle/world and
 // vehicle/safety, which this folder must not include; vehicle/pipeline/telemetry_tap compares them.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
@@ -20,7 +20,7 @@ inline constexpr std::string_view kSysStates =
     "engine failed to start|critical limits exceeded|standby";
 inline constexpr std::string_view kTrackFlags =
     "none|RED|ORANGE|YELLOW|GREEN|WAVING GREEN|CHEQUERED|UNKNOWN";
-// Those that somebody shows: all but the last, which a car says of a flag that it does not know.
+// Flags that race control can show: all but the last, which stands for an unknown flag.
 inline constexpr std::string_view kShownTrackFlags = kTrackFlags.substr(0, kTrackFlags.rfind('|'));
 inline constexpr std::string_view kVehicleFlags =
     "none|BLACK PIT IN|BLUE|STOP|PURPLE EMERGENCY|ENGINE KILL|ORANGE START ENGINE|YELLOW|CHEQUERED|"
@@ -38,7 +38,7 @@ inline constexpr std::string_view kLadderRungs =
 inline constexpr std::string_view kShiftStates =
     "not initialised|ready|locked out|shifts up|shifts down";
 inline constexpr std::string_view kUnitSets = "none|unit 0|unit 1|both";
-// Bits of a set of sensors, as an operator says them.
+// Bits of a set of sensors, by the names that an operator enters.
 inline constexpr std::string_view kExcludableNames = "gnss0|gnss1|imu0|imu1|wheels";
 inline constexpr std::string_view kSampleVerdicts =
     "-|in use|NOT A NUMBER|no such unit|no solution|too uncertain|too old|from the future|JUMPED|"
@@ -72,7 +72,7 @@ inline constexpr std::string_view kStopCauses =
     "no good position|planning a beat late|control a beat late|"
     "race control: flags unknown or contradictory|computer missed ticks|computer busy|"
     "a clock stepped|clock too fast or slow|GNSS: one unit is bad";
-// Of the value that a cause comes with; "-": a number that tells a person nothing.
+// Unit of the value that belongs to each cause; "-": the value has no meaning for an operator.
 inline constexpr std::string_view kStopCauseUnits =
     "-|-|-|s|-|-|-|-|-|-|-|-|-|-|-|-|-|-|-|ticks|ticks|s|-|s|m|s|s|s|s|s|-|s|m|rad|kPa|of 1|s|MiB|"
     "degC|-|s|s|ticks|-|s|of 1|s|ppm|-";
@@ -80,7 +80,7 @@ inline constexpr std::string_view kStopCauseUnits =
 inline constexpr std::string_view kThreatNames =
     "wrong key|sealed against signed|refused at rate|second peer|replayed openings|relay";
 
-// What is left of "a|b|c" without the first so many names.
+// The rest of "a|b|c" without its first `first` names.
 constexpr std::string_view labels_from(std::string_view labels, std::size_t first) {
   for (; first > 0; --first) {
     const std::size_t bar = labels.find('|');
@@ -90,21 +90,21 @@ constexpr std::string_view labels_from(std::string_view labels, std::size_t firs
   return labels;
 }
 
-// Two sets of bits hold the causes: bit k of the first is cause k + 1, of the second k + 32.
+// Two bit sets hold the causes: bit k of the first is cause k + 1, bit k of the second is k + 32.
 inline constexpr std::size_t kFaultBits = 31;
 inline constexpr std::string_view kFaultNamesMore = labels_from(kStopCauses, 1 + kFaultBits);
 inline constexpr std::string_view kFaultNames =
     labels_from(kStopCauses, 1)
         .substr(0, labels_from(kStopCauses, 1).size() - kFaultNamesMore.size() - 1);
 
-// How many names "a|b|c" has.
+// Number of names in "a|b|c".
 constexpr std::size_t label_count(std::string_view labels) {
   std::size_t count = labels.empty() ? 0 : 1;
   for (const char c : labels) count += c == '|' ? 1U : 0U;
   return count;
 }
 
-// The name at this place of "a|b|c"; empty past the end.
+// The name at this index of "a|b|c"; empty past the end.
 constexpr std::string_view label_at(std::string_view labels, std::size_t index) {
   const std::string_view rest = labels_from(labels, index);
   return rest.substr(0, rest.find('|'));

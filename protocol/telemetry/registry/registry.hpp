@@ -1,6 +1,6 @@
-// The telemetry registry: every field that goes over the radio as state, in one table. Codec, views
+// Telemetry registry: all fields that are sent over the radio as state, in one table. Codec, views
 // and documents are derived from it; a field is added in its rows_*.hpp and nowhere else.
-//   order  by group, as Group has them; inside a group the order is that on the air
+//   order  by group, in the order of Group; inside a group the order on the wire
 //   errors a name that is not in the table does not compile
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
@@ -45,7 +45,7 @@ inline constexpr std::size_t kFieldCount = kFields.size();
 
 using FieldIndex = std::size_t;
 
-// "ego.x" to its place in the table; anything else does not compile.
+// Index in the table of a field such as "ego.x"; an unknown name does not compile.
 consteval FieldIndex field(std::string_view path) {
   for (FieldIndex i = 0; i < kFieldCount; ++i) {
     const std::string_view group = row_of(kFields[i].group).name;
@@ -57,7 +57,7 @@ consteval FieldIndex field(std::string_view path) {
   throw "no such field in the telemetry registry";  // reached only at compile time
 }
 
-// One number per field in the unit of its row; NaN where the car does not know.
+// One number per field in the unit of its row; NaN for an unknown value.
 struct Values {
   std::array<double, kFieldCount> at = [] {
     std::array<double, kFieldCount> unset{};
@@ -69,7 +69,7 @@ struct Values {
   constexpr double operator[](FieldIndex i) const { return at[i]; }
 };
 
-// Where the fields of a group stand in the table.
+// Range of a group's fields in the table.
 struct FieldSpan {
   FieldIndex first = 0, count = 0;
 };
@@ -83,7 +83,7 @@ inline constexpr auto kGroupFields = [] {
 }();
 constexpr FieldSpan fields_of(Group group) { return kGroupFields[index_of(group)]; }
 
-// Bits of a group's values on the air; the same for every value.
+// Bits of a group's values on the wire; the size does not depend on the values.
 inline constexpr auto kGroupBits = [] {
   std::array<std::size_t, kGroups> bits{};
   for (const FieldRow& row : kFields) bits[index_of(row.group)] += row.quantized().bits();
@@ -91,7 +91,7 @@ inline constexpr auto kGroupBits = [] {
 }();
 constexpr std::size_t group_bits(Group group) { return kGroupBits[index_of(group)]; }
 
-// Of all groups that the car tells.
+// Bits of all groups that the car sends.
 inline constexpr std::size_t kValueBits = [] {
   std::size_t bits = 0;
   for (const GroupRow& row : kGroupTable)

@@ -1,5 +1,6 @@
 // Registry rows of autonomy: localization, opponents, plan.
-//   units  stations and offsets as in rows_motion.hpp; an opponent's age is that of the detection
+//   units  stations and offsets as in rows_motion.hpp; the age of an opponent is the age of its
+//          detection
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

@@ -1,10 +1,10 @@
-// Suspension, tyres, engine, electrics and actuator units, as the car's bus tells them.
+// Registry rows of suspension, tyres, engine, electrics and actuator units, from the car's CAN bus.
 //   source AV-21 DBC: wheel_potentiometer_data, wheel_strain_gauge (to 8190 N), Tire_Pressure
 //          (1 mbar), Tire_Temp (16 sensors across each tyre), pt_report_1 to 3 (temperatures in
 //          whole degrees, one byte), misc_report (0.1 V), diagnostic_report, dash_switches; AV-24
-//          DBC: steering_report_extd_2, brake_report_extd and _2. A step is what a pit wall acts
-//          on: 1 degree, 1 kPa, 8 kPa of a hydraulic pressure, 0.4 mm of travel, 1 % of the load on
-//          a wheel
+//          DBC: steering_report_extd_2, brake_report_extd and _2. A step is the smallest change
+//          that a pit wall acts on: 1 degree, 1 kPa, 8 kPa of a hydraulic pressure, 0.4 mm of
+//          travel, 1 % of the load on a wheel
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -26,7 +26,7 @@ constexpr FieldRow temperature(Group group, std::string_view name) {
 constexpr FieldRow tyre_pressure(std::string_view name) {
   return {Group::kTyres, name, "kPa", 0, 408, 0.8};
 }
-constexpr FieldRow motor_angle(std::string_view name) {  // at the road wheel; two steps of a sensor
+constexpr FieldRow motor_angle(std::string_view name) {  // at the road wheel; two sensor steps
   return {Group::kSteeringUnit, name, "rad", -0.46, 0.46, 0.0009};
 }
 constexpr FieldRow position(std::string_view name) {
@@ -91,7 +91,7 @@ inline constexpr auto kChassisRows = [] {
       {kElectric, "battery", "V", 0, 25.4, 0.1},
       {kElectric, "diagnostics", FieldRow::kBitSet, 0, 16'777'214, 1},
       yes_no(kElectric, "mode_switch"),
-      {kElectric, "safety_switch", "", 0, 14, 1},  // three bits on the bus, all of them legal
+      {kElectric, "safety_switch", "", 0, 14, 1},  // three bits on the bus, all values legal
 
       motor_angle("angle_1"),
       motor_angle("angle_2"),

@@ -1,6 +1,6 @@
-// Is everything alive and on time: watchdogs, sensors, receivers, computer, faults, bus, radio.
+// Registry rows of health: watchdogs, sensors, receivers, computer, faults, bus, radio.
 //   source NovAtel OEM7: solution status below 23, position types below 81; the watchdogs of
-//          vehicle/safety/watchdog.hpp in its order, of which the tap makes sure
+//          vehicle/safety/watchdog.hpp in its order, which the telemetry mapper checks
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -14,10 +14,10 @@ constexpr FieldRow stream(std::string_view name) {
   return choice(Group::kStreams, name, kBaseStates, 6);
 }
 constexpr FieldRow rate(std::string_view name) { return {Group::kSensors, name, "Hz", 0, 250, 1}; }
-constexpr FieldRow gap(std::string_view name) {  // the largest of the last second
+constexpr FieldRow gap(std::string_view name) {  // maximum of the last second
   return {Group::kSensors, name, "ms", 0, 1'016, 4};
 }
-constexpr FieldRow latency(std::string_view name) {  // from true to heard, likewise
+constexpr FieldRow latency(std::string_view name) {  // from measurement to reception; likewise
   return {Group::kSensors, name, "ms", 0, 508, 2};
 }
 
@@ -26,7 +26,7 @@ constexpr std::array<FieldRow, kReceiverFields> receiver(Group group) {
   return {{{group, "status", "", 0, 62, 1},
            {group, "type", "", 0, 126, 1},
            {group, "satellites", "", 0, 62, 1},
-           {group, "sigma", "m", 0, 20, 0.01},  // horizontal, the larger
+           {group, "sigma", "m", 0, 20, 0.01},  // horizontal, the larger of both
            {group, "height_sigma", "m", 0, 20, 0.02},
            {group, "differential_age", "s", 0, 100, 0.5},
            {group, "heading_status", "", 0, 62, 1},
@@ -42,7 +42,7 @@ constexpr std::array<FieldRow, kReceiverFields> receiver(Group group) {
 inline constexpr auto kGnss0 = receiver(Group::kGnss0);
 inline constexpr auto kGnss1 = receiver(Group::kGnss1);
 
-// What became of the bytes of each: counts since the car's process began.
+// Decoder statistics of each receiver: counts since the start of the car's process.
 inline constexpr auto kReceiverRows = std::to_array<FieldRow>({
     large_count(Group::kReceivers, "bytes_0"),
     large_count(Group::kReceivers, "logs_0"),
@@ -115,16 +115,16 @@ inline constexpr auto kHealthRows = [] {
       {kRadio, "silence", "s", 0, 50, 0.05},
       {kRadio, "round_trip", "ms", 0, 2'000, 0.5},
       count(kRadio, "heartbeats"),          // packets of the base that were accepted
-      count(kRadio, "heartbeats_refused"),  // that were not, whatever for
+      count(kRadio, "heartbeats_refused"),  // packets of the base that were refused
       count(kRadio, "base_runs"),           // sessions
-      share(kRadio, "loss_0"),              // of what comes by path 0
+      share(kRadio, "loss_0"),              // of the packets received on path 0
       share(kRadio, "loss_1"),
       {kRadio, "delay_0", "ms", 0, 2'000, 2},  // one way, 99th percentile
       {kRadio, "delay_1", "ms", 0, 2'000, 2},
-      share(kRadio, "budget_use_0"),  // of what leaves by path 0
+      share(kRadio, "budget_use_0"),  // of the packets sent on path 0
       share(kRadio, "budget_use_1"),
       count(kRadio, "slots_skipped"),
-      {kRadio, "threats", FieldRow::kBitSet, 0, 126, 1, kThreatNames},  // as the car sees them
+      {kRadio, "threats", FieldRow::kBitSet, 0, 126, 1, kThreatNames},  // as the car detects them
   });
 }();
 

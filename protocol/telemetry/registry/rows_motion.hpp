@@ -3,8 +3,8 @@
 //          steering at the road wheel, left positive
 //   source AV-21: top speed below 100 m/s; wheel speed in steps of 0.1 km/h; steering motor of
 //          +-512 deg in steps of 0.5 deg behind a ratio of 19.5, so +-0.458 rad in steps of
-//          0.00045; brake pressure of 13 bits in kPa; six gears. A step is half of what the sensor
-//          or the estimate is good for: GNSS with RTK 0.02 m, dual-antenna heading 0.002 rad,
+//          0.00045; brake pressure of 13 bits in kPa; six gears. A step is half of the accuracy of
+//          the sensor or the estimate: GNSS with RTK 0.02 m, dual-antenna heading 0.002 rad,
 //          acceleration 0.01 g
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
@@ -48,7 +48,7 @@ inline constexpr auto kMotionRows = [] {
       pressure(kCommand, "brake"),
       gear(kCommand),
       yes_no(kCommand, "actuate"),  // sent to the actuators
-      yes_no(kCommand, "limited"),  // its slew was
+      yes_no(kCommand, "limited"),  // its slew rate was limited
 
       steering(kFeedback),
       share(kFeedback, "throttle"),
@@ -69,7 +69,7 @@ inline constexpr auto kMotionRows = [] {
       {kDynamics, "pitch_rate", "rad/s", -2, 2, 0.004},
       {kDynamics, "roll", "rad", -0.6, 0.6, 0.0012},
       {kDynamics, "pitch", "rad", -0.25, 0.25, 0.001},
-      {kDynamics, "bank", "rad", -0.6, 0.6, 0.0012},  // of the road there; Talladega has 0.58
+      {kDynamics, "bank", "rad", -0.6, 0.6, 0.0012},  // of the track; Talladega has 0.58
       {kDynamics, "lateral_error", "m", -10, 10, 0.02},
       {kDynamics, "heading_error", "rad", -0.5, 0.5, 0.002},
       {kDynamics, "speed_error", "m/s", -102, 102, 0.4},

@@ -1,10 +1,10 @@
-// Facts of the registry that are known when it compiles: sizes, shares of the radio, and the hashes
-// by which two ends find out whether they mean the same.
+// Compile-time properties of the registry: sizes, shares of the radio, and the hashes by which two
+// ends compare their registries.
 //   invariants
-//          hash of the canonical text (schema_text.hpp), FNV-1a of 64 bits: it finds what differs
-//          by accident; against intent stands the key exchange that carries it
-//   out    one hash for each group; one of all that must agree before the car may be armed: the
-//          safety groups of both directions and the commands; one of everything
+//          a hash is the 64-bit FNV-1a of the canonical text (schema_text.hpp). It detects
+//          accidental differences; the key exchange that carries it protects against forgery
+//   out    one hash for each group; one for the content that must agree before the car may be armed
+//          (the safety groups of both directions and the commands); one for everything
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -29,7 +29,7 @@ constexpr std::size_t bits_of(GroupSet set) {
 }
 constexpr std::size_t bytes_of(GroupSet set) { return (bits_of(set) + 7) / 8; }
 
-// On the air: the set, one age code of four bits for each, the values.
+// Size on the wire: the set, one age code of four bits for each group, the values.
 constexpr std::size_t state_bytes(GroupSet set, Direction direction) {
   const std::size_t codes = 4 * set.count() + bits_of(set);
   return (groups_of(direction).count() + 7) / 8 + (codes + 7) / 8;
@@ -40,7 +40,7 @@ static_assert(bytes_of(groups_of(Direction::kDown, Class::kSafety)) <= kSafetySh
               "the safety groups of the car take more than their share of every packet");
 static_assert(bytes_of(groups_of(Direction::kUp, Class::kSafety)) <= kSafetyShare,
               "the safety groups of the base take more than their share of every packet");
-// Fixed part and acknowledgement of a body, as packet/body.hpp has them.
+// Fixed part and acknowledgement of a body, as defined in packet/body.hpp.
 inline constexpr std::size_t kBodyOverhead = 4 + 8;
 static_assert(kBodyOverhead + state_bytes(groups_of(Direction::kDown), Direction::kDown) <=
                   kMaxBody,
@@ -61,7 +61,7 @@ class SchemaHash {
 };
 
 // command NAME UNIT MIN MAX RESOLUTION TIME_TO_LIVE_MS yes|no[ LABELS]; a space in the name is "_";
-// yes: only the holder of the authority may give it.
+// yes: only the holder of the authority may send it.
 template <class Sink>
 constexpr void say_command(const CommandRow& row, Sink&& say) {
   say("command ");
@@ -76,7 +76,7 @@ constexpr void say_command(const CommandRow& row, Sink&& say) {
   say("\n");
 }
 
-// What must agree before the car may be armed.
+// Text that must agree before the car may be armed.
 template <class Sink>
 constexpr void say_safety(Sink&& say) {
   for (const GroupRow& row : kGroupTable)

@@ -1,11 +1,11 @@
-// Differences between two registries in words, for the pit wall, where somebody has to find out
-// which of two programs is the old one before the car may be armed.
+// Comparison of two registries as text for the pit wall, where somebody has to find the outdated
+// program before the car may be armed.
 //   in     canonical texts (schema_text.hpp) of this end and of the other
-//   out    one line for each difference: what is here, what is there; empty where there is none
+//   out    one line for each difference with the value here and there; empty if there is none
 //          mode.arming: "barred" is inserted there as value 2, later values have other numbers
 //          ego.vx: range -20 to 120 here, -20 to 100 there
 //   invariants
-//          equal texts have no difference, texts that differ have at least one
+//          equal texts give no line, different texts at least one
 //   cost   allocates; not for the 100 Hz path. At most kDifferencesMax lines
 // SPDX-License-Identifier: Apache-2.0
 #pragma once

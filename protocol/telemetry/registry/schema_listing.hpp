@@ -1,8 +1,7 @@
-// The canonical text of a registry (schema_text.hpp), read back: what the other end has sent of its
-// own.
-//   in     any text at all, at most kListingMax bytes of it
+// Parser of the canonical text of a registry (schema_text.hpp), which the other end sends.
+//   in     any text; at most its first kListingMax bytes are read
 //   out    groups with their fields, and commands as the group named "commands"
-//   errors a line that is no such text is counted, with the number of the first; the rest is kept
+//   errors an invalid line is counted, with the number of the first one; the other lines are kept
 //   cost   allocates; not for the 100 Hz path
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
@@ -20,7 +19,7 @@ inline constexpr std::size_t kListingMax = 64 * 1'024;
 
 struct ListedField {
   std::string name, unit, min, max, resolution;
-  std::string time_to_live, needs_authority;  // of commands
+  std::string time_to_live, needs_authority;  // for commands only
   std::vector<std::string> labels;
 
   bool operator==(const ListedField&) const = default;

@@ -1,9 +1,9 @@
-// The canonical form of the registry as text: what two ends compare, and what their hashes are of.
+// Canonical text of the registry: two ends compare it and its hashes.
 //   form   group NAME down|up safety|motion|health|statistics
-//          FIELD UNIT MIN MAX RESOLUTION[ LABELS]        one line a field; no unit is "-"
+//          FIELD UNIT MIN MAX RESOLUTION[ LABELS]        one line per field; no unit is "-"
 //   invariants
-//          whatever changes the meaning of a bit on the air changes the text. Target ages and
-//          weights are the sender's own business and are not in it
+//          each change in the meaning of a bit on the wire changes the text. Target ages and
+//          weights concern the sender only and are not in the text
 //   in     a Group; a sink that takes string_view
 //   cost   usable at compile time
 // SPDX-License-Identifier: Apache-2.0
@@ -19,10 +19,11 @@
 
 namespace pitwall::telemetry {
 
-// Of the registry, whose texts have nothing to escape.
+// Text of the registry in quotes; such texts have no character to escape.
 inline std::string quoted(std::string_view text) { return '"' + std::string{text} + '"'; }
 
-// A number of a row in as few characters as say it: six decimals at most.
+// Shortest decimal form of a number of a row, with at most six decimals. CHECKs that the number has
+// no more.
 class Decimal {
  public:
   constexpr explicit Decimal(double value) {

@@ -1,6 +1,6 @@
-// Snapshot of one end's own state: a value for each field and, for each group, when it was sampled.
-// A packet is made of the newest snapshot at the moment it is sent.
-//   units  Instant on the clock of the end that made it
+// Snapshot of one end's own state: the value of each field and the sample time of each group. A
+// packet is made from the newest snapshot at the moment of sending.
+//   units  Instant on the clock of the end that made the snapshot
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

@@ -1,9 +1,10 @@
-// Titles of fields for people, in the terms of motorsport, vehicle dynamics and GNSS. No part of
-// the wire: a title may change without another schema.
-//   in    group and name of a field, of the registry or one that a base makes (link, derived, base)
-//   out   words that are understood without the path, unlike those of any other field
-//   rule  a field of kTitles has the title there. Any other has the words of its group, those of
-//         its name and what the group's number counts: "tyre temperature front left",
+// Titles of fields for operators, in the terms of motorsport, vehicle dynamics and GNSS. They are
+// not part of the schema: a title may change without changing the schema hash.
+//   in    group and name of a field of the registry, or of one that a base computes (link, derived,
+//         base)
+//   out   unique words that are understood without the path of the field
+//   rule  a field in kTitles has the title there. Any other has the words of its group, those of
+//         its name, and the noun that belongs to its number: "tyre temperature front left",
 //         "GNSS 0 satellites", "radio loss path 1"
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
@@ -21,7 +22,7 @@ struct FieldTitle {
   std::string_view path, title;
 };
 
-// Fields whose group and name do not read by themselves.
+// Fields whose group and name are not clear by themselves.
 inline constexpr auto kTitles = std::to_array<FieldTitle>({
     {"mode.mode", "car mode"},
     {"mode.ct_state", "CT state"},
@@ -185,12 +186,12 @@ inline constexpr auto kTitles = std::to_array<FieldTitle>({
     {"base.settings_unreadable", "settings unreadable"},
 });
 
-// Words before the name of a group's fields, after it, and what a number at its end counts.
+// Words before and after the name of a group's fields, and the noun for a number at its end.
 struct GroupTitle {
   std::string_view group, before, after = {}, counts = {};
 };
 
-// A group that is not here has its own name before the names of its fields.
+// For a group that is not here, the name of the group comes before the name of the field.
 inline constexpr auto kGroupTitles = std::to_array<GroupTitle>({
     {"mode", ""},
     {"flags", ""},
@@ -216,7 +217,7 @@ inline constexpr auto kGroupTitles = std::to_array<GroupTitle>({
     {"derived", ""},
 });
 
-// Words of names that people say otherwise.
+// Names for which operators use other words.
 inline constexpr auto kWords = std::to_array<FieldTitle>({
     {"station", "lap distance"},
     {"offset", "lateral offset"},

@@ -1,6 +1,6 @@
-// The vehicle state: the hundred signals of the chassis and its motion by which radio protocols are
-// compared (84 real numbers, 10 integers, 6 of yes or no). What the car decides and what watches it
-// is in other groups.
+// Vehicle state for the comparison of radio protocols: the hundred signals of the chassis and its
+// motion (84 real numbers, 10 integers, 6 booleans). The decisions and the monitors of the car are
+// in other groups.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -27,7 +27,7 @@ inline constexpr auto kVehicleState = [] {
   std::array<FieldIndex, kVehicleStateSize> fields{};
   std::size_t at = 0;
   for (FieldIndex i = 0; i < kFieldCount; ++i)
-    if (kVehicleStateSet.has(kFields[i].group)) fields[at++] = i;  // too many do not compile
+    if (kVehicleStateSet.has(kFields[i].group)) fields[at++] = i;  // an excess does not compile
   return fields;
 }();
 
@@ -44,7 +44,7 @@ static_assert(vehicle_state_count(FieldKind::kYesNo) == 6);
 static_assert(bytes_of(kVehicleStateSet) <= 121, "the values of the vehicle state have grown");
 inline constexpr std::size_t kVehicleStateDatagram =
     kHeaderSize + kTagSize + 4 + state_bytes(kVehicleStateSet, Direction::kDown);
-// With IP and UDP 179 bytes at most: 0.67 of what MAVLink 2 takes, scaled by hand and signed.
+// With IP and UDP at most 179 bytes: 0.67 of a signed MAVLink 2 message that is scaled by hand.
 static_assert(kVehicleStateDatagram <= 151, "the vehicle state as one datagram has grown");
 
 }  // namespace pitwall::telemetry

@@ -1,5 +1,5 @@
-// Address of a datagram's sender or destination. Opaque to the protocol: it is compared, never
-// read.
+// Address of a datagram's sender or destination. It is opaque to the protocol, which only compares
+// it.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

@@ -1,29 +1,29 @@
-// Two ends that know each other's keys, and the secure packets between them: key exchange, keys and
-// their phases, replay window, addresses. Sans-IO: bytes and times in, bytes out.
+// Security association of two ends with provisioned keys: key exchange, keys and their phases,
+// replay window, addresses. Sans-IO: bytes and times in, bytes out.
 //
 //   car                                   base
-//    | -- kOpening (e, es, ss) ----------> |   Noise KK; the car opens: it knows where the base is
+//    | -- kOpening (e, es, ss) ----------> |   Noise KK; the car has the address of the base
 //    | <--------- kAnswer (e, ee, se) ---- |
 //    | -- kSealed ----------------------> |   the first packet confirms: only now does the base
 //    | <------------------- kSealed ----- |   leave the keys of the session before
 //
 //   invariants
-//          a packet counts once: a window of 1024 numbers, shared by all paths, is looked at before
-//          and set after the tag was checked. Order of checks: length, number of the session,
+//          a packet is accepted once: a window of 1024 numbers, shared by all paths, is checked
+//          before the tag and updated after it. Order of checks: length, number of the session,
 //          number of the packet, tag, window
-//          a lost message of the exchange is sent again each kRetry; no exchange disturbs a session
-//          that works. An end that restarted is back after one exchange; a second process with the
-//          peer's keys has no effect while the peer is heard
-//          a living session gets fresh keys each kRenewAfter; its packets go on counting, those
-//          that are under way with the keys before open for kOldSessionKept more. Beside that keys
-//          change by phase after kPhasePackets or kPhaseTime
-//          an address is the peer's of a path if a packet came from it that is newer than all that
-//          came by this path, the copy of one that was faster by the other included
-//          a new address of the peer gets at most three times the bytes that it sent, beside the
-//          old one, until it has proved itself; before an exchange nobody gets more than he sent
-//          a car that hears nothing new by a path for kSilenceOpens opens there to the proved and
-//          to each configured address in turn, each at least every kTurnTime
-//   use    after each feed() ask poll() of every path: a reply is kept until the next one only
+//          a lost message of the exchange is sent again after kRetry; an exchange does not disturb
+//          a working session. An end that restarted is back after one exchange; a second process
+//          with the peer's keys has no effect while packets of the peer arrive
+//          an active session gets fresh keys after kRenewAfter. Its packet numbers continue;
+//          packets under way with the old keys are accepted for another kOldSessionKept. In
+//          addition, keys change by phase after kPhasePackets or kPhaseTime
+//          an address becomes the peer's address on a path by a packet that is newer than all
+//          before on this path; a copy of a packet that came earlier on the other path counts too
+//          a new address of the peer gets, beside the old one, at most three times the bytes that
+//          it sent until it is validated; before an exchange no reply exceeds the bytes received
+//          if a car receives nothing new on a path for kSilenceOpens, it sends openings there to
+//          the validated and to each configured address in turn, to each at least every kTurnTime
+//   use    after each feed() call poll() of every path: a later reply replaces a waiting one
 //   errors counted by Refusal; no effect, no allocation
 //   source The Noise Protocol Framework, revision 34, pattern KK; RFC 8439; RFC 4303 3.4.3 (window)
 // SPDX-License-Identifier: Apache-2.0
@@ -52,51 +52,51 @@
 namespace pitwall::telemetry {
 
 inline constexpr Duration kRetry = milliseconds(100);
-// A car that hears nothing new by a path for so long opens there anew: the base may have lost its
-// keys, or be elsewhere.
+// After this time without a new packet on a path, a car sends openings there: the base may have
+// lost its keys, or have another address.
 inline constexpr Duration kSilenceOpens = seconds(1);
-// Each address has its opening so often: half a second, less the ticks of a loop. Where no path
-// lives and there are several addresses, one follows the other after kSearch.
+// Period of the openings to each address: half a second, minus the ticks of a loop. If all paths
+// are silent and there are several addresses, the next one follows after kSearch.
 inline constexpr Duration kTurnTime = milliseconds(450), kSearch = milliseconds(50);
-// Another process with the peer's keys takes over when the peer was silent for so long.
+// Another process with the peer's keys takes over after this time of silence.
 inline constexpr Duration kTakeOver = milliseconds(60);
-// A hint counts only after so much silence: what still speaks has not forgotten.
+// A hint is accepted only after this time of silence: a peer that still sends has its keys.
 inline constexpr Duration kSilenceHints = milliseconds(60);
 inline constexpr std::int64_t kHintsPerSecond = 20, kHintsPerSource = 10;
-// Fresh keys at least every two minutes, however many messages of the exchange are lost.
+// Chosen for fresh keys at least every two minutes, even if messages of the exchange are lost.
 inline constexpr Duration kRenewAfter = seconds(100), kOldSessionKept = seconds(2);
 inline constexpr std::size_t kSpares = 3;
 
 struct AssociationConfig {
   KeyFile keys{};
   Greeting greeting{};
-  // Car: where the base is reached, by path. Base: unknown until the car speaks.
+  // Car: address of the base on each path. Base: unknown until the car sends.
   std::array<Address, kPaths> peer{};
-  // Car: where else a base may be.
+  // Car: further addresses of a base.
   std::array<FixedVector<Address, kSpares>, kPaths> spare{};
   std::uint8_t paths = 1;
-  std::uint64_t first_sequence = 1;  // tests begin close to where 32 bits wrap
-  KeyLog key_log{};                  // none on a real car: see key_log.hpp
-  Duration to_utc{};                 // car: what its clock lacks to nanoseconds since 1970
-  Stamp newest_stamp = 0;            // base: of the openings before its start; 0: not known
+  std::uint64_t first_sequence = 1;  // tests begin close to the wrap of 32 bits
+  KeyLog key_log{};                  // empty on a real car: see key_log.hpp
+  Duration to_utc{};                 // car: offset from its clock to nanoseconds since 1970
+  Stamp newest_stamp = 0;  // base: greatest stamp of the openings before its start; 0: not known
 };
 
 struct AssociationCounters {
   std::uint64_t received = 0, opened = 0, sealed = 0;
-  std::uint64_t duplicates = 0;  // of kReplayed: authentic, inside the window, had before
+  std::uint64_t duplicates = 0;  // part of kReplayed: authentic, in the window, received before
   std::uint64_t exchanges = 0, exchanges_failed = 0, phases = 0, roams = 0, hints = 0;
-  std::uint64_t renewals = 0;      // exchanges that gave a living session fresh keys
-  std::uint64_t second_peers = 0;  // fresh messages of another process with the peer's keys, while
-                                   // the present one is heard
-  std::uint64_t relayed = 0;  // authentic copies that came by the same path from another address
+  std::uint64_t renewals = 0;  // exchanges that gave an active session fresh keys
+  // Fresh messages of another process with the peer's keys while packets of the peer arrive.
+  std::uint64_t second_peers = 0;
+  std::uint64_t relayed = 0;  // authentic copies on the same path from another address
   std::array<std::uint64_t, kRefusals> refused{};
 };
 
 struct Opened {
   std::span<const std::uint8_t> body;  // inside the caller's buffer
   std::uint64_t sequence = 0;          // of this session, from 1
-  bool newest = false;                 // higher than all before
-  bool new_session = false;            // the first packet of a session: the peer's greeting changed
+  bool newest = false;                 // the sequence is higher than all before
+  bool new_session = false;            // first packet of a session: the peer's greeting changed
   std::uint64_t session = 0;           // always the one in use
 };
 
@@ -106,41 +106,41 @@ class Association {
   Association(const Association&) = delete;
   Association& operator=(const Association&) = delete;
 
-  // `plain` holds at least kMaxBody bytes. None: it was the exchange's, or refused and counted.
+  // `plain` holds at least kMaxBody bytes. Returns an empty optional for a message of the exchange
+  // and for a datagram that is refused and counted.
   std::optional<Opened> feed(std::span<const std::uint8_t> datagram, PathId path, Address from,
                              Instant now, std::span<std::uint8_t> plain);
   // The packet that the last feed() refused as an authentic duplicate, of the session in use.
   std::optional<std::uint64_t> last_duplicate() const { return last_duplicate_; }
 
-  // A datagram of the exchange (or hint) that is due on this path, and where to; empty if none.
+  // A datagram of the exchange, or a hint, that is due on a path, with its destination.
   struct Due {
     std::span<const std::uint8_t> bytes;
     Address to;
   };
   std::optional<Due> poll(PathId path, Instant now, std::span<std::uint8_t> out);
-  // What the next poll() of the path sends at most, so that its budget can be asked first; 0:
-  // nothing.
+  // Largest size of the next poll() of the path, to check its budget first; 0: nothing is due.
   std::size_t poll_size(PathId path, Instant now) const;
 
-  bool ready() const { return current_.has_value(); }  // there are keys to seal with
+  bool ready() const { return current_.has_value(); }  // has keys to seal with
   struct Sealed {
     std::span<const std::uint8_t> datagram;
     std::uint64_t sequence;
   };
-  // `out` holds at least body.size() + kHeaderSize + kTagSize bytes. None: not ready.
+  // `out` holds at least body.size() + kHeaderSize + kTagSize bytes. Empty if not ready().
   std::optional<Sealed> seal(std::span<const std::uint8_t> body, Instant now,
                              std::span<std::uint8_t> out);
 
-  // Where packets of this path go: the proved address, and beside it one that has yet to prove
-  // itself, if `size` more bytes may go there.
+  // Destinations of packets of this path: the validated address, and the address on trial if
+  // `size` more bytes may be sent there.
   FixedVector<Address, 2> targets(PathId path, std::size_t size) const;
   void note_sent(PathId path, Address to, std::size_t size);
-  // Payload of a kPathProbe that should ride with the next packet to the unproved address.
+  // Payload of the kPathProbe for the next packet to the address on trial.
   std::optional<std::uint64_t> probe(PathId path) const;
   void take_proof(PathId path, Address from, std::uint64_t token, Instant now);
 
   const std::optional<Greeting>& peer() const { return peer_; }  // of the session in use
-  std::uint64_t session() const { return sessions_; }  // counts up with every one in use; 0: none
+  std::uint64_t session() const { return sessions_; }  // serial number of the one in use; 0: none
   const AssociationCounters& counters() const { return counters_; }
   // Base: the greatest stamp of an opening, for its next start.
   Stamp newest_stamp() const { return responder_.newest_stamp(); }
@@ -151,19 +151,19 @@ class Association {
   struct Path {
     PathAddresses addresses;
     std::optional<Reply> hint;
-    bool hint_first = true;  // of the replies that wait: each kind has its turn
+    bool hint_first = true;  // order of waiting replies; it alternates between their kinds
     Instant next_opening{INT64_MIN};
-    std::size_t turn = 0;             // of the addresses to which openings go
-    std::optional<Instant> received;  // the last news by this path; before: the first opening
-    std::uint64_t newest = 0;         // number of the newest packet that came by this path
+    std::size_t turn = 0;             // index of the next address for an opening
+    std::optional<Instant> received;  // last new packet on this path; before that, first opening
+    std::uint64_t newest = 0;         // number of the newest packet received on this path
     struct Sender {
       std::uint64_t number = 0;
       Address from;
     };
-    std::array<Sender, 32> senders{};  // of the packets that were the newest lately
+    std::array<Sender, 32> senders{};  // senders of the latest newest packets
   };
-  // The session before, while packets with its keys are under way: until the other end has used
-  // the present ones, and kOldSessionKept more.
+  // The former keys while packets with them are under way: until kOldSessionKept after the first
+  // packet with the present keys.
   struct Former {
     std::uint16_t own_number;
     Opener opener;
@@ -196,7 +196,7 @@ class Association {
   bool opening_due(PathId path, Instant now) const;
   Targets opening_targets(PathId path, Instant now) const;
   Due open(PathId path, Instant now, std::span<std::uint8_t> out);
-  // In the order in which they leave.
+  // Waiting replies in the order of sending.
   template <class Self>
   static auto replies(Self& self, PathId path);
 
@@ -211,7 +211,7 @@ class Association {
   AssociationCounters counters_;
   std::optional<Greeting> peer_;
   std::uint64_t sessions_ = 0;
-  bool unreceived_ = false;  // the session in use has opened no packet yet
+  bool unreceived_ = false;  // no packet of the session in use was received yet
   std::optional<std::uint64_t> last_duplicate_;
 
   std::optional<Session> current_;

@@ -1,18 +1,18 @@
-// The messages of the key exchange as bytes, and the tags in front of it: who does not know the
-// shared secret of the two long-term keys costs the other end one hash, not three agreements.
-//   wire   opening      header, e 32, sealed payload 29 + 16, stamp u64, knock tag 16
-//          answer       as the opening that it answers, with the stamp of that one
+// Messages of the key exchange as bytes, with tags by the shared secret of the two long-term keys:
+// a sender without that secret costs the other end one hash, not three key agreements.
+//   wire   opening      header, e 32, sealed payload 29 + 16, stamp u64, tag 16
+//          answer       as the opening, with the stamp of the opening that it answers
 //          newer stamp  header, stamp u64 that an opening must exceed, tag 16
 //          unknown      header (receiver and number of the packet that had no session), tag 16
 //          payload      sender's number of the session u16, receiver's number of the session that
-//                       goes on with new keys u16 (0: none does), boot u64, safety schema u64,
-//                       whole schema u64, flags u8 (1: signed only, 2: a real car)
+//                       gets new keys u16 (0: a new session), boot u64, safety schema u64, whole
+//                       schema u64, flags u8 (1: signed only, 2: a real car)
 //   invariants
-//          no reply is longer than what it replies to
-//          an answer's tag holds the opening's e and stamp, so that an answer of another exchange
-//          is refused before any key agreement, and says which of several openings arrived
-//          the tag of "newer stamp" holds the e of the opening that it refuses
-//   errors false or none: the size was not right, or a tag
+//          no reply is longer than the message that it answers
+//          an answer's tag covers the opening's e and stamp: an answer of another exchange is
+//          refused before any key agreement, and the stamp identifies the opening that arrived
+//          the tag of "newer stamp" covers the e of the opening that it refuses
+//   errors false or an empty optional: the size or the tag is wrong
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -30,9 +30,9 @@
 
 namespace pitwall::telemetry {
 
-// What both ends tell each other within the exchange, authenticated.
+// Authenticated data that both ends send in the exchange.
 struct Greeting {
-  std::uint64_t boot = 0;           // another number after every start of the process
+  std::uint64_t boot = 0;           // changes with every start of the process
   std::uint64_t safety_schema = 0;  // hash of the groups of class kSafety and of the commands
   std::uint64_t whole_schema = 0;
   bool signed_only = false;  // must agree
@@ -42,8 +42,8 @@ struct Greeting {
 };
 
 struct ExchangePayload {
-  std::uint16_t number = 0;     // by which the sender will know packets of the session
-  std::uint16_t continues = 0;  // by which the receiver knows the session that gets new keys
+  std::uint16_t number = 0;     // the sender's number of the new session
+  std::uint16_t continues = 0;  // the receiver's number of the session that gets new keys
   Greeting greeting;
 };
 
@@ -62,7 +62,7 @@ inline constexpr std::size_t kOpeningSize = kHeaderSize + kNoiseMessage + kStamp
 inline constexpr std::size_t kAnswerSize = kOpeningSize;
 inline constexpr std::size_t kNewerStampSize = kHeaderSize + kStampSize + kTagSize;
 inline constexpr std::size_t kUnknownSize = kHeaderSize + kTagSize;
-inline constexpr std::size_t kMaxExchangeSize = 192;  // more than any of them
+inline constexpr std::size_t kMaxExchangeSize = 192;  // at least the size of each of them
 static_assert(kOpeningSize <= kMaxExchangeSize);
 static_assert(kAnswerSize <= kOpeningSize && kNewerStampSize <= kOpeningSize);
 static_assert(kUnknownSize <= kHeaderSize + kTagSize);  // the shortest data packet
@@ -73,15 +73,15 @@ using AnswerBytes = std::array<std::uint8_t, kAnswerSize>;
 std::array<std::uint8_t, kPayloadSize> bytes_of(const ExchangePayload& payload);
 ExchangePayload payload_of(std::span<const std::uint8_t, kPayloadSize> bytes);
 
-// Keys that both ends have before any exchange.
+// Keys for the tags of the exchange, derived from the long-term keys of both ends.
 class StandingKeys {
  public:
   StandingKeys(const Identity& own, const PublicKey& peer);
 
-  // A peer's key that gives no secret: nothing is ever exchanged with it.
+  // False if the peer's key gives no shared secret; then no exchange takes place.
   bool usable() const { return usable_; }
 
-  // Completes a message whose header and noise part are written. An answer's tag holds `opening_e`
+  // Completes a message whose header and noise part are written. An answer's tag covers `opening_e`
   // and the stamp of the opening.
   void tag_opening(std::span<std::uint8_t> opening, Stamp stamp) const;
   void tag_answer(std::span<std::uint8_t> answer, Stamp stamp, Bytes opening_e) const;

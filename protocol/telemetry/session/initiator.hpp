@@ -1,16 +1,16 @@
-// Initiator of the key exchange: the car's side. One attempt at a time; each opening of it that
-// leaves has a stamp of its own, and the answer says which of them arrived.
+// Initiator of the key exchange: the car's side. It makes one attempt at a time. Each opening of an
+// attempt has its own stamp, and the answer repeats the stamp of the opening that arrived.
 //
-//   opening (stamp 1) --> A      nobody there
+//   opening (stamp 1) --> A      no answer
 //   opening (stamp 2) --> B      answer (stamp 2): the base is reached at B
 //
 //   in     the session in use, if it is to be renewed; answers and "newer stamp" messages
-//   out    openings; the new session, and where the opening went that was answered
+//   out    openings; the new session, and the destination of the opening that was answered
 //   invariants
-//          an attempt is repeated for kAttemptLife, so that a path with seconds of delay can
-//          answer, then a fresh one takes its place
-//   errors Refusal; the attempt goes on
-//   cost   150 us for each attempt and each answer that fits; no allocation
+//          an attempt is repeated for kAttemptLife, so that paths with seconds of delay work; then
+//          a fresh attempt replaces it
+//   errors Refusal; the attempt continues
+//   cost   150 us for each attempt and each valid answer; no allocation
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -36,22 +36,23 @@ class Initiator {
   Initiator(const SessionTerms& terms, const Greeting& own, const StandingKeys& standing,
             Duration to_utc, Randomness& randomness);
 
-  // The opening for one address of a path. `in_use`: it shall get new keys.
+  // The opening for one address of a path. `in_use`: the session to renew, or nullptr. `number`:
+  // number of the new session if the attempt is over.
   Bytes opening(PathId path, Address to, std::uint16_t number, const Session* in_use, Instant now);
-  // The number by which opening() shall know the session is asked for: a fresh attempt is due.
+  // True if the next opening() starts a fresh attempt.
   bool attempt_over(Instant now) const;
 
   struct Agreed {
     Session session;
-    bool renews;  // the session in use goes on
+    bool renews;  // the session in use continues with new keys
     PathId path;
-    Address reached;  // where the answered opening had been sent
+    Address reached;  // destination of the answered opening
   };
   Result<Agreed, Refusal> take_answer(const Header& header, Bytes datagram, const Session* in_use,
                                       Instant now);
-  // The answer is of another base with the same keys, to the very opening that had one.
+  // True for a second, different answer to the answered opening: another base has the same keys.
   bool is_second_answer(const Header& header, Bytes datagram) const;
-  // A fresh attempt follows with a stamp that the base takes.
+  // The next opening of the attempt gets a stamp that the base accepts.
   std::optional<Refusal> take_newer_stamp(Bytes datagram);
 
   std::uint64_t failed() const { return failed_; }

@@ -1,14 +1,14 @@
-// Addresses of the peer on one path: one that the peer has proved to be at, and at most one
-// candidate from which an authentic packet came but that has yet to prove itself.
+// Addresses of the peer on one path: the validated one, and at most one on trial, from which an
+// authentic packet came but which is not yet validated.
 //
 //   newest authentic packet from B     token comes back from B
 //   A proved ------------------------> A proved, B on trial -------------> B proved
 //
 //   invariants
-//          only a packet newer than all before begins a trial: a replayed or late one redirects
-//          nothing. An address on trial gets at most kTrust times the bytes that came from it
-//          while packets that are not older than the trial still come from the proved address, the
-//          other one is a relay's or a copier's: it stays on trial, whatever it proves
+//          only a packet newer than all before begins a trial: a replayed or late packet redirects
+//          no traffic. An address on trial gets at most kTrust times the bytes that came from it
+//          while packets as new as the trial still come from the validated address, the other
+//          address is that of a relay: it stays on trial even with the right token
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -27,20 +27,20 @@ namespace pitwall::telemetry {
 class PathAddresses {
  public:
   static constexpr std::uint64_t kTrust = 3;
-  // For so long after its last packet the proved address counts as in use. Two slots and the
+  // The validated address counts as in use for this time after its last packet: two slots and the
   // jitter of a loop.
   static constexpr Duration kInUse = milliseconds(60);
 
-  void prove(Address at);  // known by other means: the car's file, or the exchange
-  // An authentic packet came, or a copy of one.
+  void prove(Address at);  // sets a validated address: from the car's file, or by the exchange
+  // Arrival of an authentic packet or of a copy of one.
   struct Arrival {
     Address from;
     std::size_t size = 0;
     std::uint64_t number = 0;
-    bool newest = false;  // of all that came by this path
+    bool newest = false;  // the newest of all packets on this path
   };
   void receive(const Arrival& arrival, Instant now, Randomness& randomness);
-  // True where this makes the address on trial the proved one.
+  // Returns true if the token validates the address on trial.
   bool take_proof(Address from, std::uint64_t token, Instant now);
 
   FixedVector<Address, 2> targets(std::size_t size) const;
@@ -49,12 +49,13 @@ class PathAddresses {
   Address proved() const { return proved_; }
 
  private:
-  friend struct Fingerprint;  // of the exhaustive explorer, which compares states
+  friend struct Fingerprint;  // for the exhaustive state exploration of the tests
   struct Trial {
     Address address;
     std::uint64_t token = 0, received = 0, sent = 0;
-    std::uint64_t first = 0;           // number of the packet that began it
-    std::optional<Instant> opposed{};  // by a packet from the proved address that is not older
+    std::uint64_t first = 0;  // number of the packet that began it
+    // Time of the last packet from the validated address that is not older than the trial.
+    std::optional<Instant> opposed{};
   };
 
   Address proved_;

@@ -1,4 +1,4 @@
-// Why a datagram had no effect. Each is counted; none of them is answered with more than came.
+// Reason why a datagram is refused. Refusals are counted; no reply is longer than the datagram.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -9,15 +9,15 @@ namespace pitwall::telemetry {
 
 enum class Refusal : std::uint8_t {
   kHeader,         // HeaderError, or too short for its kind
-  kNoSession,      // number of a session that is not ours
-  kReplayed,       // had before, or older than the window
-  kForged,         // the tag does not fit
-  kBadExchange,    // an opening or answer that is not of the provisioned key
-  kOldExchange,    // answers an opening that is not under way
-  kOldStamp,       // an opening whose stamp is not newer than one had before: a replay
-  kTooManyKnocks,  // beyond what is even answered
-  kWrongMode,      // sealed where signed was agreed, or the other way
-  kForeignBoot     // hints and the like that do not concern us
+  kNoSession,      // number of an unknown session
+  kReplayed,       // received before, or older than the window
+  kForged,         // the tag is wrong
+  kBadExchange,    // an opening or answer that is not by the provisioned key, or for the other role
+  kOldExchange,    // a message of an exchange that is not under way
+  kOldStamp,       // an opening whose stamp is not newer than one received before: a replay
+  kTooManyKnocks,  // beyond the rate limit of openings
+  kWrongMode,      // sealed while this end is set to signed, or the reverse
+  kForeignBoot     // a hint for another session, too early, or forged
 };
 inline constexpr std::size_t kRefusals = 10;
 const char* text_of(Refusal refusal);

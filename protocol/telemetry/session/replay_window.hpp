@@ -1,6 +1,6 @@
-// Replay window: the numbers of packets that were accepted, the newest and the 1023 before it. Ask
-// first, set only once the packet proved authentic: a forged number must move nothing.
-//   cost   constant, but for a jump forward: at most kWords words are cleared
+// Replay window: the numbers of the accepted packets, the newest and the 1023 before it. Call had()
+// first, and set() only after the packet is authenticated, so that a forged number has no effect.
+//   cost   constant, except for a jump forward: at most kWords words are cleared
 //   source RFC 6479 (blocks are cleared whole, so that the window never shifts)
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
@@ -17,7 +17,7 @@ inline constexpr std::size_t kReplayWindow = 1'024;
 class ReplayWindow {
  public:
   constexpr std::uint64_t newest() const { return newest_; }  // 0: none yet
-  // Numbers begin with 1; what is older than the window counts as had.
+  // Numbers begin with 1; a number older than the window counts as received.
   constexpr bool too_old(std::uint64_t number) const {
     return number == 0 || (number < newest_ && newest_ - number >= kReplayWindow);
   }

@@ -1,7 +1,7 @@
-// Handshake rate limiter: how many replies leave for one address and for all together, so that
-// nobody makes an end spend its budget on him.
-//   in     the address that would be answered, the time
-//   out    whether it may be
+// Handshake rate limiter: it limits the replies to one address and to all addresses together, so
+// that no sender can use up the budget of an end.
+//   in     the address to reply to, the time
+//   out    whether the reply may be sent
 //   cost   constant; no allocation
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
@@ -16,7 +16,7 @@
 
 namespace pitwall::telemetry {
 
-// At most `per_second`, and so many at once.
+// Rate limit: at most `per_second` on average and `at_once` in a burst.
 class Allowance {
  public:
   explicit constexpr Allowance(std::int64_t per_second) : Allowance(per_second, per_second) {}
@@ -59,7 +59,7 @@ class ReplyLimiter {
     Instant used{};
   };
 
-  // The one that was not used for longest gives way.
+  // The entry of this address; a new address replaces the least recently used entry.
   constexpr Source& source_of(Address to) {
     Source* oldest = &sources_[0];
     for (Source& source : sources_) {

@@ -1,18 +1,18 @@
-// Responder of the key exchange: the base's side. An opening costs one hash until its stamp proves
-// that the car made it after all that came before; of those the newest is worked on first.
+// Responder of the key exchange: the base's side. An opening costs one hash unless its stamp is
+// newer than all before; only the openings with the newest stamp are processed.
 //
-//   tag -- fits --> stamp -- newer --> waits --> key agreement --> answer, pending
-//    |                |                                             | first packet: session
-//    bad exchange     old: refused, and where the stamp lies         | kPendingLife: gone
-//                     far back and was never seen, told the newest
+//   tag -- valid --> stamp -- newer --> waits --> key agreement --> answer, pending
+//    |                |                                              | first packet: session
+//    bad exchange     old: refused; "newer stamp" reply if it        | kPendingLife: dropped
+//                     is far back and was never seen
 //
 //   in     openings; the session in use, which the opening may ask to renew
 //   out    answers and "newer stamp" replies; sessions that wait for their first packet
 //   invariants
-//          of one stamp at most two sources are answered, each once; kAnswersPerSecond openings
-//          are worked on. No answer leaves for one that is older than another that came.
-//          Without memory of stamps (a new disk, a spare base) a replay makes a pending session,
-//          which nobody but the car can use
+//          at most two sources of one stamp are answered, each once; at most kAnswersPerSecond
+//          openings are processed. No opening is answered after a newer one arrived.
+//          Without stored stamps (a new disk, a spare base) a replay makes a pending session,
+//          which only the car can use
 //   errors Refusal
 //   cost   one hash; with a key agreement 150 us. No allocation
 //   source WireGuard, a whitepaper, 5.1 and 5.4.2
@@ -35,7 +35,7 @@
 
 namespace pitwall::telemetry {
 
-// A reply is kept until it is polled or a newer one of its kind takes its place.
+// Waiting reply: it is kept until it is polled or replaced by a newer one of its kind.
 struct Reply {
   std::array<std::uint8_t, kMaxExchangeSize> bytes{};
   std::size_t size = 0;
@@ -46,9 +46,9 @@ class Responder {
  public:
   static constexpr std::int64_t kAnswersPerSecond = 40, kAnswersAtOnce = 4;
   static constexpr std::int64_t kStampRepliesPerSecond = 10, kStampRepliesPerSource = 4;
-  // Longer than the slowest path needs for the first packet after the answer.
+  // Longer than the time of the slowest path for the first packet after the answer.
   static constexpr Duration kPendingLife = seconds(10);
-  // Openings by two paths overtake each other; a clock that went back lies further.
+  // Stamps of openings on two paths may be reordered by this; a clock set back differs by more.
   static constexpr Duration kReordered = seconds(1);
 
   // `newest`: the greatest stamp known from before the start, 0: none.
@@ -60,16 +60,16 @@ class Responder {
     AnswerBytes answer;
     std::array<Address, kPaths> answered{};
     Session session;
-    std::uint16_t renews = 0;  // own number of the session that goes on; 0: none
+    std::uint16_t renews = 0;  // own number of the session that it renews; 0: none
     Instant touched;
   };
 
-  // None: it waits for work(), which the caller then asks for.
+  // An empty optional: the opening is accepted and waits for work(), which the caller calls next.
   std::optional<Refusal> take(Bytes opening, PathId path, Address from, Instant now);
-  // Answers what waits, as far as the limits go. `number` is free for a session.
+  // Answers one waiting opening if the rate limit allows. `number`: a free session number.
   struct Worked {
     std::optional<Refusal> refusal;
-    std::uint64_t boot = 0;  // of the car that the opening is of; 0: not known
+    std::uint64_t boot = 0;  // boot number of the car that sent the opening; 0: not known
   };
   Worked work(std::uint16_t number, const Session* in_use, Instant now);
   bool wants_work(PathId path, Instant now) const {
@@ -81,10 +81,10 @@ class Responder {
   const std::optional<Reply>& answer(PathId path) const { return answers_[path]; }
   const std::optional<Reply>& newer_stamp(PathId path) const { return newer_stamps_[path]; }
 
-  // The session with this own number that waits for its first packet.
+  // The session with this own number that waits for its first packet; nullptr if there is none.
   Pending* pending(std::uint16_t number, Instant now);
   bool has_pending(std::uint16_t number) const;
-  // This one is in use now, the others are over; late openings of its attempt have no effect.
+  // This session is now in use, the others are dropped; late openings of its attempt are refused.
   void confirmed(const Pending& pending);
   Stamp newest_stamp() const { return newest_; }
 
@@ -106,10 +106,10 @@ class Responder {
   const StandingKeys* standing_;
   Randomness* randomness_;
   Stamp newest_;
-  FixedVector<Waiting, kSourcesPerStamp> waiting_;         // of the newest stamp
-  FixedVector<Address, kSourcesPerStamp> newest_sources_;  // that it came from
+  FixedVector<Waiting, kSourcesPerStamp> waiting_;         // openings with the newest stamp
+  FixedVector<Address, kSourcesPerStamp> newest_sources_;  // sources of that stamp
   StaleStamps stale_;
-  Allowance allowed_{kAnswersPerSecond, kAnswersAtOnce};  // openings that are worked on
+  Allowance allowed_{kAnswersPerSecond, kAnswersAtOnce};  // rate limit of the openings processed
   ReplyLimiter stamp_limit_{kStampRepliesPerSource, kStampRepliesPerSecond};
   std::array<std::optional<Pending>, kPendings> pending_{};
   PublicKey done_{};  // e of the attempt that was confirmed last

@@ -1,10 +1,9 @@
-// Session: the keys of one key exchange, the numbers by which both ends know it, and what the other
-// end told of itself.
-//   in     what an exchange agreed on; the session whose numbers go on, if it renews one
-//   out    what seals and opens packets
+// Session: the keys of one key exchange, its number at each end, and the greeting of the peer.
+//   in     the result of an exchange; the session that it renews, if any
+//   out    Sealer and Opener for the packets of the session
 //   invariants
-//          a renewed session seals on from the number of the one before and refuses what that one
-//          had, so that a packet counts once whichever keys it came with
+//          a renewed session continues the packet numbers and the replay window of the one before,
+//          so that a packet is accepted once under any of its keys
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -31,8 +30,8 @@ struct SessionTerms {
   const KeyLog& key_log;
 };
 
-// Tells the key log of it, unless one of both ends is a real car. `renewed`: the session that it
-// goes on from; none: its numbers begin.
+// Makes a session. Its keys are written to the key log if they are bench keys and the peer is not a
+// real car. `renewed`: the session that it renews; nullptr: packet numbers start again.
 inline Session make_session(const SessionTerms& terms, const NoiseKk& noise,
                             std::uint16_t own_number, const ExchangePayload& payload,
                             const Session* renewed, Instant now) {

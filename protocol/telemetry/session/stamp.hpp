@@ -1,9 +1,9 @@
-// Stamps of key exchange openings: each opening of a car has a greater one than all before, so that
-// a base which remembers the greatest recognises a replay before it computes anything but a hash.
-//   in     StampClock: the monotonic clock and its distance to UTC
+// Stamps of key exchange openings: each opening of a car has a greater stamp than all before, so
+// that a base that stores the greatest one detects a replay at the cost of one hash.
+//   in     StampClock: the monotonic clock and its offset to UTC
 //          StaleStamps: stamps that were refused
-//   out    next(): strictly increasing, also when the calendar clock was set back or a base told a
-//          greater stamp; is_new(): whether a refused stamp was never seen before
+//   out    next(): strictly increasing, also if the calendar clock was set back, or a base reported
+//          a greater stamp; is_new(): whether a refused stamp was never seen before
 //   units  nanoseconds since 1970-01-01 UTC by the car's clock
 //   cost   constant; no allocation
 //   source WireGuard, a whitepaper, 5.1 (timestamp of the first message)
@@ -25,7 +25,7 @@ using Stamp = std::uint64_t;
 
 class StampClock {
  public:
-  // `to_utc`: what the monotonic clock lacks to nanoseconds since 1970.
+  // `to_utc`: offset from the monotonic clock to nanoseconds since 1970.
   explicit constexpr StampClock(Duration to_utc) : to_utc_(to_utc) {}
 
   constexpr Stamp next(Instant now) {
@@ -33,7 +33,7 @@ class StampClock {
     last_ = std::max(static_cast<Stamp>(utc_ns), last_ + 1);
     return last_;
   }
-  // From now on greater than this.
+  // The next stamps are greater than `reported`.
   constexpr void exceed(Stamp reported) { last_ = std::max(last_, reported); }
 
  private:
@@ -41,12 +41,12 @@ class StampClock {
   Stamp last_ = 0;
 };
 
-// The last few thousand refused stamps. A recorded opening repeats its stamp; a car whose clock
-// went back sends a stamp that nobody has seen, and is the only one worth a reply.
+// Cache of the last few thousand refused stamps. A recorded opening repeats its stamp; a car whose
+// clock was set back sends a stamp that was never seen, and only such an opening gets a reply.
 class StaleStamps {
  public:
   constexpr bool is_new(Stamp stamp) {
-    // Recorded stamps lie at equal distances: every bit has to count.
+    // Recorded stamps have equal spacing, so the hash has to use every bit.
     Set& set = sets_[mix_bits(stamp) % sets_.size()];
     if (std::find(set.stamps.begin(), set.stamps.end(), stamp) != set.stamps.end()) return false;
     set.stamps[set.next] = stamp;

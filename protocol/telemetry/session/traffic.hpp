@@ -1,17 +1,17 @@
-// The packets of one session in one direction: sealing with rising numbers, opening in any order,
-// each once, and the phases of their key.
+// Encryption and decryption of the packets of one session in one direction: Sealer with increasing
+// numbers, Opener in any order, each packet once, and the phases of their key.
 //
-//   phase      0            1            2        one bit of it in the header
-//   key       k0 --hash--> k1 --hash--> k2        there is no way back: a key that is found later
-//   opens      |.....2 s....|                     opens nothing that was sent in an earlier phase
+//   phase      0            1            2        its lowest bit is in the header
+//   key       k0 --hash--> k1 --hash--> k2        the hash is one-way: a key disclosed later opens
+//   opens      |.....2 s....|                     no packet of an earlier phase
 //
 //   invariants
-//          Sealer never uses a number twice. Opener: what is older than the window is refused
-//          before the tag is computed, the window is set after it, and a duplicate is called one
-//          only if it is authentic; a forged packet costs one tag; the older key opens only numbers
-//          before the first of the newer one
-//          a peer that was not heard for longer than a phase may be more than one phase further:
-//          all that the time allows are tried
+//          Sealer never uses a number twice. Opener refuses a packet older than the window before
+//          it computes the tag, and updates the window after it. Only an authentic packet is
+//          reported as a duplicate; a forged packet costs one tag. The older key opens only numbers
+//          before the first one of the newer key
+//          after a silence longer than a phase the peer may be several phases ahead: all phases
+//          that the time allows are tried
 //   cost   no allocation; 128 bytes 0.5 us
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
@@ -43,16 +43,16 @@ class Sealer {
   // `first`: number of the first packet, from 1.
   Sealer(const Key& key, std::uint64_t first, Instant now, const PhaseLimits& limits = {});
 
-  // Kind and receiver are the caller's. `out` holds kHeaderSize + body.size() + kTagSize bytes.
-  // The packet's number.
+  // The caller gives kind and receiver. `out` holds kHeaderSize + body.size() + kTagSize bytes.
+  // Returns the number of the packet.
   std::uint64_t seal(Kind kind, std::uint16_t receiver, Bytes body, Instant now,
                      std::span<std::uint8_t> out);
-  // Low half of the number of one of the last kReplayWindow packets.
+  // True if this is the low half of the number of one of the last kReplayWindow packets.
   bool sent_lately(std::uint32_t number_low) const {
     return static_cast<std::uint32_t>(next_ - 1) - number_low < kReplayWindow;
   }
   std::uint64_t next() const { return next_; }
-  // The numbers of another session go on here; before the first packet.
+  // Continues the numbers of another session; to be called before the first packet.
   void go_on_from(std::uint64_t next) { next_ = phase_first_ = next; }
   std::uint64_t phases() const { return phase_; }
 
@@ -65,7 +65,7 @@ class Sealer {
   Instant phase_since_;
 };
 
-// The number next to `near` that has these low 32 bits; never negative.
+// The number nearest to `near` with these low 32 bits; never negative.
 constexpr std::uint64_t whole_number(std::uint32_t low, std::uint64_t near) {
   constexpr std::uint64_t kTurn = std::uint64_t{1} << 32, kHalf = kTurn / 2;
   const std::uint64_t same_turn = (near & ~(kTurn - 1)) | low;
@@ -76,7 +76,7 @@ constexpr std::uint64_t whole_number(std::uint32_t low, std::uint64_t near) {
 
 class Opener {
  public:
-  // `window`: of the session whose numbers go on here.
+  // `window`: replay window of the session whose numbers continue here.
   Opener(const Key& key, Instant now, const ReplayWindow& window = {});
 
   enum class Verdict : std::uint8_t { kNew, kDuplicate, kTooOld, kForged };
@@ -85,12 +85,13 @@ class Opener {
     std::uint64_t number = 0;
     bool newest = false;
   };
-  // kSealed or kSigned, not shorter than kHeaderSize + kTagSize; `plain` holds the body.
+  // The datagram is kSealed or kSigned and has at least kHeaderSize + kTagSize bytes; `plain` has
+  // room for the body.
   Opening open(const Header& header, Bytes datagram, Instant now, std::span<std::uint8_t> plain);
 
   Instant received_at() const {
     return received_;
-  }  // the last authentic packet; else the beginning
+  }  // time of the last authentic packet; before the first one, of the start
   std::uint64_t phases() const { return phase_; }
   const ReplayWindow& window() const { return window_; }
 

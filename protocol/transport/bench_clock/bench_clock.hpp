@@ -1,11 +1,11 @@
-// Bench time for the threads of one program: what time it is, and waiting for a deadline.
-//   in     the page that a bench keeps; deadlines in bench time
-//   out    naps of the wall clock until bench time has reached the deadline
+// Bench clock of one program: reads bench time and waits for a deadline in bench time.
+//   in     the clock page of the bench; deadlines in bench time
+//   out    time; waits by the wall clock, in short steps, until bench time reaches the deadline
 //   invariants
-//          a thread that takes turns has the bench wait for it: from its deadline on until it has
-//          done its work and waits again. Other threads are told the time and hold up nobody.
-//          Where the bench died, time goes on by the wall clock after a tenth of a second
-//   cost   no memory, no lock, no system call beside the wait itself
+//          the bench waits for a thread that takes turns: from its deadline until it has done its
+//          work and waits again. Other threads only read the time and never stop it
+//          after the end of a killed bench, time follows the wall clock again within 0.1 s
+//   cost   no memory, no lock, no system call except the wait itself
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -21,24 +21,24 @@ namespace pitwall::transport {
 class BenchClock {
  public:
   static Result<bool, Problem> use(const std::string& path);  // once, before other threads start
-  static BenchClock* used();                                  // none: this program has the wall's
+  static BenchClock* used();  // nullptr: this program uses the wall clock
   explicit BenchClock(ClockMemory memory);
 
   Instant now() const;
-  // Of this program: what bench time stood before it came does not count. The total never shrinks.
+  // Pauses since this program started; pauses before do not count. The total never decreases.
   BenchPause pause() const;
   Instant time_of(Instant wall) const { return bench_time_of(memory_.page(), wall); }
-  // The calling thread takes turns from its next wait on. False: no slot is free.
+  // From its next wait on, the bench waits for the calling thread. False: no slot is free.
   bool take_turns();
-  // `nap(how long)` waits on the wall clock and says whether something else ended it.
+  // `nap(span)` waits by the wall clock; it returns true if another event ended the wait.
   template <class Nap>
   void wait_until(Instant deadline, Nap&& nap);
 
  private:
   static constexpr Duration kNap = microseconds(100), kLongestNap = milliseconds(2);
-  static constexpr Duration kLook = milliseconds(100);  // at whether the bench lives
+  static constexpr Duration kLook = milliseconds(100);  // period of the check for a dead bench
 
-  // While it lives the calling thread waits for its turn.
+  // Scope in which the calling thread waits for its turn.
   class Wait {
    public:
     explicit Wait(Instant due);
@@ -52,7 +52,7 @@ class BenchClock {
 
   ClockMemory memory_;
   std::int64_t behind_at_start_ns_ = 0;
-  mutable std::atomic<std::int64_t> stood_ns_{0};  // the most that was seen
+  mutable std::atomic<std::int64_t> stood_ns_{0};  // maximum so far
 };
 
 template <class Nap>

@@ -1,4 +1,4 @@
-// Pauses of the bench clock: the length of the present one, and of all of them together.
+// Pauses of the bench clock: length of the present pause, and sum of all pauses.
 //
 //   wall clock   0    10    20    30    40
 //   bench time   0    10    10    10    20
@@ -8,7 +8,7 @@
 //   in     the clock page that the bench writes; the wall clock
 //   out    durations by the wall clock
 //   invariants
-//          total is the lag of bench time behind the wall clock. It shrinks where bench time leaps
+//          total is the lag of bench time behind the wall clock. It decreases if bench time leaps
 //          forward to the time of a guest
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
@@ -21,17 +21,17 @@
 namespace pitwall::transport {
 
 struct BenchPause {
-  // From which on people are told: before a console would call its base silent.
+  // Pauses of this length are reported to operators: sooner than a console reports a silent base.
   static constexpr Duration kLong = milliseconds(150);
 
-  Duration now{};    // zero: time goes on
-  Duration total{};  // this pause included
+  Duration now{};    // zero: bench time runs
+  Duration total{};  // including the present pause
 
   constexpr bool is_long() const { return now >= kLong; }
   constexpr bool operator==(const BenchPause&) const = default;
 };
 
-// In the order of bench_now(): a pause that ends meanwhile is not found longer than it was.
+// Reads in the order of bench_now(), so that a pause that ends meanwhile does not appear longer.
 template <class ReadWall>
 BenchPause pause_of(const ClockPage& page, ReadWall&& wall) {
   const std::int64_t horizon_ns = page.horizon_ns.load(std::memory_order_acquire);

@@ -1,17 +1,17 @@
-// Keeper of bench time: the time follows the wall clock, and stands while the host holds a process
-// up.
+// Keeper of bench time: bench time follows the wall clock, and stands while the host gives a
+// process no processor.
 //
 //   wall clock   0 . . . 10 . . . 20 . . . 30 . . . 40
 //   bench time   0 . . . 10 . . . . . . . . . 10 . . 20     the car had no processor from 10 to 30
 //
-//   in     the page; advance() called often, at least once in a lead
-//   out    the page's horizon and lost time; what was waited for, in all and at the longest
+//   in     the clock page; calls of advance(), at least one per lead
+//   out    horizon and lost time of the page; record of the waits
 //   invariants
-//          time runs at most a lead past the last advance(). It stands while a thread that takes
-//          turns is due and has had no processor for it. It runs on for one that is stopped (by a
-//          scenario, or by a person), that blocks by its own doing, or that is gone; and at the
-//          pace of its processor time for one that computes
-//   errors keep(): Problem with the file's path, or another bench keeps it
+//          time runs at most one lead past the last advance(). It stands while a thread that takes
+//          turns is due and gets no processor. It runs on for a thread that is stopped (by a
+//          scenario or by a person), blocks on its own or has ended; for a thread that computes it
+//          runs at the rate of its processor time
+//   errors keep(): Problem with the path of the file, or if another bench keeps it
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -26,7 +26,7 @@ namespace pitwall::transport {
 
 class ClockKeeper {
  public:
-  // How late somebody may be before time stands, and how far it runs without a new word.
+  // Delay of a thread before time stands, and time that runs without a new advance().
   static constexpr Duration kGrace = milliseconds(1), kLead = milliseconds(2);
 
   static Result<ClockKeeper, Problem> keep(const std::string& path);
@@ -35,24 +35,24 @@ class ClockKeeper {
   ~ClockKeeper();
 
   Instant now() const;
-  // From here on time needs advance() to go on; until end(), or the end of the keeper.
+  // From now on time runs only by advance(), until end() or the destruction of the keeper.
   void begin(Duration lead = kLead);
-  // Never past `limit`, whoever keeps another clock beside this one. False: time stands.
+  // Lets time run on, never past `limit`, which another clock may set. False: time stands.
   bool advance(Instant limit = Instant::max());
-  // Forward, for one that follows another clock; what was waited for is not touched.
+  // Sets time forward, for a bench that follows another clock; waits() does not change.
   void leap(Instant to);
   void end();
-  // Somebody is due and is held up; the process is named in waits() if this lasts.
+  // True if a thread is due and gets no processor; waits() names its process if this lasts.
   bool is_held_up(Instant now);
 
   const ClockWaits& waits() const { return waits_; }
 
  private:
-  // What was seen of a slot's present turn.
+  // Observation of the present turn of a slot.
   struct Watch {
     std::uint64_t turn = UINT64_MAX;
     Instant since{};
-    Duration used{};  // processor time then
+    Duration used{};  // processor time of the process at the first observation
   };
 
   explicit ClockKeeper(ClockMemory memory) : memory_(std::move(memory)) {}
@@ -63,7 +63,7 @@ class ClockKeeper {
   ClockMemory memory_;
   std::array<Watch, ClockPage::kSlots> watches_;
   Duration lead_ = kLead;
-  std::int32_t blamed_ = 0;  // the process that time last stood for
+  std::int32_t blamed_ = 0;  // the process for which time last stood
   ClockWaits waits_;
 };
 

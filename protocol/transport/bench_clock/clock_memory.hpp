@@ -1,9 +1,9 @@
-// The file behind a page of bench time, mapped into this process.
-//   in     path of a file in memory (/dev/shm) that all its readers may write; made where missing
-//   out    the page, for the life of the process; whether a bench keeps it
+// Memory-mapped file with the clock page of bench time.
+//   in     path of a file in memory (/dev/shm) that all its readers may write; created if missing
+//   out    the page, for the life of this object; whether a bench keeps it
 //   invariants
-//          a bench holds a lock on the file, which the kernel takes away when it dies
-//   errors Problem with the path: no such folder, not ours, a file of something else
+//          a bench holds a lock on the file, which the kernel releases when the process ends
+//   errors Problem with the path: no such folder, no permission, a file of another kind
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -30,7 +30,7 @@ class ClockMemory {
   bool lock();
   void unlock();
   bool is_locked() const;  // by another process
-  // After a bench that died without a word: time goes on from where it stands.
+  // Lets time run on from its present value after a bench was killed.
   void let_go_on(Instant wall);
 
  private:

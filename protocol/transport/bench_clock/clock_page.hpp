@@ -1,12 +1,13 @@
-// Bench time as the processes of one machine share it: a page of memory in a file.
+// Clock page: shared memory by which the processes of one machine share bench time.
 //
-//   bench time = wall clock (CLOCK_MONOTONIC) less what was lost, and never beyond the horizon
+//   bench time = wall clock (CLOCK_MONOTONIC) minus lost time, and never beyond the horizon
 //
-//   in     the bench alone writes lost time and horizon; each program that takes turns its own slot
-//   out    now(), the same for every reader to within the cost of a clock reading
+//   in     the bench alone writes lost time and horizon; each thread that takes turns, its own slot
+//   out    bench_now(), the same for every reader to within the cost of a clock reading
 //   invariants
-//          it never goes back for a reader, never runs faster than the wall clock, and stands at
-//          the horizon. Nobody's clock before a bench came is the wall clock
+//          it never goes back for a reader, never runs faster than the wall clock except in a
+//          ClockKeeper::leap(), and stands at the horizon. Before the first bench it is the wall
+//          clock
 //   units  int64 nanoseconds
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
@@ -21,16 +22,16 @@
 
 namespace pitwall::transport {
 
-// A program's thread whose turn the bench waits for.
+// Thread of a program for whose turn the bench waits.
 struct ClockSlot {
   std::atomic<std::int32_t> process{0};  // 0: free
   std::atomic<std::int32_t> thread{0};
   static constexpr std::int64_t kAtWork = INT64_MIN;
   std::atomic<std::int64_t> due_ns{0};  // bench time at which its turn begins
-  std::atomic<std::uint64_t> turns{0};  // even: waits for the next one, odd: is at work
+  std::atomic<std::uint64_t> turns{0};  // even: waits for the next turn; odd: works
 };
 
-// While the wall clock went from one to the other, bench time stood.
+// Interval of the wall clock in which bench time stood.
 struct ClockPause {
   std::atomic<std::int64_t> from_ns{0}, to_ns{0};
 };
@@ -38,7 +39,7 @@ struct ClockPause {
 struct ClockPage {
   static constexpr std::uint64_t kMagic = 0x3130'4B43'4F4C'4350;  // "PCLOCK01"
   static constexpr std::size_t kSlots = 16;
-  static constexpr std::size_t kPauses = 32;  // remembered, for stamps of the kernel
+  static constexpr std::size_t kPauses = 32;  // stored pauses, to convert stamps of the kernel
 
   std::atomic<std::uint64_t> magic{0};
   std::atomic<std::int64_t> lost_ns{0};
@@ -50,8 +51,8 @@ struct ClockPage {
 static_assert(std::atomic<std::int64_t>::is_always_lock_free);
 static_assert(std::is_standard_layout_v<ClockPage>);
 
-// The horizon is read first and the wall clock last, so that no reader sees time go back: whoever
-// moves the horizon has raised the lost time before.
+// Present bench time. The horizon is read first and the wall clock last, so that no reader sees
+// time go back: the bench raises the lost time before it moves the horizon.
 template <class ReadWall>
 Instant bench_now(const ClockPage& page, ReadWall&& wall) {
   const std::int64_t horizon_ns = page.horizon_ns.load(std::memory_order_acquire);
@@ -60,7 +61,7 @@ Instant bench_now(const ClockPage& page, ReadWall&& wall) {
   return {at.ns - lost_ns < horizon_ns ? at.ns - lost_ns : horizon_ns};
 }
 
-// What bench time was at a moment of the wall clock, as long as its pauses are remembered.
+// Bench time at a moment of the wall clock; exact as long as the later pauses are stored.
 inline Instant bench_time_of(const ClockPage& page, Instant wall) {
   const std::uint64_t made = page.pauses_made.load(std::memory_order_acquire);
   const std::int64_t horizon_ns = page.horizon_ns.load(std::memory_order_acquire);

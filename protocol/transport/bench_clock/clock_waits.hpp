@@ -1,4 +1,4 @@
-// Record of the waits of bench time: how often, how long, and for which process.
+// Record of the waits of bench time: number, length, and the process of the longest one.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -11,7 +11,7 @@ namespace pitwall::transport {
 
 struct ClockWaits {
   std::uint64_t count = 0;
-  Duration total{}, longest{};  // of the wall clock
+  Duration total{}, longest{};  // by the wall clock
   Instant longest_at{};         // bench time
   std::string longest_for;      // name of the process; empty: the bench itself had no processor
 };

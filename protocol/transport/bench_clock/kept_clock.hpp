@@ -1,8 +1,7 @@
-// Keeper of bench time in a thread of its own, for several benches and programs that share one
-// file.
-//   in     the file
-//   out    bench time from here to the end of its life
-//   errors keep(): Problem with the file, or another keeps it
+// Keeper of bench time in its own thread, for several benches and programs that share one file.
+//   in     path of the file
+//   out    bench time, until end() or destruction
+//   errors keep(): Problem with the file, or if another process keeps it
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -21,7 +20,7 @@ class KeptClock {
   KeptClock& operator=(KeptClock&&) = delete;
   ~KeptClock();
 
-  // Ends it and says what was waited for.
+  // Ends bench time and returns the record of the waits; empty at a second call.
   ClockWaits end();
 
  private:

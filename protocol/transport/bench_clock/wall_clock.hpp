@@ -1,4 +1,4 @@
-// The wall clock: CLOCK_MONOTONIC, whoever keeps the time of this program.
+// Wall clock: CLOCK_MONOTONIC, also for a program that uses bench time.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

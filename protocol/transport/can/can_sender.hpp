@@ -1,11 +1,11 @@
-// Frames laid out for the kernel ahead of time, and a socket that only sends them: the price of a
-// send is one system call, whatever the number of frames, and nothing is received, copied or
-// encoded on the way. On a CAN interface of the kernel, or on a bus `unix:PATH` (unix_bus), whose
-// hub it does not look for again once it has gone.
+// Prepared CAN frames in the kernel's layout, and a send-only socket for them: one system call
+// sends a batch of frames, and nothing is received, copied or encoded in it. It works on a CAN
+// interface of the kernel, or on a bus `unix:PATH` (unix_bus), without reconnection if the hub
+// ends.
 //   in     frames of one bus; later a range of them
-//   out    how many leading ones of the range the kernel took
+//   out    number of leading frames of the range that the kernel accepted
 //   errors make(), open(): Problem. send(): the error number, and whether a retry can help
-//   cost   96 bytes of memory a classic frame, 152 a CAN FD frame; send() allocates nothing
+//   cost   96 bytes of memory per classic frame, 152 per CAN FD frame; send() allocates nothing
 //   source Linux Documentation/networking/can.rst
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
@@ -26,17 +26,17 @@ namespace pitwall::transport {
 
 class PreparedFrames {
  public:
-  // fd_flags (CANFD_BRS, CANFD_ESI) of frames[i] where there are any; a classic frame has none.
+  // `fd_flags`: CANFD_BRS, CANFD_ESI of frames[i], or empty; a classic frame has none.
   static Result<PreparedFrames, Problem> make(std::span<const can::Frame> frames,
                                               std::span<const std::uint8_t> fd_flags = {});
-  // Messages and slices point into the bytes: such a value moves, but is not copied.
+  // Movable but not copyable, because messages and slices point into the bytes.
   PreparedFrames(PreparedFrames&&) = default;
   PreparedFrames& operator=(PreparedFrames&&) = default;
   PreparedFrames(const PreparedFrames&) = delete;
   PreparedFrames& operator=(const PreparedFrames&) = delete;
 
   std::size_t size() const { return messages_.size(); }
-  // Other data of the same length for frame i.
+  // Replaces the data of frame i by data of the same length.
   void set_data(std::size_t i, std::span<const std::uint8_t> data);
 
  private:
@@ -49,10 +49,10 @@ class PreparedFrames {
 };
 
 struct SendOutcome {
-  std::size_t taken = 0;  // leading frames of the range
-  int error = 0;          // why not all of them
+  std::size_t taken = 0;  // leading frames of the range that the kernel accepted
+  int error = 0;          // error number if not all were accepted
 
-  // The queue of the interface or of the socket is full: it will empty.
+  // The queue of the interface or of the socket is full: a retry can succeed.
   bool full() const { return error == ENOBUFS || error == EAGAIN; }
 };
 
@@ -60,7 +60,7 @@ class CanSender {
  public:
   static Result<CanSender, Problem> open(const std::string& interface);
 
-  // Frames first .. first + count - 1, in order. Never blocks.
+  // Sends frames first .. first + count - 1 in order. Never blocks.
   SendOutcome send(PreparedFrames& frames, std::size_t first, std::size_t count);
 
  private:

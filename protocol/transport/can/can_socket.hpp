@@ -42,73 +42,75 @@ struct CanFilter {
 };
 
 struct CanSocketOptions {
-  std::vector<CanFilter> filters{};    // none: every frame, remote frames too
-  bool receive_own = false;            // frames sent by this very socket
+  std::vector<CanFilter> filters{};    // empty: every frame, remote frames too
+  bool receive_own = false;            // receive the frames that this socket sends
   bool receive_errors = true;          // error frames: counted and decoded, never delivered as data
   bool fd = true;                      // accept CAN FD frames
   int receive_buffer_bytes = 8 << 20;  // 21,846 classic frames at 384 B (kernel doubles the value)
-  // realtime_minus_monotonic() for all stamps; none: looked at every 100 ms. With the same one for
-  // several sockets their times have the order of the kernel's stamps. Where the calendar is
-  // stepped meanwhile, times are those of the read.
+  // realtime_minus_monotonic() for all stamps; empty: measured every 100 ms. With the same value
+  // for several sockets their times have the order of the kernel's stamps. If the calendar clock is
+  // stepped meanwhile, the times are those of the read.
   std::optional<Duration> clock_offset{};
 };
 
 struct CanSocketCounters {
-  std::uint64_t received = 0;        // data frames handed to the caller
-  std::uint64_t sent = 0;            // frames that the kernel took
+  std::uint64_t received = 0;        // data frames given to the caller
+  std::uint64_t sent = 0;            // frames that the kernel accepted
   std::uint64_t tx_enobufs = 0;      // send() stopped because the interface queue was full
   std::uint64_t tx_would_block = 0;  // send() stopped because the socket's send buffer was full
   std::uint64_t tx_network_down = 0;
   std::uint64_t tx_failed = 0;   // any other error
   std::uint64_t tx_refused = 0;  // frames no bus can carry: dropped, not sent
-  // Lost in this socket's receive queue, by two detectors: with each frame the kernel says how many
-  // were lost before it (SO_RXQ_OVFL), and when asked how many so far, trailing loss included
-  // (SO_MEMINFO). The sum is the larger one.
+  // Frames lost in this socket's receive queue, by two detectors: with each frame the kernel
+  // reports the number lost before it (SO_RXQ_OVFL); on request, the number lost so far, trailing
+  // losses included (SO_MEMINFO). rx_dropped_queue is the larger one.
   std::uint64_t rx_dropped_by_frames = 0;
   std::uint64_t rx_dropped_when_asked = 0;
   std::uint64_t rx_dropped_queue = 0;
-  std::uint64_t rx_malformed = 0;  // truncated, or no CAN frame
-  std::uint64_t rx_failed = 0;     // recvmmsg errors but "nothing there"
+  std::uint64_t rx_malformed = 0;  // truncated, or not a CAN frame
+  std::uint64_t rx_failed = 0;     // recvmmsg errors except "would block"
   std::uint64_t error_frames = 0;
   std::uint64_t clock_steps =
       0;                    // the calendar clock jumped; stamps of that batch are arrival times
   CanErrorCounters errors;  // error_frames by class
-  // Of a unix bus: how often its hub went, and how often one came again.
+  // For a unix bus: number of times that its hub ended, and that a new one was found.
   std::uint64_t hub_losses = 0, hub_returns = 0;
 };
 
 class CanSocket {
  public:
-  // Frames taken from or given to the kernel in one system call.
+  // Frames per system call.
   static constexpr std::size_t kBatch = 64;
 
-  // True if this kernel knows CAN at all (no interface needed).
+  // True if this kernel supports CAN (no interface needed).
   static bool supported();
   static Result<CanSocket, Problem> open(std::string_view interface,
                                          const CanSocketOptions& options = {});
 
-  // Takes what is there, up to frames.size(), oldest first. 0: nothing there. Never blocks.
+  // Reads the frames that wait, up to frames.size(), oldest first. Returns their number. Never
+  // blocks.
   std::size_t receive(std::span<can::ReceivedFrame> frames);
 
-  // Returns how many leading frames are done with (sent, or refused and counted); the rest were not
-  // taken (ENOBUFS or the like, counted) and are the caller's to retry or drop. Never blocks.
+  // Returns the number of leading frames that are sent, or refused and counted. The kernel did not
+  // accept the rest (ENOBUFS or the like, counted); the caller may retry or drop them. Never
+  // blocks.
   std::size_t send(std::span<const can::Frame> frames);
   bool send(const can::Frame& frame) { return send(std::span(&frame, 1)) == 1; }
 
   // Writes one error frame, as a controller driver would report it (for benches on vcan).
   bool send_error(std::uint32_t classes, std::span<const std::uint8_t> detail = {});
 
-  // Asks the kernel for frames lost so far, and what it still has to send. receive() does so itself
-  // every 100 ms; call it once more at the end, because trailing loss shows nowhere else.
+  // Reads from the kernel the number of frames lost so far and the bytes still to send. receive()
+  // does it every 100 ms; call it once more at the end to count trailing losses.
   void poll_drops();
-  // Of our frames, waiting in the kernel when poll_drops() last asked; 768 bytes each or so.
+  // Bytes of our frames in the kernel's send queue at the last poll_drops(); about 768 per frame.
   std::uint32_t queued_bytes() const { return queued_bytes_; }
 
   const CanSocketCounters& counters() const { return counters_; }
-  // As the error frames tell, and when the newest of them that tells the state was made.
+  // State in the newest error frame that reports one, and the time of that frame.
   BusState bus_state() const { return bus_state_; }
   Instant bus_state_at() const { return bus_state_at_; }
-  // As granted by the kernel; 0 on a unix bus.
+  // Size granted by the kernel; 0 on a unix bus.
   int receive_buffer_bytes() const { return receive_buffer_bytes_; }
   int fd() const { return unix_ ? unix_->receiver() : fd_.get(); }
   // The bus is a unix bus without a hub: nothing arrives and nothing goes out.
@@ -129,7 +131,7 @@ class CanSocket {
   // Reads one batch: true if the kernel may have more.
   bool receive_batch(std::span<can::ReceivedFrame> frames, std::size_t& taken, Instant now);
   Instant arrival(UtcTime stamp, Instant now);
-  // What only a unix bus brings, or SocketCAN would not deliver: true if it is dealt with.
+  // Handles frames that occur only on a unix bus or that SocketCAN would not deliver; true if done.
   bool take_unix(const CanWire& wire, std::size_t bytes);
   void count_dropped(std::uint64_t& detector, std::uint64_t so_far);
   void take_error(const CanWire& wire, Instant at);
@@ -137,7 +139,7 @@ class CanSocket {
 
   FileDescriptor fd_;
   std::optional<UnixBusEnd> unix_;
-  std::uint64_t dropped_before_ = 0;  // by earlier hubs
+  std::uint64_t dropped_before_ = 0;  // frames that earlier hubs lost
   CanSocketCounters counters_;
   BusState bus_state_ = BusState::kUnknown;
   Instant bus_state_at_{};
@@ -146,7 +148,7 @@ class CanSocket {
   std::optional<Duration> given_offset_;
   Duration clock_offset_{};
   Instant next_poll_{};
-  Instant empty_at_{};  // a read that began then left nothing
+  Instant empty_at_{};  // start of the last read that emptied the queue
   bool stamps_trusted_ = true;
   bool offset_known_ = false;
 };

@@ -1,7 +1,8 @@
-// The kernel's CAN frame layouts (struct can_frame, struct canfd_frame) to and from can::Frame, and
-// the meaning of the kernel's error frames. Pure: no system call, works without CAN in the kernel.
+// Conversion between the kernel's CAN frame layouts (struct can_frame, struct canfd_frame) and
+// can::Frame, and decoder of the kernel's error frames. Pure: no system call, works without CAN in
+// the kernel.
 //   in     bytes as read from a CAN_RAW socket (16 classic, 72 FD), or a can::Frame
-//   out    the other one; false where there is no faithful counterpart
+//   out    the other form; false or 0 if the frame has no equivalent there
 //   source Linux Documentation/networking/can.rst, include/uapi/linux/can/error.h
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
@@ -25,7 +26,7 @@ static_assert(offsetof(can_frame, data) == offsetof(canfd_frame, data));
 
 using CanWire = canfd_frame;  // room for both layouts; the first 16 bytes are a can_frame
 
-// CAN FD data field lengths; anything else does not exist on a wire.
+// CAN FD data field lengths; no other length exists on a wire.
 constexpr bool is_fd_length(std::size_t n) {
   return n <= 8 || n == 12 || n == 16 || n == 20 || n == 24 || n == 32 || n == 48 || n == 64;
 }
@@ -47,7 +48,7 @@ inline std::size_t to_wire(const can::Frame& f, CanWire& out) {
   return f.fd ? kCanFdWireBytes : kCanWireBytes;
 }
 
-// False for an error frame (see decode_error) and for sizes or lengths that are no frame.
+// False for an error frame (see decode_error) and for a size or length that no frame has.
 inline bool from_wire(const CanWire& wire, std::size_t bytes, can::Frame& out) {
   const bool fd = bytes == kCanFdWireBytes;
   if (!fd && bytes != kCanWireBytes) return false;
@@ -65,8 +66,8 @@ inline bool from_wire(const CanWire& wire, std::size_t bytes, can::Frame& out) {
 
 constexpr bool is_error_frame(const CanWire& wire) { return (wire.can_id & CAN_ERR_FLAG) != 0U; }
 
-// True for bytes that are a frame which a wire could carry, or an error frame. Stricter than vcan,
-// which also passes on identifiers and lengths that no wire has.
+// True for an error frame, and for a frame that a wire can carry. Stricter than vcan, which also
+// forwards identifiers and lengths that no wire has.
 inline bool is_carried(const CanWire& wire, std::size_t bytes) {
   if (is_error_frame(wire))
     return bytes == kCanWireBytes && wire.len <= CAN_MAX_DLEN &&
@@ -77,7 +78,7 @@ inline bool is_carried(const CanWire& wire, std::size_t bytes) {
   return bytes == kCanFdWireBytes && (wire.can_id & CAN_RTR_FLAG) == 0U && is_fd_length(wire.len);
 }
 
-// Health of the controller as the kernel last reported it; kUnknown until it says something.
+// Error state of the controller in the kernel's last report; kUnknown before the first one.
 enum class BusState : std::uint8_t { kUnknown, kActive, kWarning, kPassive, kBusOff };
 
 struct CanErrorCounters {
@@ -88,7 +89,7 @@ struct CanErrorCounters {
   bool operator==(const CanErrorCounters&) const = default;
 };
 
-// The state that an error frame tells of; kUnknown where it tells of none.
+// The state that an error frame reports; kUnknown if it reports none.
 inline BusState state_in(const CanWire& wire) {
   if ((wire.can_id & CAN_ERR_BUSOFF) != 0U) return BusState::kBusOff;
   if ((wire.can_id & CAN_ERR_RESTARTED) != 0U) return BusState::kActive;
@@ -102,8 +103,8 @@ inline BusState state_in(const CanWire& wire) {
   return BusState::kUnknown;
 }
 
-// Adds one error frame to the counters (it may carry several classes) and returns the bus state
-// after it: `before` where the frame says nothing about the state.
+// Adds one error frame to the counters (it may have several classes) and returns the bus state
+// after it: `before` if the frame does not report a state.
 inline BusState decode_error(const CanWire& wire, BusState before, CanErrorCounters& counters) {
   const std::uint32_t classes = wire.can_id;
   counters.tx_timeout += (classes & CAN_ERR_TX_TIMEOUT) != 0U;

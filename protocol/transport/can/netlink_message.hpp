@@ -1,10 +1,10 @@
-// Messages to and from the kernel's netlink, built and taken apart. Pure: bytes in, bytes out.
-//   in     a request's type, fixed part and attributes; or the bytes of an answer
+// Encoder and parser of netlink messages of the kernel. Pure: bytes in, bytes out.
+//   in     type, fixed part and attributes of a request; or the bytes of an answer
 //   out    bytes to send; attributes one by one
 //   invariants
-//          what request() built, for_each_attribute() gives back
-//   errors a request that does not fit is our own mistake (CHECK); an answer's attribute that ends
-//          beyond its bytes ends the walk
+//          for_each_attribute() returns the attributes that NetlinkRequest wrote
+//   errors a request that does not fit is our own mistake (CHECK); an attribute of an answer that
+//          ends beyond its bytes ends the iteration
 //   source Linux userspace-api/netlink/intro.rst, include/uapi/linux/netlink.h
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
@@ -24,7 +24,7 @@
 
 namespace pitwall::transport {
 
-static_assert(sizeof(nlattr) == 4 && sizeof(nlmsghdr) == 16);  // multiples of four themselves
+static_assert(sizeof(nlattr) == 4 && sizeof(nlmsghdr) == 16);  // both are multiples of four
 
 using NetlinkBytes = std::span<const std::uint8_t>;
 
@@ -53,7 +53,7 @@ class NetlinkRequest {
     append("", 1);
     close_nest(start);
   }
-  // Attributes put between the two lie inside `attribute`.
+  // Attributes written between open_nest() and close_nest() are nested in `attribute`.
   std::size_t open_nest(unsigned attribute) {
     align();
     const std::size_t start = size_;
@@ -82,13 +82,13 @@ class NetlinkRequest {
   }
   void align() { size_ = std::min(bytes_.size(), netlink_aligned(size_)); }
 
-  static constexpr std::size_t kRoom = 512;  // the largest of ours has less than half of it
+  static constexpr std::size_t kRoom = 512;  // our largest request takes less than half of it
   alignas(nlmsghdr) std::array<std::uint8_t, kRoom> bytes_{};
   nlmsghdr head_{};
   std::size_t size_ = sizeof(nlmsghdr);
 };
 
-// The leading bytes as a T; what is missing is zero, as the kernel means it when structures grow.
+// The leading bytes as a T; missing bytes are zero, as the kernel defines it for grown structures.
 template <class T>
 T read_as(NetlinkBytes bytes) {
   static_assert(std::is_trivially_copyable_v<T>);
@@ -103,7 +103,7 @@ inline std::string_view read_text(NetlinkBytes bytes) {
           static_cast<std::size_t>(end - bytes.begin())};
 }
 
-// Calls visit(attribute type without flag bits, its contents) for each.
+// Calls visit(attribute type without flag bits, its contents) for each attribute.
 template <class Visit>
 void for_each_attribute(NetlinkBytes bytes, Visit&& visit) {
   while (bytes.size() >= sizeof(nlattr)) {
@@ -115,7 +115,7 @@ void for_each_attribute(NetlinkBytes bytes, Visit&& visit) {
   }
 }
 
-// What follows the fixed part of a message.
+// The bytes after the fixed part of a message.
 template <class Fixed>
 NetlinkBytes attributes_after(NetlinkBytes message) {
   const std::size_t skipped = netlink_aligned(sizeof(Fixed));

@@ -1,19 +1,18 @@
-// A CAN bus without CAN in the kernel: `unix:PATH`. A hub (unix_can_hub) listens on PATH; each
-// client is one SOCK_SEQPACKET connection to it; a packet is one frame in the kernel's own layout,
-// 16 bytes (struct can_frame) or 72 (struct canfd_frame). Here: what both ends agree on, and the
-// client's end.
+// Client of a CAN bus `unix:PATH`, a bus without CAN in the kernel, and its protocol. A hub
+// (unix_can_hub) listens on PATH; each client is one SOCK_SEQPACKET connection to it; a packet is
+// one frame in the kernel's own layout, 16 bytes (struct can_frame) or 72 (struct canfd_frame).
 //
 //   client ---- frame ----> hub ---- the same frame ----> every other client, in one total order
-//   client <--- notice ---- hub      "so many frames for you are lost so far: your queue was full"
+//   client <--- notice ---- hub      number of frames lost so far because this queue was full
 //
 //   The notice is an error frame, class CAN_ERR_CRTL with CAN_ERR_CRTL_RX_OVERFLOW as a controller
-//   driver tells of an overrun, so that any reader of the kernel's layout understands it. In data,
-//   bytes 4 to 7 are the number lost since the client joined (little endian); byte 6 of the frame
-//   is kNoticeMark. It stands in the queue where the frames are missing. What clients write cannot
-//   look like one: the hub clears that byte.
-//   A client that has shut down its receiving side (SHUT_RD) is sent nothing, and loses nothing.
+//   driver reports an overrun, so that any reader of the kernel's layout can decode it. Bytes 4 to
+//   7 of its data are the number lost since the client joined (little endian); byte 6 of the frame
+//   is kNoticeMark. It is in the queue at the place of the missing frames. Clients cannot forge it:
+//   the hub clears that byte.
+//   A client that has shut down its receiving side (SHUT_RD) gets no frames, and loses none.
 //
-//   in     "unix:PATH"; PATH shorter than sun_path (108 bytes with its end)
+//   in     "unix:PATH"; PATH shorter than sun_path (108 bytes with its terminator)
 //   out    connections, which are non-blocking; whether the hub is still there
 //   errors Problem with the interface as place
 // SPDX-License-Identifier: Apache-2.0
@@ -43,10 +42,10 @@ Result<sockaddr_un, Problem> unix_bus_address(std::string_view interface);
 
 enum class Hearing : std::uint8_t { kEverything, kNothing };
 
-// The error number says why not: ENOENT and ECONNREFUSED are "no hub there".
+// The outcome has the error number; ENOENT and ECONNREFUSED mean that there is no hub.
 PosixOutcome connect_to_hub(const sockaddr_un& address, Hearing hearing, FileDescriptor& out);
 Problem hub_problem(std::string_view interface, const PosixOutcome& refused);
-// For a connection whose data nobody reads.
+// True until the connection is hung up; nothing is read from it.
 bool hub_is_there(int connection);
 bool hub_serves(const sockaddr_un& address);
 
@@ -54,26 +53,26 @@ can_frame loss_notice(std::uint32_t lost_so_far);
 std::optional<std::uint32_t> read_loss_notice(const CanWire& wire, std::size_t bytes);
 
 struct UnixBusOptions {
-  std::vector<can_filter> filters{};  // as for CAN_RAW_FILTER; none: every frame
-  bool own = false;                   // hear what is sent through this very end
-  bool errors = true;                 // hear error frames
-  bool fd = true;                     // hear CAN FD frames
+  std::vector<can_filter> filters{};  // as for CAN_RAW_FILTER; empty: every frame
+  bool own = false;                   // receive the frames that this client sends
+  bool errors = true;                 // receive error frames
+  bool fd = true;                     // receive CAN FD frames
 };
 
-// The client's end. Its descriptor keeps its number when the hub goes and another one comes.
+// The client's end. Its descriptor keeps its number when a new hub replaces the old one.
 class UnixBusEnd {
  public:
   static Result<UnixBusEnd, Problem> open(std::string_view interface, UnixBusOptions options);
 
   int receiver() const { return receiver_.get(); }
-  // Own frames come back through a second connection: the hub tells clients apart, nothing else.
+  // Own frames return through a second connection, because the hub distinguishes only connections.
   int sender() const { return options_.own ? sender_.get() : receiver_.get(); }
   bool connected() const { return connected_; }
-  // To be called when the end of the stream has been read. The descriptor is silent from then on.
+  // To be called when the end of the stream is read. After that the descriptor is never readable.
   void hang_up();
-  // True: there is a hub again. Never waits, allocates nothing.
+  // True: connected to a hub again. Never waits, allocates nothing.
   bool reconnect();
-  // What SocketCAN's own filters would have kept back does not pass.
+  // True for a frame that the filters of SocketCAN would deliver.
   bool passes(const CanWire& wire, std::size_t bytes) const;
 
  private:
@@ -84,7 +83,7 @@ class UnixBusEnd {
   sockaddr_un address_;
   UnixBusOptions options_;
   FileDescriptor receiver_, sender_;
-  FileDescriptor silence_;  // stands in for the connection while there is none
+  FileDescriptor silence_;  // replaces the connection while there is none
   bool connected_ = false;
 };
 

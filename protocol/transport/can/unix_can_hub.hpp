@@ -1,22 +1,22 @@
-// The hub of a CAN bus `unix:PATH` (unix_bus says what goes over it): takes each frame from one
-// client and gives it to all others.
+// Hub of a CAN bus `unix:PATH` (protocol in unix_bus): forwards each frame of a client to all other
+// clients.
 //
 //   invariants
-//         one total order: any two clients hear the frames that both hear in the same order, and
-//         each hears what was sent after its connect() returned
+//         one total order: any two clients receive their common frames in the same order, and each
+//         client receives the frames sent after its connect() returned
 //         for each client: frames offered = frames in its queue or read + frames lost, and the last
-//         notice it reads tells exactly the frames lost so far
+//         notice that it reads has the exact number of frames lost so far
 //
-//   A client's queue is the send buffer of its connection: a reader that is slow fills it, and
-//   loses frames, counted and told in place; it delays nobody. What is no frame is refused and
-//   counted. A client may be killed at any moment: what it sent until then is relayed.
-//   in     PATH: its owner's only (0600). A socket that nobody serves any more is replaced; one
-//          that is served, and whatever is no socket, is refused and left alone
+//   A client's queue is the send buffer of its connection. A slow reader fills it and loses frames,
+//   which are counted and reported at their place; it does not delay other clients. A packet that
+//   is not a frame is refused and counted. If a client is killed, the frames it sent are forwarded.
+//   in     PATH: access for its owner only (0600). A socket that no process serves is replaced; one
+//          that is served, or a file that is not a socket, is refused and not changed
 //   out    frames; counters
 //   errors open(): Problem with the interface as place; afterwards counters only
 //   cost   serve(): for each client with frames one recvmmsg, one accept4 and one sendmmsg per
-//          other client, for up to 64 frames; memory is allocated only when a client joins. A
-//          classic frame takes 768 bytes of queue, as the kernel counts
+//          other client, for up to 64 frames; memory is allocated only when a client joins. The
+//          kernel counts 768 bytes of queue for a classic frame
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -40,15 +40,15 @@ struct UnixCanHubOptions {
 };
 
 struct UnixCanHubCounters {
-  std::uint64_t relayed = 0;    // frames taken from a client and given to the others
-  std::uint64_t delivered = 0;  // their copies put into queues
+  std::uint64_t relayed = 0;    // frames forwarded from a client to the others
+  std::uint64_t delivered = 0;  // copies put into queues
   std::uint64_t dropped = 0;    // copies lost because a client's queue was full
-  std::uint64_t malformed = 0;  // packets that are no frame: refused
+  std::uint64_t malformed = 0;  // packets refused because they are not a frame
   std::uint64_t joined = 0, left = 0;
-  std::uint64_t refused = 0;  // clients over the limit, or without a descriptor left for them
-  // Of all clients, the one that lost most.
+  std::uint64_t refused = 0;  // clients over the limit, or without a free descriptor for them
+  // The client with the most lost frames: their number and its process id.
   std::uint64_t worst_dropped = 0;
-  int worst_process = 0;  // its process id
+  int worst_process = 0;
 };
 
 std::string to_text(const UnixCanHubCounters& counters);
@@ -61,7 +61,7 @@ class UnixCanHub {
   UnixCanHub(const UnixCanHub&) = delete;
   UnixCanHub& operator=(const UnixCanHub&) = delete;
 
-  // Waits until the deadline for something to do, or until `stop` is readable, and does it.
+  // Waits until the deadline for packets and clients, or until `stop` is readable, and serves them.
   void serve(Instant deadline, int stop = -1);
 
   std::size_t clients() const { return clients_.size(); }
@@ -71,15 +71,15 @@ class UnixCanHub {
   struct Client {
     FileDescriptor fd;
     std::uint64_t lost = 0;
-    bool unreported = false;  // of some of them
-    bool deaf = false;        // hears nothing, by its own wish or because it is about to leave
+    bool unreported = false;  // some losses are not yet reported
+    bool deaf = false;        // gets no frames, by its own shutdown or because it is leaving
     bool gone = false;
     int process = 0;
   };
   struct Batch;
 
   UnixCanHub(const sockaddr_un& address, const UnixCanHubOptions& options);
-  std::string claim();  // empty: the path is ours
+  std::string claim();  // empty on success, otherwise the reason
   std::string make_room() const;
   void accept_all();
   void admit(FileDescriptor fd);
@@ -94,7 +94,7 @@ class UnixCanHub {
   UnixCanHubOptions options_;
   FileDescriptor listener_;
   std::uint64_t device_ = 0, node_ = 0;  // of the path, while it is ours
-  Instant accept_from_{};                // not before: descriptors were short
+  Instant accept_from_{};                // earliest next accept, after a lack of descriptors
   std::vector<Client> clients_;
   std::unique_ptr<Batch> batch_;
   UnixCanHubCounters counters_;

@@ -1,11 +1,12 @@
-// Datagrams on a byte line that may also carry foreign bytes (a kernel's console, a boot loader):
+// Framing of datagrams on a serial line that may also carry foreign bytes (the console of a kernel,
+// a boot loader):
 //
 //   A7 5C | length u16 LE | header check u8 | payload | CRC-32 LE of length and payload
 //
-// Foreign or damaged bytes cost at most the datagrams they touch: the decoder looks for the next
-// magic from the byte after the false one. Pure: bytes in, datagrams out.
+// Foreign or damaged bytes destroy only the datagrams that contain them: the decoder searches the
+// next magic from the byte after a false one. Pure: bytes in, datagrams out.
 //   units  bytes, at most kMaxLineDatagramBytes per datagram
-//   errors counters; nothing else
+//   errors counters only
 //   source CRC-32 ISO-HDLC (check "123456789" = CBF43926); CRC-8 SMBUS (check F4)
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
@@ -35,17 +36,17 @@ std::size_t encode_line_frame(std::span<const std::uint8_t> datagram,
 
 struct LineDecoderCounters {
   std::uint64_t datagrams = 0;
-  std::uint64_t foreign_bytes = 0;  // skipped while looking for a datagram
-  std::uint64_t bad_header = 0;     // magic, then a header that does not check
+  std::uint64_t foreign_bytes = 0;  // skipped in the search for a datagram
+  std::uint64_t bad_header = 0;     // magic with a wrong header check
   std::uint64_t bad_crc = 0;
 };
 
 class LineDecoder {
  public:
-  // Bytes that fit now; the caller reads at most so many before it calls next() again.
+  // Free part of the buffer; the caller writes there, then calls filled() and next().
   std::span<std::uint8_t> free_space();
   void filled(std::size_t bytes);
-  // Copies bytes in (as many as fit) and says how many.
+  // Copies as many bytes as fit and returns their number.
   std::size_t feed(std::span<const std::uint8_t> bytes);
   // The next complete datagram; valid until free_space(), filled() or feed() is called.
   std::optional<std::span<const std::uint8_t>> next();

@@ -1,13 +1,13 @@
-// Lines of text over a Unix stream socket, both ends: for programs of one machine that tell each
-// other something now and then.
-//   in     a path shorter than sun_path; lines without their end
-//   out    whole lines in their order, never part of one
+// Lines of text over a Unix stream socket, both ends: for occasional messages between programs on
+// one machine.
+//   in     a path shorter than sun_path; lines without their line end
+//   out    whole lines in order, never a part of one
 //   invariants
-//          nobody waits: what the other end does not take is queued, up to kQueueMax_bytes; who
-//          reads slower than that is hung up on
-//          a line longer than kLineMax_bytes is skipped to its end, and counted
-//   listener  the path is its owner's only (0600); a socket that nobody serves is replaced,
-//          one that is served, and whatever is no socket, is refused and left alone
+//          no call waits: bytes that the other end does not accept are queued, up to
+//          kQueueMax_bytes; if the queue is full, the connection is closed
+//          a line longer than kLineMax_bytes is skipped to its end and counted
+//   listener  only its owner has access to the path (0600); a socket that no process serves is
+//          replaced; one that is served, or a file that is not a socket, is refused and not changed
 //   errors Problem with the path as place; afterwards closed() and counters
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
@@ -36,12 +36,12 @@ class LineSocket {
   explicit LineSocket(FileDescriptor connection) : connection_(std::move(connection)) {}
   static Result<LineSocket, Problem> connect(const std::string& path);
 
-  // What is there now; what waits to be sent is sent first, as far as it goes.
+  // Returns the whole lines that are available now. First it sends queued bytes as far as possible.
   std::vector<std::string> receive();
   void send(std::string_view line);
   void flush();
 
-  // The other end is gone, or was too slow; what it said before that has been received.
+  // The other end has closed, or was too slow; its earlier lines have been received.
   bool closed() const { return !connection_.valid(); }
   int fd() const { return connection_.get(); }
   bool sending() const { return !queue_.empty(); }
@@ -51,8 +51,8 @@ class LineSocket {
   void take(std::string_view bytes, std::vector<std::string>& lines);
 
   FileDescriptor connection_;
-  std::string part_, queue_;  // of a line that has not ended yet; what waits to be sent
-  bool skipping_ = false;     // the rest of a line that is too long
+  std::string part_, queue_;  // start of an incomplete line; bytes to send
+  bool skipping_ = false;     // skips the rest of a line that is too long
   LineCounters counters_;
 };
 

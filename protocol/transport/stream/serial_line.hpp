@@ -1,5 +1,5 @@
-// Datagrams over a tty in raw mode or over one end of a stream socket pair: the guest's way to the
-// host. Framing in line_framing.
+// Datagrams over a tty in raw mode or over one end of a stream socket pair: the link from a guest
+// to its host. Framing in line_framing.
 //   in     a tty path or an open descriptor; datagrams to send
 //   out    datagrams received; counters
 //   errors open(): Problem with the path as place; afterwards counters only. Never blocks
@@ -23,7 +23,7 @@ namespace pitwall::transport {
 struct SerialCounters {
   std::uint64_t sent = 0;
   std::uint64_t tx_refused = 0;   // longer than kMaxLineDatagramBytes
-  std::uint64_t tx_overflow = 0;  // dropped whole: the line is slower than what is sent
+  std::uint64_t tx_overflow = 0;  // dropped whole because the line was too slow
   std::uint64_t tx_failed = 0, rx_failed = 0;
   LineDecoderCounters received;
 };
@@ -34,16 +34,16 @@ class SerialLine {
   static constexpr std::size_t kMaxQueuedBytes = 65'536;
 
   static Result<SerialLine, Problem> open(const std::string& tty_path);
-  static Result<SerialLine, Problem> adopt(FileDescriptor fd);  // raw mode where it is a tty
+  static Result<SerialLine, Problem> adopt(FileDescriptor fd);  // sets raw mode if it is a tty
 
-  // True: it will go out whole, now or at a later flush(). False: dropped whole and counted.
+  // True: it is sent whole, now or at a later flush(). False: dropped whole and counted.
   bool send(std::span<const std::uint8_t> datagram);
-  // Gives waiting bytes to the line as far as it takes them.
+  // Writes queued bytes as far as the line accepts them.
   void flush();
   bool has_unsent() const { return queue_begin_ != queue_end_; }
-  // The next datagram, or nothing. Valid until the next call.
+  // The next datagram, or an empty optional. Valid until the next call.
   std::optional<std::span<const std::uint8_t>> receive();
-  bool closed() const { return closed_; }  // the other end is gone
+  bool closed() const { return closed_; }  // the other end has closed
 
   SerialCounters counters() const;
   int fd() const { return fd_.get(); }
@@ -60,7 +60,7 @@ class SerialLine {
   bool closed_ = false;
 };
 
-// Two connected ends of a byte stream; neither survives an exec unless mapped.
+// Two connected ends of a byte stream; both are closed by an exec unless they are mapped.
 Result<std::pair<FileDescriptor, FileDescriptor>, Problem> stream_pair();
 
 }  // namespace pitwall::transport

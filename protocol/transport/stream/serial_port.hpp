@@ -1,7 +1,7 @@
-// A serial device as a raw byte stream: 8 data bits, no parity, one stop bit, no flow control.
+// Serial device as a raw byte stream: 8 data bits, no parity, one stop bit, no flow control.
 //   in     path of a tty, baud
 //   out    an open, non-blocking descriptor
-//   errors Problem with the path: not there, no tty, no such rate
+//   errors Problem with the path: missing, not a tty, unsupported rate
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -12,11 +12,11 @@
 
 namespace pitwall::transport {
 
-bool is_serial_rate(int baud);  // one that a tty can be set to
+bool is_serial_rate(int baud);  // true for a rate that Linux supports
 
 Result<FileDescriptor, Problem> open_serial(const std::string& path, int baud);
 
-// Bytes as they are, at the rate that the tty has; of what is no tty the reason.
+// Sets raw mode and keeps the rate of the tty; for another file, returns the error.
 PosixOutcome make_raw(int tty);
 
 }  // namespace pitwall::transport

@@ -1,14 +1,13 @@
-// A byte stream that is opened again whenever it ends: a TCP connection to a device, or a serial
-// device that may be unplugged.
-//   in     where to; now, at every call
-//   out    the bytes that are there; counters
+// Reconnecting byte stream: a TCP connection to a device, or a serial device that may be unplugged.
+//   in     the target; the time at every call
+//   out    the available bytes; counters
 //   invariants
-//          a stream that ends, is refused, or is not there within kPatience is tried again kPause
-//          later. A connection that is silent for kPatience is given up too: a cable that was
-//          pulled ends nothing
-//   errors of a stream that cannot be opened: the newest reason, and counters
-//   cost   never waits and never allocates in the heap while the stream is open; opening a serial
-//          device again sets its rate, which some USB adapters take milliseconds for
+//          a stream that ends, is refused, or does not open within kPatience is tried again after
+//          kPause. A TCP connection without bytes for kPatience is closed too, because a pulled
+//          cable does not end a connection
+//   errors counters only
+//   cost   never waits, and never allocates on the heap while the stream is open; opening a serial
+//          device sets its rate, which takes milliseconds on some USB adapters
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -34,10 +33,10 @@ struct SerialDevice {
 
 struct StreamCounters {
   std::uint64_t bytes = 0;
-  std::uint64_t opened = 0;   // times that the stream came up
+  std::uint64_t opened = 0;   // times that the stream opened
   std::uint64_t refused = 0;  // attempts that failed or took too long
-  std::uint64_t ended = 0;    // by the other end, or by the line
-  std::uint64_t silent = 0;   // given up because nothing came
+  std::uint64_t ended = 0;    // closed by the other end or by the line
+  std::uint64_t silent = 0;   // closed because no byte came
 };
 
 class StreamLink {
@@ -47,10 +46,10 @@ class StreamLink {
 
   using Target = std::variant<TcpAddress, SerialDevice>;
 
-  // Opens nothing yet.
+  // Does not open the stream; read() does.
   explicit StreamLink(Target target) : target_(std::move(target)) {}
 
-  // What is there, as much as fits; opens the stream where it is not open.
+  // Reads the available bytes, as many as fit; opens the stream if it is not open.
   std::span<const std::uint8_t> read(std::span<std::uint8_t> into, Instant now);
 
   bool is_open() const { return state_ == State::kOpen; }
@@ -66,8 +65,8 @@ class StreamLink {
   Target target_;
   FileDescriptor fd_;
   State state_ = State::kClosed;
-  Instant since_{};       // that the stream is opening, or that a byte came
-  Instant not_before_{};  // the next attempt
+  Instant since_{};       // start of the opening, or time of the last byte
+  Instant not_before_{};  // earliest next attempt
   StreamCounters counters_;
 };
 

@@ -1,7 +1,7 @@
-// The calling end of a TCP connection over IPv4, step by step, so that nobody ever waits for it.
+// Non-blocking connect of a TCP client over IPv4.
 //   in     an address (numbers only, as parse_udp_address() reads them)
-//   out    a non-blocking descriptor on its way to be connected; whether it is
-//   errors Problem with the address; the outcome that the kernel tells
+//   out    a non-blocking descriptor that is being connected; the outcome of the connect
+//   errors Problem with the address; the error number of the kernel
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -15,10 +15,10 @@ namespace pitwall::transport {
 
 using TcpAddress = UdpAddress;
 
-// Begins; connected when connect_outcome() says so.
+// Starts to connect; connect_outcome() returns the outcome.
 Result<FileDescriptor, Problem> begin_connect(TcpAddress to);
 
-// Nothing: still on its way. Otherwise the outcome, once.
+// An empty optional while the connect is under way, then its outcome. An error is returned once.
 std::optional<PosixOutcome> connect_outcome(int fd);
 
 }  // namespace pitwall::transport

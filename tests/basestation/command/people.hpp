@@ -1,4 +1,4 @@
-// Three people at their consoles.
+// Three operators for the tests of commands.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

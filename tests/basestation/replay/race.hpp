@@ -1,4 +1,5 @@
-// A race as a live base hears it, recorded to a folder, and what a listener knows at any time.
+// Simulated race for replay tests: the packets that a live base receives, their recording in a
+// folder, and the state of a listener at any time.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -15,7 +16,7 @@
 
 namespace pitwall::replay::testing {
 
-// A picture and texts, as a console has them.
+// Listener with the vehicle state and the texts of a console.
 struct Console : Listener {
   state::VehicleState vehicle;
   std::vector<std::string> texts;
@@ -42,7 +43,7 @@ inline constexpr Duration kPacket = milliseconds(20);
 inline const recorder::ClockMap kRaceClock{.utc_minus_base = seconds(1'700'000'000),
                                            .boot = "the boot of the race"};
 
-// Tells a listener what comes from one packet to the next; the same each time.
+// Sends a listener the packets and texts of the race; each instance sends the same ones.
 class Race {
  public:
   void go_to(Instant to, Listener& listener) {
@@ -58,7 +59,7 @@ class Race {
       state_.sampled_at[g] = now_ - milliseconds(static_cast<std::int64_t>(10 + g));
       const auto [first, count] = telemetry::kGroupFields[g];
       for (std::size_t i = first; i < first + count; ++i) {
-        // Now and then a value is not known.
+        // A fifth of the values is not known.
         const bool known = (packet_ / 100 + i) % 5 != 0;
         state_.values[i] = known ? static_cast<double>(packet_ + 1'000 * i) : kUnset;
       }
@@ -112,7 +113,7 @@ inline void record_race(const std::string& folder, Duration length) {
   race.go_to(kRaceStart + length, recording);
 }
 
-// Every field and group, to the bit, and its age.
+// Expects the same value, quality and age for every field; values must be equal exactly.
 inline void expect_same(const state::VehicleState& a, const state::VehicleState& b, Instant now) {
   for (std::size_t i = 0; i < telemetry::kFieldCount; ++i) {
     const auto x = a.view(i, now), y = b.view(i, now);

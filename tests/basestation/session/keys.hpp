@@ -1,4 +1,4 @@
-// Keys of a car and its base in a folder of their own.
+// Key files of a car and its base in a new folder, for tests.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -12,7 +12,7 @@
 
 namespace pitwall::session {
 
-// The path of the base's.
+// Writes both key files and returns the path of the base's file.
 inline std::string made_keys(const transport::TemporaryFolder& folder, const std::string& name,
                              bool bench = false) {
   telemetry::SystemRandomness randomness;

@@ -1,7 +1,7 @@
-// Forged datagrams, made of recorded ones by the shapes of Shape in turn.
-//   in     what was recorded; which end is the target
-//   out    one datagram for each call. None is what its target was ever sent
-//   errors none; without a recording only the shapes that need none
+// Generator of forged datagrams from recorded ones, with the kinds of Shape in turn.
+//   in     the recorded datagrams; which end is the target
+//   out    one datagram for each call, which was never sent to the target
+//   errors none; without a recorded datagram of the direction, random bytes
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -15,16 +15,16 @@
 namespace pitwall::attack {
 
 enum class Shape : std::uint8_t {
-  kFlipped,       // some bits
-  kCut,           // its beginning only
-  kLonger,        // bytes behind it
+  kFlipped,       // some bits flipped
+  kCut,           // truncated
+  kLonger,        // bytes appended
   kSpliced,       // header of one, the rest of another
   kReflected,     // sent back to its sender
-  kOtherKind,     // of the same bytes
+  kOtherKind,     // another kind in the header
   kOtherSession,  // another receiver number
-  kRandom,        // bytes
+  kRandom,        // random bytes
   kEmpty,         // no byte
-  kOversized      // more bytes than any packet has
+  kOversized      // longer than any packet
 };
 inline constexpr unsigned kShapes = 10;
 
@@ -32,7 +32,7 @@ class PacketForger {
  public:
   explicit PacketForger(std::uint64_t seed) : random_(seed) {}
 
-  // `for_base`: the victim; otherwise the car.
+  // `for_base`: the target is the base; otherwise the car.
   const Bytes& next(std::span<const Recorded> recorded, bool for_base);
 
  private:

@@ -1,8 +1,7 @@
-// Recording of a radio path: every datagram that passed, in order, and the openings of key
-// exchanges, each once.
+// Recording of a radio path: all datagrams in order, and the openings of key exchanges, each once.
 //   in     copies of datagrams, oldest first
 //   out    the newest openings; the capture, whole or up to the mark
-//   errors none: beyond kMost datagrams or openings the newest ones are not kept
+//   errors none: after kMost datagrams or openings, new ones are not kept
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -32,7 +31,7 @@ class Recording {
 
   std::span<const Recorded> capture() const { return capture_; }
   std::span<const Recorded> before_mark() const { return std::span(capture_).first(mark_); }
-  // The newest ones, at most so many.
+  // The newest openings, at most `count`.
   std::span<const Bytes> openings(std::size_t count) const;
   std::span<const Bytes> openings() const { return openings_; }
 

@@ -1,9 +1,9 @@
 // Copy of a radio datagram for an eavesdropper, with its direction and sender.
 //   wire   u8 direction (1: the car's, 0: the base's), sender's ip u32 and port u16, little endian;
 //          then the datagram
-//   in     any bytes at all
-//   out    a Copy, whose bytes live as long as what it was read from
-//   errors none: shorter than the part in front
+//   in     any bytes
+//   out    a Copy; its bytes point into the input
+//   errors read_copy() returns an empty optional for fewer than kCopyFront bytes
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

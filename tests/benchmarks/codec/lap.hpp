@@ -1,8 +1,9 @@
-// A lap of an oval as the vehicle's state tells it: what `bench codec` has every contestant encode.
-//   out    values of all fields of telemetry::kVehicleState, in their ranges; the same each time
+// Trace of the vehicle state over a lap of an oval: the input that `bench codec` gives to every
+// encoding.
+//   out    values of all fields of telemetry::kVehicleState, in their ranges; the same at each call
 //   invariants
-//          one motion behind all of it: speeds, accelerations, loads and pressures belong together;
-//          what is zero on a car while it drives so (brakes on the straight) is zero
+//          all values come from one motion: speeds, accelerations, loads and pressures are
+//          consistent; values that are zero on a real car (brakes on the straight) are zero
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

@@ -1,7 +1,7 @@
-// One way to write the vehicle's state, for `bench codec`: bytes and times are measured by main.
+// Encodings of the vehicle state to compare in `bench codec`; main measures their sizes and times.
 //   invariants
-//          decode(encode(x)) is x as far as the encoding keeps it; it is checked for every frame
-//   errors a contestant whose library is not there is not in the list; main says so
+//          decode(encode(x)) is x within the precision of the encoding; checked for every frame
+//   errors an encoding whose library is missing is not in the list; main reports it
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -41,41 +41,41 @@ inline std::int32_t integer_of(const Values& v, std::size_t i) {
 }
 inline bool yes_no_of(const Values& v, std::size_t i) { return v[kYesNos[i]] != 0.0; }
 
-// What the encoding keeps of a value.
+// Precision of the values in the encoding.
 enum class Keeps : std::uint8_t { kSteps, kFloat, kDouble };
 
 struct Peer {
   std::string name;
-  std::string bytes_by;  // what wrote them
+  std::string bytes_by;  // program or library that writes the bytes
   Keeps keeps = Keeps::kFloat;
-  // Into `out`, which is large enough; the size.
+  // Writes to `out`, which is large enough; returns the size.
   std::function<std::size_t(const Values&, std::span<std::uint8_t> out)> encode;
   std::function<bool(Bytes, Values&)> decode;
 };
 
-// Bytes, means over the trace. A form that was not timed here has no times.
+// Sizes in bytes, as means over the trace. An encoding that was not timed has no times.
 struct Measured {
   std::string name, bytes_by;
-  double payload = 0.0;   // of the values
+  double payload = 0.0;   // size of the values
   double datagram = 0.0;  // UDP payload
   bool authenticated = false;
   std::optional<double> encode_ns, decode_ns;
 };
 
 Peer ours();
-// The same as one datagram of our session: header, encrypted values, tag. The body of `plain` is at
+// `plain` as one datagram of our session: header, encrypted values, tag. The body of `plain` has at
 // most telemetry::kMaxBody bytes.
 Peer sealed(const Peer& plain, const std::string& name);
 std::vector<Peer> protobuf();
 Peer lcm();
-inline constexpr std::size_t kLcmHeader = 8 + sizeof("STATE");  // LCM UDP multicast protocol, short
+inline constexpr std::size_t kLcmHeader = 8 + sizeof("STATE");  // short LCM UDP message
 std::vector<Peer> cdr();
 Peer flatbuffers();
 Peer cap_n_proto();
 Peer json();
-// Over loopback to a reader of another process; none: it could not be measured.
+// Over loopback to a reader in another process; empty if it cannot be measured.
 std::optional<Measured> cyclone(const std::vector<Values>& trace);
-// Sizes by node-mavlink, no times (it is JavaScript); empty: it is not installed.
+// Sizes by node-mavlink, without times because it is JavaScript; empty if it is not installed.
 std::vector<Measured> mavlink(const std::vector<Values>& trace);
 
 }  // namespace pitwall::codec

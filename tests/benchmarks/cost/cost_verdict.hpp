@@ -1,5 +1,5 @@
-// What a benchmark of costs says in its file, in words and by its exit code: all the same, and each
-// verdict as its figures give it.
+// Check of a cost benchmark's results: file, output and exit code agree, and each verdict follows
+// from its figures.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -17,7 +17,7 @@ namespace pitwall::benchmarks {
 using cli::ProgramOutput;
 using cli::ProgramRun;
 
-// `limits_us`: by gate, on the reference machine; a gate that is not of time is at most 0 of them.
+// `limits_us`: limit of each gate on the reference machine; 0 for a gate that is not of time.
 inline void expect_one_verdict(const ProgramOutput& output, const json::JsonValue& file,
                                const std::map<std::string, double>& limits_us) {
   bool held = true;
@@ -29,7 +29,7 @@ inline void expect_one_verdict(const ProgramOutput& output, const json::JsonValu
     if (is_cost) {
       EXPECT_NEAR(gate.number("units"), gate.number("cost_us") / gate.number("unit_us"), 1e-9);
       EXPECT_EQ(gate.flag("held"), gate.number("units") <= gate.number("limit_units")) << what;
-      // Within a factor of ten of the reference machine's; or it is no unit, or no machine of ours.
+      // At least a tenth of the unit of the reference machine; otherwise the measurement is wrong.
       EXPECT_GT(gate.number("unit_us"), 0.1 * cost::kReferenceUnit_us) << what;
     }
     held = held && gate.flag("held");

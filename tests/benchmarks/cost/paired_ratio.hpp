@@ -1,9 +1,9 @@
-// How many times as much as another thing one costs, both measured in turns.
-//   in     costs of both, one of each for every turn; more than 0
-//   out    the median of the ratios, turn by turn; NaN where there is no turn
+// Ratio of two costs that are measured in alternation.
+//   in     costs of both, one of each per turn; more than 0
+//   out    the median over the turns of the ratio in each turn; NaN without a turn
 //   invariants
-//          what slows both in a turn alike moves nothing, and a turn in which one alone was held up
-//          counts as one turn, however long
+//          a disturbance that slows both in a turn does not change the ratio; a turn in which only
+//          one was delayed counts as one turn, independent of the delay
 //   cost   O(turns)
 // SPDX-License-Identifier: Apache-2.0
 #pragma once

@@ -1,4 +1,4 @@
-// Quantiles of how long something took: the middle one, the 99th of a hundred, the longest.
+// Quantiles of measured durations: median, 99th percentile, maximum.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -7,7 +7,7 @@
 
 namespace pitwall::benchmarks {
 
-// Of a list of durations; zeros for an empty list.
+// All zeros for an empty list.
 struct Quantiles {
   double p50_us = 0.0, p99_us = 0.0, worst_us = 0.0;
   std::size_t count = 0;

@@ -1,12 +1,12 @@
-// What a reference unit costs in this run, taken now and then beside the thing that is measured.
-//   in     take(): now is a good moment; again(): the same moments once more, as the thing measured
-//          is done once more, and of each moment the least counts
-//   out    processor time of one unit: the median of the moments; `spent`, all of it, for who
-//          measures around it
+// Cost of a reference unit in this run, measured at several moments beside the code under test.
+//   in     take(): measures a unit at this moment; again(): starts a further pass over the same
+//          moments, of which the smallest cost per moment counts
+//   out    processor time of one unit: the median of the moments; `spent`, the processor time of
+//          all measurements, for a caller that measures around them
 //   units  processor time of the calling thread
 //   invariants
-//          what slows the thing measured (a neighbour in the cache or on the same core, a processor
-//          that is clocked down, a slower machine) slows the unit likewise: their ratio stays
+//          a disturbance of the code under test (other load in the cache or on the same core, a
+//          lower clock rate, a slower machine) slows the unit too, so that their ratio stays
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -22,10 +22,10 @@ double microseconds_of(Duration duration);
 
 class ReferenceCost {
  public:
-  double take();  // the processor time of this one, us
+  double take();  // returns the processor time of this unit, us
   void again() { next_ = 0; }
   std::size_t count() const { return units_us_.size(); }
-  double unit_us() const;  // 0 where none was taken
+  double unit_us() const;  // 0 without a measurement
   Duration spent() const { return spent_; }
 
  private:

@@ -1,13 +1,13 @@
-// Fixed piece of work, the reference unit, beside which the benchmarks weigh the processor time of
-// ours.
-//   in     nothing
-//   out    a number that depends on all of the work, so that no compiler leaves any out
+// Reference unit: a fixed piece of work to which the benchmarks compare the processor time of our
+// code.
+//   in     none
+//   out    a number that depends on all of the work, so that the compiler cannot remove a part
 //   invariants
-//          one unit is as much work as the next, on every machine. It mixes what our code does, so
-//          that a neighbour on the same core or cache slows both alike: libm and divisions (tyres),
-//          small dense matrices (filter), reads of a table larger than the second cache, each from
-//          where the last one points (tracks, windows), branches over bits (CAN, telemetry)
-//   cost   some 50 us; 2 MiB
+//          each unit is the same work on every machine. It mixes the operations of our code, so
+//          that other load on the same core or cache slows both alike: libm and divisions (tyres),
+//          small dense matrices (filter), dependent reads of a table larger than the second-level
+//          cache (tracks, windows), branches over bits (CAN, telemetry)
+//   cost   about 50 us; 2 MiB
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -24,7 +24,7 @@ class ReferenceKernel {
   double run();
 
  public:
-  static constexpr std::size_t kStates = 15;  // of the spatial filter
+  static constexpr std::size_t kStates = 15;  // states of the spatial filter
   static constexpr std::size_t kTable = 1 << 18;
   using Matrix = std::array<double, kStates * kStates>;
 

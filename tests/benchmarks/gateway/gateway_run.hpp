@@ -1,8 +1,8 @@
-// One experiment with the gateway under load: the real car process and a run-time receiver listen
-// while another process sends the traffic; afterwards the bus is silent.
-//   in     where the bus is, the programs, the traffic
-//   out    what each of them counted, and the judgement over both receivers' reports of losses
-//   errors Problem: a process that does not start or stop, an interface, a file
+// Experiment with the gateway under load: the real car process and a second receiver receive while
+// another process sends the traffic; afterwards the bus is silent.
+//   in     the interface of the bus, the programs, the traffic
+//   out    counts of each process, and the judgement of the loss reports of both receivers
+//   errors Problem with a process that does not start or stop, an interface, or a file
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -24,10 +24,10 @@ struct GatewayPlan {
   std::string interface = "vcan0";
   std::string folder;                // for the files of the processes
   std::vector<std::string> vehicle;  // program and its files
-  // Program and words that send: `--start NS` and `--figures FILE` are appended.
+  // Program that sends, with its arguments; `--start NS` and `--figures FILE` are appended.
   std::vector<std::string> sender;
   load::TrafficPlan traffic;
-  std::string clock{};  // file in which bench time is kept; empty: the wall clock
+  std::string clock{};  // file with bench time; empty: the wall clock
 };
 
 struct GatewayRun {
@@ -38,12 +38,12 @@ struct GatewayRun {
   std::uint64_t listener_lost_in_queue = 0;
   load::LossJudgement by_car, by_listener;
   std::vector<load::QueueLoss> queue;  // of a third receiver, which pauses
-  load::Lateness wake;  // of the receivers' process, from the start of the traffic on
+  load::Lateness wake;  // wake-up latency of the receivers' process since the start of the traffic
 };
 
 Result<GatewayRun, Problem> run_gateway(const GatewayPlan& plan);
 
-// The sender's end: sends, then leaves its figures in the file.
+// Part of the sender process: sends, then writes its figures to the file.
 Result<load::SenderFigures, Problem> send_traffic(const std::string& interface,
                                                   const load::TrafficPlan& plan, Instant start,
                                                   const std::string& figures_file);

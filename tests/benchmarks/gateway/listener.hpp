@@ -1,8 +1,8 @@
-// A receiver that knows every message of the traffic, with the same monitor as the car's gateway,
-// and remembers when each frame arrived. Read it every few milliseconds.
+// Receiver of all messages of the traffic, with the same monitor as the car's gateway and a record
+// of the arrival time of each frame. Poll it every few milliseconds.
 //   in     an interface, the traffic
-//   out    reports of losses, stamps of the kernel, counts
-//   errors open(): Problem with the interface; what is no frame of the traffic is counted
+//   out    loss reports, stamps of the kernel, counts
+//   errors open(): Problem with the interface; frames that are not of the traffic are counted
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -20,21 +20,21 @@ namespace pitwall::load {
 
 struct ListenerCounts {
   std::uint64_t received = 0;  // frames of the traffic
-  std::uint64_t others = 0;    // the car's own
-  std::uint64_t refused = 0;   // by the monitor
+  std::uint64_t others = 0;    // other frames, such as those that the car sends
+  std::uint64_t refused = 0;   // frames that the monitor refused
 };
 
 class Listener {
  public:
   static Result<Listener, Problem> open(const std::string& interface, const Traffic& traffic);
 
-  // Takes all that is there, then looks for what is overdue.
+  // Reads all frames that wait, then checks for overdue ones.
   void poll();
 
   const ListenerCounts& counts() const { return counts_; }
   const Arrivals& arrivals() const { return arrivals_; }
   std::span<const can::LossReport> reports() const { return reports_; }
-  std::uint64_t lost() const;  // by counter and period, what came late taken back
+  std::uint64_t lost() const;  // by counter and period, without frames that came late
   std::uint64_t late() const;
   std::uint64_t lost_in_queue() const { return bus_.counters().rx_dropped_queue; }
 

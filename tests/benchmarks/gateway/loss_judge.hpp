@@ -1,19 +1,19 @@
-// Were the frames that were left out reported: each once, in time, and nothing else?
-//   in     the traffic; when each frame was left out, by the sender's clock; what a receiver
-//          reported; when each frame really arrived (stamps of the kernel)
+// Judgement of loss reports: each omitted frame must be reported once and in time, and no other.
+//   in     the traffic; the time of each omission by the sender's clock; the reports of a receiver;
+//          the real arrival times of all frames (stamps of the kernel)
 //   out    LossJudgement
 //   units  Instant of the monotonic clock
 //   invariants
 //          every report is counted in exactly one of reported, twice, false_reports, late_on_bus,
 //          after_end
 //
-// A report that fits no omission is false, unless the stamps show that no frame of the message
-// arrived from half a period before it was due until its slack had passed: then the machine that
-// runs the bench was late, and the receiver told the truth (late_on_bus). After the end of the
+// A report that belongs to no omission is false, unless the stamps show that no frame of the
+// message arrived from half a period before its due time until its slack had passed: then the
+// machine of the bench was late, and the report is right (late_on_bus). After the end of the
 // traffic every message is silent.
 //
-// An omission that nobody can know is `hidden`, and not expected: the message has no counter, and
-// the frame before was so late that the next one came within its slack.
+// An omission that no receiver can detect is `hidden`, and no report is expected: the message has
+// no counter, and the frame before was so late that the next one came within its slack.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -27,7 +27,7 @@
 
 namespace pitwall::load {
 
-inline constexpr Duration kReportLimit = milliseconds(100);  // from due to noticed
+inline constexpr Duration kReportLimit = milliseconds(100);  // from due time to detection
 
 using Arrivals = std::vector<std::vector<Instant>>;  // by stream, in order
 
@@ -35,7 +35,7 @@ struct LossEvidence {
   std::span<const Instant> omitted_at;  // as traffic.omissions()
   std::span<const can::LossReport> reports;
   const Arrivals& arrivals;
-  bool of_car_only = false;  // the receiver knows only the messages of the car
+  bool of_car_only = false;  // the receiver monitors only the messages of the car
 };
 
 struct LossJudgement {
@@ -43,8 +43,8 @@ struct LossJudgement {
   std::size_t missed = 0, twice = 0, false_reports = 0;
   std::size_t hidden = 0;  // not among `omitted`
   std::size_t late_on_bus = 0, after_end = 0;
-  Duration worst{};                     // of the reported ones, due to noticed
-  std::vector<std::string> complaints;  // the first few, in words
+  Duration worst{};                     // longest time from due to detection among the reported
+  std::vector<std::string> complaints;  // the first few errors as text
 };
 
 LossJudgement judge_losses(const Traffic& traffic, const LossEvidence& evidence);

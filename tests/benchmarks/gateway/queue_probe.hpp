@@ -1,7 +1,7 @@
-// A receiver with a receive queue far too small for its pauses: does the kernel's count of what it
-// lost say the truth, and soon, even if nothing comes afterwards? The running numbers in the
-// frames tell what is true.
-//   in     an interface; whether it is paused now; how many numbered frames were sent in the end
+// Receiver with pauses that overflow its small receive queue: it compares the kernel's count of
+// lost frames with the gaps in the running numbers of the frames. The count must be right and
+// early, even if no frame comes afterwards.
+//   in     an interface; whether it is paused now; the final number of numbered frames sent
 //   out    one QueueLoss per pause
 //   units  frames, Instant of the monotonic clock
 //   errors open(): Problem with the interface
@@ -18,12 +18,12 @@
 
 namespace pitwall::load {
 
-// Both since the start.
+// Losses since the start, by both counts.
 struct QueueLoss {
-  std::uint64_t counted = 0;  // by the kernel, as known at the first look after a pause
-  std::uint64_t missing = 0;  // of the running numbers before the next frame that came
-  Duration after{};           // from the end of the pause to that look
-  bool trailing = false;      // nothing came afterwards
+  std::uint64_t counted = 0;  // by the kernel, at the first read after a pause
+  std::uint64_t missing = 0;  // missing running numbers before the next received frame
+  Duration after{};           // from the end of the pause to the end of that read
+  bool trailing = false;      // no frame came afterwards
 
   bool exact() const { return counted == missing; }
 };
@@ -33,11 +33,11 @@ class QueueProbe {
   static Result<QueueProbe, Problem> open(const std::string& interface);
 
   void pause() { paused_ = true; }
-  // Ends a pause and looks at once.
+  // Ends a pause and reads at once.
   void resume();
-  // Takes what is there, unless paused.
+  // Reads all frames that wait, unless paused.
   void poll();
-  // The pause that the end of the traffic fell into: what was sent in all decides.
+  // Completes a last loss after which no frame came, by the number of all numbered frames sent.
   void settle_trailing(std::uint64_t numbered_sent);
 
   const std::vector<QueueLoss>& losses() const { return losses_; }
@@ -51,7 +51,7 @@ class QueueProbe {
   std::vector<QueueLoss> losses_;
   bool paused_ = false;
   bool open_ = false;       // no frame has come since the last pause
-  std::uint64_t next_ = 0;  // running number
+  std::uint64_t next_ = 0;  // next running number
   std::uint64_t missing_ = 0;
 };
 

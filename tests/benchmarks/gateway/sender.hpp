@@ -1,9 +1,10 @@
-// Puts a traffic onto an interface in real time: one batch per millisecond by absolute deadlines,
-// so that no lateness adds up. After a stall it catches up with a pause between batches.
-//   in     the traffic, when it starts (monotonic clock)
-//   out    how many frames the kernel took, and how late the batches were
-//   errors frames that the kernel did not take are offered again until they go out; how often that
-//          was needed is counted
+// Sender of the traffic on an interface in real time: one batch per millisecond by absolute
+// deadlines, so that delays do not add up. After a stall it catches up with a pause between
+// batches.
+//   in     the traffic, its start (monotonic clock)
+//   out    number of frames that the kernel accepted, and the lateness of the batches
+//   errors frames that the kernel does not accept are sent again until it accepts them; the
+//          repetitions are counted
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -17,16 +18,16 @@
 
 namespace pitwall::load {
 
-// Of wake-ups, against their deadlines.
+// Delay of wake-ups after their deadlines.
 struct Lateness {
   double p50_us = kUnset, p99_us = kUnset, max_us = kUnset;
 };
-Lateness lateness_of(std::vector<double>& late_us);  // sorts them
+Lateness lateness_of(std::vector<double>& late_us);  // sorts the argument
 
 struct SenderFigures {
   std::uint64_t sent = 0, offered_again = 0;
   Lateness late;
-  std::vector<Instant> omitted_at;  // when each omission would have gone out
+  std::vector<Instant> omitted_at;  // time at which each omitted frame would have been sent
 };
 
 SenderFigures send(transport::CanSocket& bus, Traffic& traffic, Instant start);

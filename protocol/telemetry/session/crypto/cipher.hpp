@@ -1,4 +1,4 @@
-// The primitives that the session is built of, with our types.
+// Cryptographic primitives of the session, as wrappers of libsodium with our types.
 //   source RFC 8439 (ChaCha20-Poly1305), RFC 7693 (BLAKE2b), RFC 2104 (HMAC), RFC 7748 (X25519)
 //   cost   128 bytes: seal or open 0.5 us, refuse 0.25 us; X25519 50 us; no allocation
 // SPDX-License-Identifier: Apache-2.0
@@ -26,10 +26,10 @@ using Hash = Secret<kHashSize>;
 void prepare_sodium();
 
 PublicKey public_of(const Key& secret);
-// False where the other end's key is one of the few that give a result known to all.
+// X25519 key agreement. Returns false for a peer key of low order, whose result is no secret.
 [[nodiscard]] bool agree(const Key& secret, const PublicKey& other, Key& shared);
 
-// `out` holds plain.size() + kTagSize bytes. A number is used once with a key.
+// `out` holds plain.size() + kTagSize bytes. A key must seal each number at most once.
 void aead_seal(const Key& key, std::uint64_t number, Bytes clear, Bytes plain,
                std::span<std::uint8_t> out);
 // `plain` holds sealed.size() - kTagSize bytes.
@@ -38,12 +38,12 @@ void aead_seal(const Key& key, std::uint64_t number, Bytes clear, Bytes plain,
 
 Hash hash_of(std::initializer_list<Bytes> parts);
 Hash hmac(Bytes key, std::initializer_list<Bytes> parts);
-// A key for one purpose, out of another; there is no way back.
+// One-way derivation of a key for one purpose from another key.
 Key derive(const Key& key, Bytes purpose);
 
 using Tag = std::array<std::uint8_t, kTagSize>;
 Tag keyed_tag(const Key& key, std::initializer_list<Bytes> parts);
-// Takes the same time wherever the difference is. Both of one size.
+// Comparison in constant time; both have the same size.
 [[nodiscard]] bool same(Bytes a, Bytes b);
 
 }  // namespace pitwall::telemetry

@@ -1,15 +1,15 @@
-// Provisioned keys: one X25519 pair for each car and each base, and who may speak with whom. A key
-// is bound to its role: what a base's key opens, a car's key does not.
+// Provisioned keys: one X25519 pair for each car and each base, and the public key of its peer. A
+// key is bound to its role: a car's key does not open what a base's key opens.
 //   text   64 hexadecimal digits; files as `pitwall-base keygen` writes them:
 //            # a comment
 //            role: car            (or base)
 //            public: HEX          own
 //            secret: HEX          own
 //            peer: HEX            the other end's public key
-//            use: bench           only in a pair for the bench: its sessions may be logged
-//   errors Problem with file and line: what is not as written above, keys of the other role, a
-//          peer that is the own key or gives no shared secret, a bench's keys at a real car; a
-//          secret is never part of a message or a log
+//            use: bench           only in a pair for the bench: its keys may be logged
+//   errors Problem with file and line: a line of another form, keys of the other role, a peer key
+//          that equals the own one or gives no shared secret, bench keys in a real car. A secret
+//          key is never part of a message or a log
 //   source RFC 7748 section 6.1 (points of low order)
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
@@ -39,16 +39,16 @@ Identity make_identity(Randomness& randomness);
 std::string text_of(const PublicKey& key);
 Result<PublicKey, Problem> parse_public_key(std::string_view text, const std::string& place);
 
-// One file for each end: its role, its own pair, the other end's public key.
+// Key file of one end: its role, its own pair, the other end's public key.
 struct KeyFile {
   Role role = Role::kCar;
   Identity own;
   PublicKey peer{};
-  bool bench = false;  // of a pair for the bench: its sessions may be logged, no real car takes it
+  bool bench = false;  // pair for the bench: its keys may be logged; a real car refuses it
 };
 inline constexpr std::size_t kMaxKeyFileBytes = 4'096;
 
-// Who reads a file.
+// Reader of a key file.
 struct KeyUser {
   Role role = Role::kCar;
   bool real_car = false;

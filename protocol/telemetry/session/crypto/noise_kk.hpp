@@ -1,14 +1,13 @@
-// The key exchange of two ends that know each other's public key:
-// Noise_KK_25519_ChaChaPoly_BLAKE2b.
+// Key exchange of two ends with known public keys: Noise_KK_25519_ChaChaPoly_BLAKE2b.
 //
 //   initiator -- e, es, ss --> responder        write() then read()
 //             <-- e, ee, se --                  read() then write()
 //
-//   in     own pair, the other's public key, a prologue that both must have, payloads
+//   in     own pair, the other end's public key, a prologue that both ends share, payloads
 //   out    messages; after both of them one key for each direction
 //   invariants
-//          a message that read() refuses leaves nothing behind: the state is then to be thrown away
-//   errors false: not written by the other end for this exchange
+//          after read() refuses a message, the state is invalid and must be discarded
+//   errors false: the other end did not write the message for this exchange
 //   cost   write or read 150 us; no allocation
 //   source The Noise Protocol Framework, revision 34, sections 4, 5, 7.5
 // SPDX-License-Identifier: Apache-2.0

@@ -1,5 +1,5 @@
-// Source of keys, cookies and challenges: the operating system in the programs (SystemRandomness),
-// a seeded stream in tests and in the bench.
+// Random number source for keys, tokens and challenges: the operating system in the programs
+// (SystemRandomness), a seeded stream in tests and in the bench.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -19,7 +19,7 @@ class SystemRandomness final : public Randomness {
   void fill(std::span<std::uint8_t> bytes) override;
 };
 
-// Repeatable, for tests and the bench only: its keys are no secret.
+// Repeatable, for tests and the bench only: its keys are not secret.
 class SeededRandomness final : public Randomness {
  public:
   explicit SeededRandomness(std::uint64_t seed) : seed_(seed) {}

@@ -1,4 +1,4 @@
-// Bytes that leave no trace: overwritten when their life ends.
+// Byte array for secrets: it is overwritten when it is destroyed.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -9,7 +9,7 @@
 
 namespace pitwall::telemetry {
 
-// Overwrites; the compiler does not leave it out.
+// Overwrites with zeros; the compiler cannot optimise it away.
 void wipe(std::span<std::uint8_t> bytes);
 
 template <std::size_t N>

@@ -1,4 +1,4 @@
-// A text of the wall, parsed.
+// Parser of a JSON text of the console service; a parse error fails the test.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

@@ -1,4 +1,4 @@
-// StateSource that see what a test shows them.
+// StateSource for tests, with the values that the test sets.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

@@ -1,4 +1,4 @@
-// The time at which these tests look.
+// Time at which the console tests read the state.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

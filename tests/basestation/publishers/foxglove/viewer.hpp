@@ -1,4 +1,4 @@
-// A Foxglove client for tests: what it was told, sorted.
+// Foxglove client for tests: reads the server's messages by type.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -15,14 +15,14 @@ namespace pitwall::publishers::foxglove {
 
 class Viewer {
  public:
-  // 101: the socket was opened.
+  // Returns the HTTP status; 101 if the socket is open.
   unsigned open(std::uint16_t port, const std::string& protocol = "foxglove.sdk.v1",
                 const std::string& origin = {}) {
     web::Browser::Fields fields{{"Sec-WebSocket-Protocol", protocol}};
     if (!origin.empty()) fields.emplace_back("Origin", origin);
     return browser_.open(port, "/", fields);
   }
-  // The channels of the advertisement, by their topics. What comes first must be the server's name.
+  // The channel ids of the advertisement, by topic. Reads the serverInfo message before it.
   std::map<std::string, int> channels() {
     info_ = text("serverInfo");
     std::map<std::string, int> ids;
@@ -37,7 +37,7 @@ class Viewer {
     browser_.say(R"({"op":"subscribe","subscriptions":[{"id":)" + std::to_string(id) +
                  R"(,"channelId":)" + std::to_string(channel) + "}]}");
   }
-  // The next text of that op; others and bytes on the way are passed over.
+  // The next text message with this op; other texts and binary messages before it are skipped.
   json::JsonValue text(const std::string& op) {
     while (const auto received = browser_.receive()) {
       if (!received->text) continue;

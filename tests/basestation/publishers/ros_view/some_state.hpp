@@ -1,4 +1,4 @@
-// A state of a car on its lap, as the radio brings it.
+// Example of a received vehicle state: a car on its lap.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -40,11 +40,11 @@ inline telemetry::Snapshot some_state() {
     set(f, kUnset);
   for (const auto& span = telemetry::fields_of(Group::kStreams);
        const auto i : {span.first, span.first + 1, span.first + 2})
-    set(i, 2);  // heard
+    set(i, 2);  // the stream is received
   return s;
 }
 
-// A circle to the left around the origin.
+// Course on a circle around the origin, driven counterclockwise.
 inline state::Course circle() {
   constexpr double kRadius_m = 300.0, kTurn = 6.283185307179586;
   constexpr int kPoints = 720;

@@ -1,4 +1,4 @@
-// A web server for tests, with the news of it and messages for its clients.
+// Fixture of the web server, with its client events and messages for its clients.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -40,7 +40,7 @@ class WebServerTest : public testing::Test {
     server_ = *std::move(started);
     port_ = server_->local().port;
   }
-  // The next of that kind; others on the way are taken.
+  // Waits for the next event of this kind; other events before it are dropped.
   std::optional<ClientNews> wait_for(ClientNews::Kind kind) {
     constexpr Duration kPatience = seconds(20);
     const Instant end = transport::monotonic_now() + kPatience;

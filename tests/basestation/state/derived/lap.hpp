@@ -1,4 +1,4 @@
-// The length of these tests' track.
+// Lap length of the track in the tests of derived signals.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

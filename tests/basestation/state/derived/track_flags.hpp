@@ -1,4 +1,4 @@
-// Track flags as a car tells them.
+// Track flags by their values in the registry field flags.track.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
