@@ -27,7 +27,8 @@ struct Quantiles {
   double p50_us = 0.0, p90_us = 0.0, p99_us = 0.0, max_us = 0.0;
 };
 
-// Nearest rank: the smallest sample that is not below the share. Zeros without samples.
+// Nearest rank: the least sample that at least this share of the samples does not exceed. Zeros
+// without samples.
 Quantiles quantiles_of(std::vector<Duration> samples);
 // Median of each quantile on its own; for an even number of runs the mean of the two middle values.
 Quantiles median_of(std::span<const Quantiles> runs);
