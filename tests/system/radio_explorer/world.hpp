@@ -48,9 +48,9 @@ using telemetry::CommandId;
 using telemetry::HolderId;
 
 inline constexpr HolderId kA = 1, kB = 2;
-inline constexpr std::uint8_t kNumbersMax =
-    8;                                       // command numbers of one run of the base; 0 is unused
-inline constexpr std::uint8_t kRunsMax = 4;  // run numbers of the base; 0 is unused
+// Command numbers of one run of the base, and run numbers of the base; 0 is unused in both.
+inline constexpr std::uint8_t kNumbersMax = 8;
+inline constexpr std::uint8_t kRunsMax = 4;
 
 enum class Action : std::uint8_t {
   kIssueA,  // a speed limit, by console A
