@@ -1,6 +1,6 @@
 // Signed distance of a point from a planned path, for graders.
 //   out    metres, positive left of the path; zero past its end, because a car with weaker brakes
-//          continues there along the line and the path says nothing about it
+//          continues there along the line where the path has no points
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

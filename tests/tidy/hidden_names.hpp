@@ -1,6 +1,6 @@
 // Rule against functions of an anonymous namespace that hide a function of a header. If several
-// files are compiled as one, the files after it call the hidden function's namesake instead, and
-// the compiler does not warn.
+// files are compiled as one, the files after it would call that function instead of the one in the
+// header, and the compiler does not warn.
 //   in     the whole tree
 //   out    functions of anonymous namespaces with the name, namespace and parameter types of a
 //          function that a header of the same top-level folder declares

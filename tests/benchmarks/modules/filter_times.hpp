@@ -24,7 +24,7 @@ struct FilterTimes {
   std::vector<double> predict_us;  // from one IMU sample to the next
   std::array<std::vector<double>, kFilterKinds> update_us;
   std::vector<double> short_rewind_us, long_rewind_us;
-  std::size_t refused = 0;  // late positions that came too late for the window
+  std::size_t refused = 0;  // late positions that arrived too late for the window
 };
 
 inline constexpr Duration kShortRewind = milliseconds(100), kLongRewind = seconds(1);

@@ -89,8 +89,8 @@ struct Arrivals {
 };
 Result<Arrivals, Problem> read_arrivals(std::string_view text, const std::string& name);
 
-// Figures of one stream from its arrivals, the bulk and the offered load. Times count from the
-// start of the link.
+// Figures of one stream from its arrivals, the bulk and the offered load. A pure function; times
+// count from the start of the link.
 ComparisonRow judge(const Arrivals& arrivals, const LinkTally& tally, const ComparisonPlan& plan);
 
 }  // namespace pitwall::benchmarks

@@ -20,7 +20,7 @@ struct CommandFigures {
   std::uint64_t twice = 0;         // given to the car's consumer more than once
   std::uint64_t after_time = 0;    // given out after its time to live
   std::uint64_t out_of_order = 0;  // given out after a newer one of its type
-  std::uint64_t fate_differs = 0;  // the base says applied and the car did not, or the reverse
+  std::uint64_t fate_differs = 0;  // the base reports applied but the car did not, or the reverse
   std::vector<std::int64_t> to_apply_us;  // from the operator's press to the consumer, sorted
 
   double quantile_ms(double q) const;

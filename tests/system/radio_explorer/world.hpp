@@ -203,7 +203,7 @@ class World {
   telemetry::CommandLedgerOf<4> ledger_;
   telemetry::AuthorityView view_;
   telemetry::StopLatch latch_;
-  std::uint8_t run_met_ = 0;  // newest run of the base that this run of the car knows; 0: none
+  std::uint8_t run_met_ = 0;  // run of the base in session with this run of the car; 0: none
   std::optional<telemetry::DueCommand> in_hand_;
   std::uint8_t run_in_hand_ = 0;  // run of the base that issued it
 

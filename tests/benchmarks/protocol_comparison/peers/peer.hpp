@@ -23,7 +23,7 @@ namespace pitwall::peers {
 inline constexpr std::size_t kFloats = 84, kIntegers = 10, kFlags = 6;
 inline constexpr std::size_t kBulkBytes = 4'000;
 inline constexpr Duration kStatePeriod = milliseconds(20), kBulkPeriod = milliseconds(50);
-// The rate of the link as a tuned peer knows it, and the share of it that the peer uses.
+// Link rate for which a tuned peer is configured, and the share of it that the peer uses.
 inline constexpr double kLinkBytes_per_s = 32'000.0, kTunedShare = 0.95;
 
 struct Call {

@@ -1,4 +1,4 @@
-// Generated CAN log with every kind of frame that the formats know, on three channels.
+// Generated CAN log with every kind of frame that the formats support, on three channels.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
