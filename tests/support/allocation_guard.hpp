@@ -1,4 +1,4 @@
-// The counter of allocations by the name that tests use.
+// Allocation counter under the names that tests use.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

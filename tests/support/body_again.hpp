@@ -1,7 +1,6 @@
-// A packet's body written again from what was read of it: the proof that there is one form for each
-// meaning.
-//   in     a Body that parse_body() gave, and its direction
-//   out    the bytes that BodyWriter makes of the same contents
+// Re-encoding of a decoded packet body, to prove that each content has exactly one encoding.
+//   in     a Body from parse_body(), and its direction
+//   out    the bytes that BodyWriter writes for the same content
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

@@ -1,6 +1,5 @@
-// The other end of a WebSocket for tests: Beast's client, and a bare socket for what no client
-// would say. Beast is behind this header: it costs a file that includes it nothing.
-// SPDX-License-Identifier: Apache-2.0
+// WebSocket client for tests: Beast's client, and a bare socket for input that no client sends. The
+// Beast headers are not included here, so that including this file stays cheap.
 #pragma once
 
 #include <cstdint>
@@ -21,7 +20,7 @@ class Browser {
   Browser(Browser&&) noexcept;
   Browser& operator=(Browser&&) noexcept;
 
-  // Whether the socket was opened; else the status of the refusal.
+  // HTTP status of the handshake: 101 if the socket is open, otherwise that of the refusal.
   unsigned open(std::uint16_t port, const std::string& target = "/ws", const Fields& fields = {},
                 int receive_buffer = 0);
   void say(const std::string& text);
@@ -30,7 +29,7 @@ class Browser {
     bool text = false;
     std::string bytes;
   };
-  // None: closed; close_code() says why.
+  // nullopt if the connection is closed; close_code() has the reason.
   std::optional<Received> receive();
   unsigned close_code() const;
 
@@ -39,7 +38,7 @@ class Browser {
   std::unique_ptr<Stream> stream_;
 };
 
-// A connection on which nobody says anything.
+// A TCP connection that sends nothing.
 class Silent {
  public:
   explicit Silent(std::uint16_t port);
@@ -52,11 +51,12 @@ class Silent {
   std::unique_ptr<Connection> connection_;
 };
 
-// What a browser says to open a WebSocket.
+// HTTP request with which a browser opens a WebSocket.
 std::string opening(const std::string& target = "/ws", const std::string& host = "127.0.0.1",
                     const std::string& fields = {});
 
-// Says these bytes and gives what comes back until the end.
+// Sends these bytes and returns everything received until the connection ends. `hang_up` closes the
+// sending side after the bytes.
 std::string bare(std::uint16_t port, const std::string& bytes, bool hang_up = true);
 
 }  // namespace pitwall::publishers::web

@@ -1,7 +1,7 @@
-// A car's end of the radio with real sockets, for programs that stand in for a car: wiring only.
-//   in     words KEYS ADDRESS SECONDS [ADDRESS2], as the programs' command lines have them
-//   out    the endpoint, fed with what came; its packets sent
-//   errors open(): Problem with the file or the address
+// Car end of the radio over real UDP sockets, for programs that stand in for a car.
+//   in     words KEYS ADDRESS SECONDS [ADDRESS2] of the program's command line
+//   out    the endpoint, fed with the received datagrams; its packets are sent
+//   errors open(): Problem with the key file or an address
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -49,8 +49,8 @@ class CarRadio {
 
   telemetry::CarEndpoint& end() { return *end_; }
 
-  // Waits for this time and hears what comes until then; `heard`: after each datagram, with the
-  // time at which the kernel had it.
+  // Receives until this time. `received` is called after each datagram, with the time at which the
+  // kernel received it.
   void listen(Instant until, const std::function<void(Instant)>& received = {}) {
     std::vector<int> watched;
     for (const auto& socket : sockets_) watched.push_back(socket.fd());
@@ -67,7 +67,7 @@ class CarRadio {
     } while (transport::monotonic_now() < until);
   }
 
-  // All packets that are due now; how many.
+  // Sends all packets that are due now; returns their number.
   std::size_t send(const telemetry::Snapshot& snapshot) {
     std::size_t sent = 0;
     while (const auto out = end_->poll(snapshot, transport::monotonic_now())) {

@@ -1,6 +1,6 @@
-// Waits for what another thread or the kernel does in its own time.
-//   in     a condition, looked at every millisecond
-//   out    false: it did not come true within ten seconds, which no working machine needs
+// Wait for a condition that another thread or the kernel makes true.
+//   in     a condition, checked every millisecond
+//   out    false if it is still not true after ten seconds, far more than a working machine needs
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

@@ -1,4 +1,4 @@
-// Numbers of a distribution from an engine of random bits, the same with every standard library.
+// Random numbers of a distribution, the same with every standard library.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

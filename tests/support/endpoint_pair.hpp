@@ -1,6 +1,7 @@
-// Car and base with a wire between them that delivers after a fixed time, or what a test does with
-// it. Allocates nothing while it runs, so that the ends' own allocations can be counted.
-//   time   both clocks are the same here
+// Car and base endpoints with a simulated wire, which delivers after a fixed time, unless a test
+// drops the datagram. It allocates nothing while it runs, so that a test can count the allocations
+// of the endpoints.
+//   time   both ends have the same clock
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -48,7 +49,7 @@ class EndpointPair {
     return config;
   }
 
-  // One millisecond; the car samples all groups of its own each 10.
+  // One millisecond; every 10 ms the car samples all its groups.
   void step() {
     deliver();
     if (now.ns % milliseconds(10).ns == 0) {
@@ -75,7 +76,7 @@ class EndpointPair {
   std::unique_ptr<telemetry::StationEndpoint> base;
   telemetry::Snapshot snapshot;
   Instant now = Instant{} + seconds(100);
-  // Sees what leaves; false: it does not arrive.
+  // Called with each datagram that leaves; false drops it.
   std::function<bool(const WireDatagram&)> gate = [](const WireDatagram&) { return true; };
 
  private:

@@ -1,7 +1,8 @@
-// Bounds on wall-clock time, for tests that no other clock can judge: EXPECT_TRUE(in_time(...)).
-//   in     what must hold on a machine that gives its processors when they are wanted
-//   out    a failure that is about time alone. A program in which nothing else failed ends with
-//          kOnlyLate, and is run again (tests/real_time/by_wall_clock.cpp)
+// Bounds on wall-clock time, for properties that no other clock measures:
+// EXPECT_TRUE(in_time(...)).
+//   in     a condition that holds on a machine whose processors are free when needed
+//   out    a failure marked as a matter of time. A program whose only failures are marked so exits
+//          with kOnlyLate and is run again (tests/real_time/by_wall_clock.cpp)
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

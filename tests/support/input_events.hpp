@@ -1,4 +1,4 @@
-// The bytes of an input device (struct input_event), event after event.
+// Bytes of a Linux input device (struct input_event), event after event.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

@@ -1,4 +1,4 @@
-// Instants of a test, counted from the zero of its clock.
+// Instants in tests, as time since the zero of the clock.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

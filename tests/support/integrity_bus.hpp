@@ -1,6 +1,6 @@
-// A full bus with protection, of as many messages as asked for, by one pattern: 8 bytes each 10 ms,
-// with profiles 1 (both, alternating, low, nibble), 2 and 5, SAE J1850, a bare counter and nothing
-// in turn. 270 messages are 27,000 frames a second, three buses of 1 Mbit/s.
+// Synthetic CAN bus with end-to-end protection: messages of 8 bytes each 10 ms, which use in turn
+// profile 1 (both, alternating, low, nibble), profiles 2 and 5, SAE J1850, a counter only, and no
+// protection. 270 messages are 27,000 frames a second, as on three buses of 1 Mbit/s.
 //   in      the number of messages, up to 1024
 //   out     the texts of a DBC file and of its manifest; the same for the same number
 // SPDX-License-Identifier: Apache-2.0

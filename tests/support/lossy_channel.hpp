@@ -1,4 +1,5 @@
-// Air between two ends of a test: loses, doubles, delays and reorders what is sent, by a seed.
+// Lossy channel between two ends of a test: it loses, duplicates, delays and reorders what is sent,
+// by a seed.
 //   units  virtual time
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
@@ -34,7 +35,7 @@ class LossyChannel {
       flying_.push_back({now + delay, now, {bytes.begin(), bytes.end()}});
     }
   }
-  // take(bytes, sent, arrived) for each that has arrived, in the order of arrival.
+  // Calls take(bytes, sent, arrived) for each packet that has arrived, in order of arrival.
   template <class Take>
   void arrive(Instant now, Take&& take) {
     std::ranges::stable_sort(flying_, {}, &Flight::arrives);

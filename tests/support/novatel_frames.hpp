@@ -1,6 +1,6 @@
-// Seven messages of real NovAtel OEM7 receivers as they came over the line: reference figures from
-// the recordings align.gps and bestpos.gps in novatel/novatel_oem7_driver at 0c0e135, test (MIT,
-// Copyright (c) NovAtel Inc.). What the vendor's driver made of them stands with the tests.
+// Seven messages of real NovAtel OEM7 receivers, byte for byte: reference data from the recordings
+// align.gps and bestpos.gps in novatel/novatel_oem7_driver at 0c0e135, test (MIT, Copyright (c)
+// NovAtel Inc.). The values that the vendor's driver decodes from them are in the tests.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -25,7 +25,7 @@ inline constexpr std::string_view kBestPos =
     "aa44121c2a0000204800000096b45608f0c7331e20000402f6b100800000000010000000d34bee8b41934940"
     "5c017abff6815cc00020a37065189140000088c13d0000000e71f53fcadfd73fc1ff65400000000000000000"
     "0000000010101000000000111059f44e";
-// bestpos.gps, byte 312: of the same epoch
+// bestpos.gps, byte 312: same epoch as kBestPos
 inline constexpr std::string_view kBestVel =
     "aa44121c630000202c00000096b45608f0c7331e20000402a210008000000000080000000000000000000000"
     "a5f396dea166723f54bbeae8ef9b564093f5582c84d666bf0000000013deab93";
@@ -35,12 +35,12 @@ inline constexpr std::string_view kInsPvaX =
     "ba5645c0f6815cc000e0206dc2189140000088c1703858702758803fe0a00150cfa070bf668b5612039db43f"
     "0182fab5bbd1f6bf08d0fa5f6814f2bfeb1dc12a168056400170f53f91ded73fc9006640e3ae6a3e1f694e3e"
     "cdecdb3e00004040000040400000004100000011010083dedbf6";
-// bestpos.gps, byte 822: of the same epoch
+// bestpos.gps, byte 822: same epoch as kInsPvaX
 inline constexpr std::string_view kBestPosOfInsPvaX =
     "aa44121c2a000020480000008fb45608c0cf331e20000402f6b10080000000001000000038f9aa8b41934940"
     "cc7f98c0f6815cc00000e3826c189140000088c13d000000cb6ef53f37ddd73fd90166400000000000000000"
     "00000000101010000000001107cd1455";
-// bestpos.gps, byte 1002: of the same epoch
+// bestpos.gps, byte 1002: same epoch as kInsPvaX
 inline constexpr std::string_view kBestUtm =
     "aa44121cd6020020500000008fb45608c0cf331e200004020aa4008000000000100000000b00000055000000"
     "83fdf3acd6a15541e8f1cbb79a9825410000e3826c189140000088c13d000000cb6ef53f37ddd73fd9016640"

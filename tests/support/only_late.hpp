@@ -1,4 +1,4 @@
-// The exit code of a test in which nothing but bounds on wall-clock time failed: "try again later".
+// Exit code of a test program in which only bounds on wall-clock time failed: try again later.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

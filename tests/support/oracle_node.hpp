@@ -1,4 +1,4 @@
-// Runs the readers and writers that others wrote: scripts of tests/support/oracles.
+// Runner of the independent readers and writers in tests/support/oracles.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

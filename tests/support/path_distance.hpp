@@ -1,6 +1,6 @@
-// Distance of a place from a planned path, for judges.
-//   out    metres, positive left of the path; zero past its end, where a car with weaker brakes
-//          goes on along the line: a path that has ended says nothing there
+// Signed distance of a point from a planned path, for graders.
+//   out    metres, positive left of the path; zero past its end, because a car with weaker brakes
+//          continues there along the line where the path has no points
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -23,7 +23,7 @@ inline double path_distance_m(const world::Trajectory& path, double x_m, double 
     const double dx = x_m - a.x_m - t * ux, dy = y_m - a.y_m - t * uy;
     if (dx * dx + dy * dy >= best_m2) continue;
     best_m2 = dx * dx + dy * dy;
-    // The path between two points is an arc: its sagitta stands out of the chord to the right.
+    // The path between two points is an arc; in a left turn it lies to the right of its chord.
     const double bow_m = 0.25 * (a.curvature_per_m + b.curvature_per_m) * t * (1.0 - t) * l2;
     lateral_m = past ? 0.0 : (ux * dy - uy * dx) / std::sqrt(l2) + bow_m;
   }

@@ -1,4 +1,4 @@
-// A serial device for tests: a pseudo-terminal whose other end the test holds.
+// Pseudo-terminal as a serial device for tests; the test holds the other end.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -29,7 +29,7 @@ class Pty {
   void say(std::string_view text) const {
     say({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
   }
-  // What the program under test wrote, without waiting.
+  // Reads what the program under test has written, without waiting.
   std::size_t read(std::span<std::uint8_t> into) const {
     return transport::read_available(master_.get(), into).bytes;
   }

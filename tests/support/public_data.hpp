@@ -1,9 +1,7 @@
-// The public recordings that lie beside the project, never in it: which there are, where each can
-// be had, and the reading of a table.
-//   in      PITWALL_SHARED_DATA, else shared/data beside the source tree
-//   use     a test that needs one stands in a suite Public*, one test for each recording, and
-//           begins with `if (!is_here(kX)) GTEST_SKIP() << how_to_get(kX);`; tests/public_data
-//           counts them
+// Public recordings outside the source tree: their paths, their sources, and a reader of tables.
+//   in      PITWALL_SHARED_DATA, otherwise shared/data beside the source tree
+//   use     a test that needs a recording is in a suite Public*, one test per recording, and begins
+//           with `if (!is_here(kX)) GTEST_SKIP() << how_to_get(kX);`; tests/public_data counts them
 //   docs    docs/public_recordings.md
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
@@ -25,16 +23,16 @@ inline std::filesystem::path folder() {
 }
 
 struct Recording {
-  const char* path;  // in the folder; a file or a folder
-  const char* from;  // the page where it can be had
+  const char* path;  // relative to folder(); a file or a folder
+  const char* from;  // web address of the source
 };
 
 inline constexpr Recording kDatabases{
     "dbc",
     "https://github.com/PITT-MIT-IAC/raptor-dbw-ros2 (raptor_dbw_can/config) and "
     "https://github.com/cantools/cantools (tests/files/dbc, in dbc/corner_cases)"};
-// can::fingerprint of CAN1-INDY-V9.dbc, -V12.dbc and -V14.dbc there: every id, name, length and bit
-// layout of 44, 49 and 47 messages.
+// can::fingerprint of CAN1-INDY-V9.dbc, -V12.dbc and -V14.dbc of that source: every id, name,
+// length and bit layout of 44, 49 and 47 messages.
 inline constexpr std::uint64_t kFingerprintOfV9 = 0xD6C11641CBD19A95;
 inline constexpr std::uint64_t kFingerprintOfV12 = 0xD1F3B80FD9B59B9C;
 inline constexpr std::uint64_t kFingerprintOfV14 = 0x1D5DCDB7DFDFCA5C;
@@ -62,14 +60,15 @@ inline bool is_here(const Recording& recording) {
   return std::filesystem::exists(path_of(recording));
 }
 
-// The reason for which a test that needs the recording is skipped.
+// The reason that a skipped test reports.
 inline std::string how_to_get(const Recording& recording) {
   return "wants the public recording " + std::string(recording.path) + " of " + recording.from +
          " in the folder that PITWALL_SHARED_DATA names, which is " + folder().string() +
          " (docs/public_recordings.md)";
 }
 
-// The rows of a gzipped table of numbers, without those that begin with '#'; none if it is missing.
+// Rows of a gzipped table of numbers, without those that begin with '#'; empty if the file is
+// missing.
 inline std::vector<std::vector<double>> gzipped_table(const std::filesystem::path& path,
                                                       char separator) {
   std::vector<std::vector<double>> rows;

@@ -1,7 +1,7 @@
-// The body of a packet read a second time, from the words of body.hpp alone: a string of bits, no
-// shared code, no care for speed. For tests and fuzzers, which compare.
+// Reference decoder of a packet body, written from the description in body.hpp alone: a string of
+// bits, no shared code, not optimised. Tests and fuzzers compare with it.
 //   in     any bytes
-//   out    none: not a body. Else what it says; the values in steps of their fields
+//   out    nullopt if they are not a body, otherwise its content; values in units of their fields
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -25,7 +25,7 @@ struct ReferenceBody {
   std::vector<std::pair<std::uint64_t, std::string>> records;
 };
 
-// The bits of a packet one by one; below(n) takes bytes as little endian, top(n) bits as they are.
+// Reader of the bits of a packet; below(n) reads n bytes as little endian, top(n) n bits in order.
 struct ReferenceBits {
   const std::vector<std::uint8_t>& bytes;
   std::size_t at = 0;
@@ -46,8 +46,8 @@ struct ReferenceBits {
 };
 
 struct ReferenceField {
-  double last = 0;          // step
-  std::uint64_t unset = 1;  // its pattern: all ones
+  double last = 0;          // largest step
+  std::uint64_t unset = 1;  // pattern of an unset value: all ones
   std::size_t width = 1;
 };
 inline const std::vector<ReferenceField>& reference_fields() {

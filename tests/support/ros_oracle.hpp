@@ -1,4 +1,5 @@
-// Foxglove's decoders as judges of our ROS 2 messages: text, bytes and meaning must agree.
+// Comparison of our ROS 2 messages with Foxglove's decoders: definition, bytes and values must
+// agree.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -16,7 +17,7 @@ namespace pitwall::testing {
 
 class RosOracle {
  public:
-  // `said`: the message as JSON; a number that is none as "NaN".
+  // `output`: the message as JSON; a number that is NaN is the string "NaN".
   void add(std::string_view type, std::string text, std::span<const std::uint8_t> bytes,
            std::string_view output) {
     for (std::size_t at = 0; (at = text.find('\n', at)) != text.npos; at += 2)

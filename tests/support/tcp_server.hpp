@@ -1,4 +1,4 @@
-// A server on loopback for tests: one client, to which the test speaks.
+// TCP server on loopback for tests: one client, to which the test sends bytes.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -30,7 +30,7 @@ class TcpServer {
     port_ = ntohs(address.sin_port);
   }
   std::uint16_t port() const { return port_; }
-  // Waits for the client.
+  // Waits until the client connects.
   void accept() {
     client_ = transport::FileDescriptor(
         transport::posix_call([&] { return ::accept(listener_.get(), nullptr, nullptr); }));

@@ -1,5 +1,5 @@
-// The clock of a program that tests start: bench time where the test keeps one (in_bench_time),
-// else the wall's. Before any other thread starts.
+// Clock of a program that tests start: bench time if the test provides it (in_bench_time),
+// otherwise the wall clock. Call it before any other thread starts.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -9,7 +9,7 @@
 
 namespace pitwall::testing {
 
-// False: the file of that time cannot be used.
+// False if the file of the bench clock cannot be used.
 inline bool use_test_clock() {
   const char* const file = std::getenv("PITWALL_TEST_CLOCK");
   return file == nullptr || (transport::use_clock(file) && transport::take_turns());

@@ -1,4 +1,4 @@
-// The period of the car's step.
+// Period of the car's step.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

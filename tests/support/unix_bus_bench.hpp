@@ -1,7 +1,7 @@
-// A hub and clients of a unix bus in one thread: the hub works when the test says so, so that every
-// order and every loss is the test's own choice.
+// Test bench of a Unix-socket CAN bus in one thread: the hub runs only when the test calls it, so
+// that the test chooses every order and every loss.
 //   in     a folder of its own
-//   out    a hub at folder/bus; raw clients that write and read packets as they are
+//   out    a hub at folder/bus; raw clients that write and read packets unchanged
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -64,7 +64,7 @@ class RawClient {
     return ::send(fd_.get(), packet.data(), packet.size(), MSG_DONTWAIT | MSG_NOSIGNAL) ==
            static_cast<ssize_t>(packet.size());
   }
-  // What is there, at most so many.
+  // Reads the waiting packets, at most `most`.
   std::vector<Packet> read(std::size_t most = SIZE_MAX) {
     std::vector<Packet> out;
     while (out.size() < most) {
@@ -101,7 +101,7 @@ class UnixBusBench : public ::testing::Test {
   }
 
   std::string path() const { return folder_->path() + "/bus"; }
-  // Everything that waits, and nothing that does not; the first round is for those who join.
+  // Serves all waiting work and nothing later; the first round accepts the joining clients.
   void serve() {
     for (int round = 0; round < 3; ++round) {
       for (auto before = work(); hub_->serve(Instant{}), work() != before; before = work()) {

@@ -1,8 +1,9 @@
-// A function of an anonymous namespace that hides a function of a header: where several files are
-// compiled as one, the files behind it would call it instead, without a word of the compiler.
+// Rule against functions of an anonymous namespace that hide a function of a header. If several
+// files are compiled as one, the files after it would call that function instead of the one in the
+// header, and the compiler does not warn.
 //   in     the whole tree
-//   out    functions of anonymous namespaces with the name, the namespace and the types of the
-//          parameters of a function that a header of the same top-level folder declares
+//   out    functions of anonymous namespaces with the name, namespace and parameter types of a
+//          function that a header of the same top-level folder declares
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -13,7 +14,7 @@
 namespace pitwall::tidy {
 
 struct DeclaredFunction {
-  std::string space;  // "pitwall::safety"; an anonymous namespace is left out
+  std::string space;  // "pitwall::safety"; without anonymous namespaces
   std::string name;
   std::string types;  // of the parameters: without const, references, qualifiers, names, defaults
   bool anonymous = false;

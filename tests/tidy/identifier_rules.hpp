@@ -1,7 +1,7 @@
-// Private names that the field has a term for: a list of exact identifiers, each with the folders
-// where it is one and what to write instead.
+// Rule against private names for which the field has a term: a list of exact identifiers, each with
+// the folders where it is banned and the term to write instead.
 //   in     one file
-//   out    each line that uses such an identifier in code; comments and texts are free
+//   out    each line that uses such an identifier in code; comments and string literals are free
 //   source the terms are those of docs/glossary.md, of SocketCAN, DBC, ROS 2 and alarm handling
 //          (ISA-18.2)
 // SPDX-License-Identifier: Apache-2.0

@@ -1,7 +1,7 @@
-// The messages of errors, read from the code.
+// Rule about the texts of error messages in the code.
 //   in     one file of the product
-//   out    each message with its line: the texts between quotes, "..." where a value stands between
-//          them. What is made of values alone is no message
+//   out    each message with its line: the string literals, with "..." for a value between them. An
+//          expression without literal text is no message
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -19,7 +19,7 @@ struct ErrorMessage {
 
 std::vector<ErrorMessage> messages_of(const SourceFile& file);
 
-// A message says what was wrong, or what was expected by that word: "a number" alone is neither.
+// A message says what was wrong, or says "expected ..."; "a number" alone is neither.
 std::vector<Finding> check_messages(const SourceFile& file);
 
 }  // namespace pitwall::tidy

@@ -1,6 +1,6 @@
-// The text of the tree as the rules read it.
+// Source tree as the tidy rules read it.
 //   out    files sorted by path; `code` is `text` with comments and the inside of literals blanked,
-//          so that a rule about code does not trip over words
+//          so that a rule about code does not match words
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -15,14 +15,14 @@ namespace pitwall::tidy {
 inline bool is_word(char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; }
 
 struct SourceFile {
-  std::string path;  // from the root, with '/'
+  std::string path;  // relative to the root, with '/'
   std::string text;
-  std::string code;  // as long as text, line for line
+  std::string code;  // same length and lines as text
 };
 
 struct Finding {
   std::string path;
-  std::size_t line = 0;  // from 1; 0: the file as a whole
+  std::size_t line = 0;  // from 1; 0: the whole file
   std::string what;
 };
 
@@ -38,7 +38,7 @@ bool is_header(const SourceFile& file);
 bool is_test(const SourceFile& file);
 std::string folder_of(const std::string& path);
 std::string stem_of(const std::string& path);
-// True when `path` is `prefix` or lies below it.
+// True if `path` is `prefix` or below it.
 bool lies_in(std::string_view path, std::string_view prefix);
 
 }  // namespace pitwall::tidy

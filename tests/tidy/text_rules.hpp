@@ -1,4 +1,4 @@
-// Rules about the words of one file.
+// Rules about the text of one file.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -9,12 +9,13 @@
 namespace pitwall::tidy {
 
 std::vector<Finding> check_line_length(const SourceFile& file);
-// Calls with a replacement: clocks, threads, random numbers, output, sleeping, assert ...
+// Banned calls, each with its replacement: clocks, threads, random numbers, output, sleeping,
+// assert, ...
 std::vector<Finding> check_bans(const SourceFile& file);
 std::vector<Finding> check_using_namespace(const SourceFile& file);
 std::vector<Finding> check_leftovers(const SourceFile& file);
 std::vector<Finding> check_machine_paths(const SourceFile& file);
-// The SPDX line, and above it in headers the contract comment.
+// The SPDX line, and in headers the contract comment above it.
 std::vector<Finding> check_opening(const SourceFile& file);
 
 }  // namespace pitwall::tidy

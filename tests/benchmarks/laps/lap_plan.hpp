@@ -1,10 +1,10 @@
-// Which laps the lap bench drives: the world as the car believes it is, and one thing wrong at a
-// time; and the scenario of flying laps for a track that has none of its own.
+// Cases of the lap benchmark: the nominal world and one perturbation at a time. Also the scenario
+// of flying laps for a track that has none of its own.
 //   in     the track's line with its speed limits (custom_laps)
-//   out    perturbations by name, with how many seconds of what; a Scenario
+//   out    perturbations with their names; a Scenario
 //   units  as scenario::Perturbations
-//   source the spreads: tyre stiffness, friction, mass, wind, banking and delays by which a race
-//          car differs from its model from one day to the next; chosen, not measured
+//   source the sizes (tyre stiffness, friction, mass, wind, banking, delays) are chosen, not
+//          measured: by so much a race car differs from its model from one day to the next
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -21,11 +21,11 @@ struct Case {
   scenario::Perturbations perturb;
 };
 
-// The nominal one first.
+// The nominal case is the first one.
 std::vector<Case> cases();
 
-// Engine start and launch 200 m before the line, an out lap, two flying laps, a stop: for any
-// track. Takes seed, tyres and race control's first calls from `like`.
+// A scenario for any track: engine start and launch 200 m before the line, an out lap, two flying
+// laps, a stop. Seed, tyres and the first calls of race control are those of `like`.
 scenario::Scenario flying_laps_of(const scenario::Scenario& like, const pipeline::Setup& setup,
                                   const std::string& track_file);
 

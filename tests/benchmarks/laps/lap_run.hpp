@@ -1,11 +1,12 @@
-// One car on one track until it has lapped it, or has left it: what a row of the lap bench holds.
+// Run of one car on one track, until it has driven its laps, stopped, or touched a wall: one row of
+// the lap benchmark.
 //   in     scenario of flying laps with its perturbations, the car as prepared for the track
-//   out    LapRow: figures up to the end of the run, or up to the contact, after which a model
-//          means nothing
+//   out    LapRow: figures up to the end of the run or up to the contact; after a contact the model
+//          is not valid
 //   invariants
-//          lapped: at least two flying laps, no contact, no stop before race control's red
+//          lapped: at least two flying laps, no contact, no stop before race control's red flag
 //   units  m, m/s, s of scenario time
-//   errors Problem of the scenario; a bad run is no error but a row
+//   errors Problem of the scenario; a bad run is not an error but a row
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -21,7 +22,7 @@
 namespace pitwall::laps {
 
 enum class Outcome : std::uint8_t {
-  kUnfinished,  // it drove and did not finish its laps in the time given: no verdict
+  kUnfinished,  // the car drove, but the time was over before its laps were complete: no verdict
   kLapped,
   kContact,  // a corner of the car met a wall
   kStopped   // the car's own supervisor stopped it
@@ -35,14 +36,14 @@ struct LapRow {
   double speed_max_mps = 0.0;
   double slip_max_rad = 0.0;  // side slip of the body above 10 m/s
   grading::CrossTrack cross_track;
-  // Of the contact or of the stop's beginning.
+  // At the contact, or at the beginning of the stop.
   double at_s = kUnset, station_m = kUnset, speed_mps = kUnset;
-  std::string cause;  // of a stop, in the supervisor's words
+  std::string cause;  // of a stop, as the supervisor reports it
 };
 
 Result<LapRow, Problem> run_laps(const scenario::Scenario& scenario, const pipeline::Setup& setup);
 
-// Whether two runs were the same to the last bit: then what was perturbed did not reach the model.
+// True if two runs are equal to the last bit: then the perturbation did not reach the model.
 bool same_run(const LapRow& a, const LapRow& b);
 
 }  // namespace pitwall::laps

@@ -1,10 +1,10 @@
-// The lap bench for a person and for a program: one row per track and perturbation, mean
-// cross-track error per speed bracket, the paper's figures below, and the gates.
-//   in     rows as the bench drove them, for each track the nominal one first
+// Table, JSON and gates of the lap benchmark: one row per track and perturbation, mean cross-track
+// error per speed bracket, the paper's figures below.
+//   in     rows of the runs; for each track the nominal one first
 //   out    text of fixed width; one JSON object; which gates hold
-//   gates  every nominal run laps its track without contact; every perturbed run ended with a
-//          verdict (lapped, or the place where it left or stopped); every perturbation reached the
-//          model (its run is not the nominal run to the last bit)
+//   gates  every nominal run completes its laps without contact; every perturbed run ends with a
+//          verdict (lapped, or the place where the car left the track or stopped); every
+//          perturbation reaches the model (its run is not equal to the nominal run to the last bit)
 //   units  m, m/s
 //   source the paper's rows: Saba et al., a real car on a real track; not a claim about this one
 // SPDX-License-Identifier: Apache-2.0

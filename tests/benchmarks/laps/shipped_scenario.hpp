@@ -1,4 +1,4 @@
-// A scenario that ships, with all that it names.
+// Loader of a shipped scenario with all files that it names.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

@@ -1,12 +1,10 @@
-// How long the filter of localization takes for what a run really asks of it, taken from snapshots
-// of its state: every prediction and every update that its window holds, and a position that comes
-// late.
-//   in     snapshots of a filter that runs, its params
-//   out    microseconds of processor time, one value for each call that was timed, the reading of
-//          the clock (half a microsecond) in it; every gate is open, so that each measurement is
-//          taken in
+// Timing of the localization filter on the measurements of a real run, from snapshots of its state:
+// every prediction and every update in its window, and a position that arrives late.
+//   in     snapshots of a running filter, its params
+//   out    microseconds of processor time, one value per timed call, including half a microsecond
+//          for reading the clock. All gates of the filter are open, so every measurement is used
 //   invariants
-//          a snapshot is copied: the run goes on as if nobody had looked
+//          the filter is copied: the run is not changed by the timing
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -26,7 +24,7 @@ struct FilterTimes {
   std::vector<double> predict_us;  // from one IMU sample to the next
   std::array<std::vector<double>, kFilterKinds> update_us;
   std::vector<double> short_rewind_us, long_rewind_us;
-  std::size_t refused = 0;  // late positions that came too late for the window
+  std::size_t refused = 0;  // late positions that arrived too late for the window
 };
 
 inline constexpr Duration kShortRewind = milliseconds(100), kLongRewind = seconds(1);

@@ -1,4 +1,4 @@
-// A CAN database as large as those of a road car, made up: what a parser is timed with.
+// Generator of a synthetic CAN database as large as one of a road car, to time a parser with.
 //   in      the least size of the text
 //   out     the text of a .dbc file with nodes, comments, names of values, attributes, floats and
 //           multiplexing; the same at every call

@@ -1,16 +1,17 @@
-// Radio protocols side by side: each with its real library in two processes, one in the car's
-// network and one in the base's, over the same emulated link with the same fades, one at a time.
-//   in     a contestant's program, called as
+// Runner of one radio protocol over an emulated link: its real library in two processes, one in the
+// car's network and one in the base's. All protocols get the same link and the same fades, one at a
+// time.
+//   in     the program of a peer, called as
 //            PROGRAM car|base END_NS BULK [MODE]
-//          which sends (car) or receives (base) until its monotonic clock shows END_NS; BULK is 1
-//          where 4 kB go at 20 Hz beside the state. The base prints "MADE_NS ARRIVED_NS [STREAM]"
-//          for each state that came, and "bulk ARRIVED_NS BYTES"; both clocks are the machine's.
-//          Streams are judged apart
-//   out    how old the newest state at the base is, looked at each millisecond; what was offered to
-//          the link, and its worst windows; how much bulk came
+//          which sends (car) or receives (base) until the monotonic clock shows END_NS; with BULK 1
+//          it also sends 4 kB of bulk at 20 Hz. The base prints "MADE_NS ARRIVED_NS [STREAM]" for
+//          each state that arrives, and "bulk ARRIVED_NS BYTES"; both processes use the clock of
+//          the machine. Each stream is judged on its own
+//   out    age of the newest state at the base, sampled each millisecond; what was offered to the
+//          link, and its worst windows; how much bulk arrived
 //   invariants
-//          the fades begin after the warm-up, in which the contestants find each other, and are the
-//          same for each contestant under one seed. Only what comes after the warm-up is judged
+//          the fades begin after the warm-up, in which the two processes find each other; under one
+//          seed they are the same for each peer. Only the time after the warm-up is judged
 //   errors Problem that says which program failed and how
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
@@ -34,13 +35,13 @@ struct Peer {
   std::string name;
   std::string program;
   std::string mode;    // empty: none
-  bool tuned = false;  // for the link and the bulk: runs in the cases with bulk only
+  bool tuned = false;  // to the link and the bulk: runs only in the cases with bulk
 };
 
 struct ComparisonCase {
   std::string_view name;
   bool bulk = false, fades = false;
-  Duration queue{};  // of the link at its rate; zero: as the plan has it
+  Duration queue{};  // of the link, as time at its rate; zero: the queue of the plan
 };
 
 struct ComparisonPlan {
@@ -55,25 +56,25 @@ struct ComparisonRow {
   double age_p50_ms = 0.0, age_p99_ms = 0.0, age_max_ms = 0.0;
   double offered_kbps = 0.0, up_kbps = 0.0;
   double worst_window_kbps = 0.0, worst_second_kbps = 0.0;
-  double bulk_kbps = 0.0;         // that came
-  std::size_t states = 0;         // that came
-  std::size_t looks_without = 0;  // before the first came
-  double link_late_p99_ms = 0.0;  // of the emulator's deliveries: what the machine added
+  double bulk_kbps = 0.0;         // arrived
+  std::size_t states = 0;         // arrived
+  std::size_t looks_without = 0;  // samples before the first arrival
+  double link_late_p99_ms = 0.0;  // deliveries of the emulator: the delay added by the machine
 };
 
-// A row for each stream, in order of first arrival; one without a name where nothing came.
+// One row for each stream, in order of first arrival; one row without a name if nothing arrived.
 Result<std::vector<ComparisonRow>, Problem> run_comparison(const Peer& contestant,
                                                            const ComparisonCase& of_case,
                                                            const ComparisonPlan& plan);
 
-// Of each direction, from the start of the run.
+// The link of each direction; its fades count from the start of the run.
 link::LinkParams link_of(const ComparisonCase& of_case, const ComparisonPlan& plan);
 
-// The floor that the channel sets: a value each millisecond, each as small as nothing, lost only in
-// fades. No sender can be younger.
+// Lower bound of the age on this channel: a value of zero size each millisecond, lost only in
+// fades. No protocol can be better.
 ComparisonRow best_possible(const ComparisonCase& of_case, const ComparisonPlan& plan);
 
-// What a base printed, in order of arrival.
+// Output of a base, in order of arrival.
 struct StateArrival {
   Instant made{}, at{};
   std::string stream{};
@@ -88,8 +89,8 @@ struct Arrivals {
 };
 Result<Arrivals, Problem> read_arrivals(std::string_view text, const std::string& name);
 
-// Pure: from what came of one stream, of bulk, and what was offered. Times since the start of the
-// link.
+// Figures of one stream from its arrivals, the bulk and the offered load. A pure function; times
+// count from the start of the link.
 ComparisonRow judge(const Arrivals& arrivals, const LinkTally& tally, const ComparisonPlan& plan);
 
 }  // namespace pitwall::benchmarks

@@ -1,10 +1,10 @@
-// A network of its own with one interface (TUN) whose IP packets we read and write ourselves: how
-// programs that know nothing of it are made to talk over an emulated radio.
+// Network namespace with one TUN interface whose IP packets this process reads and writes, so that
+// unmodified programs communicate over an emulated radio.
 //   in     the interface's name, address and largest packet; whole IPv4 packets for the network
-//   out    the IPv4 packets that somebody inside the network sends; others (IPv6) are passed over
+//   out    the IPv4 packets that processes inside the network send; others (IPv6) are skipped
 //   invariants
-//          the network lasts as long as this object or a process inside it. Everything goes through
-//          the interface: multicast too, but for 127.0.0.0/8
+//          the network lasts as long as this object or a process inside it. All traffic goes
+//          through the interface, also multicast; except 127.0.0.0/8
 //   errors create(): Problem that names what the kernel refused; needs CAP_SYS_ADMIN and
 //          CAP_NET_ADMIN (root) and /dev/net/tun
 //   source Linux networking/tuntap.rst, network_namespaces(7)
@@ -35,13 +35,13 @@ class TunNetwork {
  public:
   static Result<TunNetwork, Problem> create(const TunPlan& plan);
 
-  // Does the work with the calling thread inside the network: the sockets that it opens and the
-  // processes that it starts belong there for good.
+  // Runs `work` with the calling thread inside the network. Sockets that it opens and processes
+  // that it starts stay in that network.
   Result<bool, Problem> inside(const std::function<void()>& work) const;
 
-  // The next packet that waits, without its frame; none: nothing waits. Never blocks.
+  // The next waiting packet, without its frame; nullopt if none waits. Never blocks.
   std::optional<std::span<const std::uint8_t>> read(std::span<std::uint8_t> into);
-  // False: refused by the kernel (its receive queue is full, or it is no packet).
+  // False: refused by the kernel (its receive queue is full, or the bytes are not a packet).
   bool write(std::span<const std::uint8_t> packet);
   int fd() const { return tun_.get(); }
 

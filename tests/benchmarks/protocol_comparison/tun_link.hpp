@@ -1,9 +1,9 @@
-// The emulated radio between two networks, in real time: a thread that reads the IP packets of
-// each, has LinkEmulator decide on them, and writes them into the other when they have arrived.
+// Emulated radio between two networks, in real time: a thread reads the IP packets of each,
+// LinkEmulator decides on them, and the thread writes those that arrive into the other network.
 //   in     two networks, the link of each direction, the time that is Instant{} of the emulators
-//   out    packets; what was offered and when; how late it delivered
+//   out    packets; what was offered and when; how late each was delivered
 //   invariants
-//          one seed: the same fades both ways, and for whoever uses the link
+//          one seed gives the same fades in both directions, for every user of the link
 //   errors packets that the kernel refuses are counted
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
@@ -29,8 +29,8 @@ struct OfferedPacket {
 struct DirectionTally {
   link::LinkCounters counters;
   std::vector<OfferedPacket> offered;  // times since the start of the link
-  std::vector<Duration> late;          // of each delivery, behind the emulator
-  std::uint64_t refused = 0;           // by the kernel
+  std::vector<Duration> late;          // each delivery after its time in the emulator
+  std::uint64_t refused = 0;           // packets that the kernel refused
 };
 
 struct LinkTally {
@@ -39,14 +39,14 @@ struct LinkTally {
 
 class TunLink {
  public:
-  // Down: from the car's network to the base's. Both outlive the link.
+  // Down is from the car's network to the base's. Both networks outlive the link.
   TunLink(transport::TunNetwork& car, transport::TunNetwork& base, const link::LinkParams& down,
           const link::LinkParams& up, std::uint64_t seed, Instant start);
   TunLink(const TunLink&) = delete;
   TunLink& operator=(const TunLink&) = delete;
   ~TunLink() { stop(); }
 
-  const LinkTally& stop();  // nothing is carried afterwards
+  const LinkTally& stop();  // carries nothing afterwards
 
  private:
   struct Direction {

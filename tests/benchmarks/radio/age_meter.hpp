@@ -1,9 +1,9 @@
-// Age of what the base shows, each millisecond, in true time: of each group, and of the whole
-// vehicle state.
-//   in     each millisecond the age of each group that the base has, and of the oldest of the
-//          groups of the vehicle state (its hundred signals together) once the base has all
-//   out    quantiles, whole run or since the last reset
-//   units  true time; bins of 1 ms up to kBins, the last holds all above
+// Age of the telemetry at the base in true time, sampled each millisecond: of each group, and of
+// the whole vehicle state.
+//   in     each millisecond the age of each group that the base has, and the age of the oldest
+//          group of the vehicle state (its hundred signals together) once the base has all of them
+//   out    quantiles of the whole run or since the last reset
+//   units  true time; bins of 1 ms up to kBins, the last one holds all larger ages
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -27,7 +27,7 @@ class AgeMeter {
   void look(telemetry::Group group, Duration age) { add(ages_[telemetry::index_of(group)], age); }
   void look_at_state(Duration oldest) { add(state_, oldest); }
 
-  // Least age that at least this share of the looks did not exceed; zero without looks.
+  // Least age that at least this share of the samples does not exceed; zero without samples.
   Duration quantile(telemetry::Group group, double q) const { return quantile(of(group), q); }
   Duration state_quantile(double q) const { return quantile(state_, q); }
   Duration worst(telemetry::Group group) const { return of(group).worst; }

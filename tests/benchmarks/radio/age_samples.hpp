@@ -1,8 +1,9 @@
 // Age of the newest value at a receiver, sampled each millisecond.
-//   in     arrivals in order of time: when the value was made, when it came; the time to look at
-//   out    quantiles of the age over all looks; looks before the first arrival count as `unknown`
+//   in     arrivals in order of time: when the value was made, when it arrived; the time span
+//   out    quantiles of the age over all samples; samples before the first arrival count as
+//          `unknown`
 //   invariants
-//          an older value that comes late makes nothing younger
+//          an older value that arrives late does not lower the age
 //   units  ms, nearest-rank quantiles
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
@@ -24,7 +25,7 @@ class AgeSamples {
 
   // In order of arrival.
   void arrived(Instant made, Instant at);
-  // The looks from the last arrival to the end.
+  // Takes the samples from the last arrival to the end.
   void finish() { look_until(to_); }
 
   double quantile_ms(double q) const;

@@ -1,9 +1,9 @@
-// What leaves both ends, counted datagram by datagram as the air gets it: does it keep the budget
-// in every window, whatever is asked of the ends?
-//   in     rate, offered load, what befalls the radio, how long
-//   out    the worst windows of each path and direction, against the law of path_budget.hpp
+// Check of the radio budget on every datagram that leaves either end: the budget must hold in every
+// window, under any offered load.
+//   in     rate, offered load, disturbance of the radio, length
+//   out    the worst windows of each path and direction, and the limits of path_budget.hpp
 //   invariants
-//          counted from the departures alone, over every closed window that begins with one
+//          only departures count, over every closed window that begins with one
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

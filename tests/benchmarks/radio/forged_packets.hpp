@@ -1,9 +1,9 @@
-// Somebody on the mesh who has no keys: hears all, and sends what he likes to both ends.
-//   in     a VirtualRadio that runs; how much he sends
-//   out    how much of it had an effect: none may
+// Attacker on the mesh without keys: receives every datagram, and sends forged ones to both ends.
+//   in     a running VirtualRadio; how many datagrams to send
+//   out    how many of them had an effect: it must be none
 //   invariants
-//          everything that he sends differs from each datagram that is under way, or was delivered
-//          before
+//          every forged datagram differs from each one that is under way; a replay repeats one that
+//          is no longer under way
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -22,12 +22,12 @@ enum class Forgery : std::uint8_t {
   kBitFlip,
   kTruncated,
   kExtended,
-  kSpliced,     // the beginning of one, the end of another
-  kReplayed,    // as it was
-  kReflected,   // sent back to where it came from
-  kOldPhase,    // the key's phase turned over
-  kOldSession,  // of before the last restart
-  kOtherCar,    // of another pair of ends
+  kSpliced,     // the beginning of one datagram, the end of another
+  kReplayed,    // unchanged
+  kReflected,   // sent back to its sender
+  kOldPhase,    // the bit of the key phase inverted
+  kOldSession,  // from before the last restart
+  kOtherCar,    // from another pair of ends
   kRandom
 };
 inline constexpr std::size_t kForgeries = 10;
@@ -36,19 +36,19 @@ const char* text_of(Forgery forgery);
 struct ForgeryFigures {
   std::array<std::uint64_t, kForgeries> sent{};
   std::uint64_t accepted = 0;  // opened by one of the ends
-  std::uint64_t sessions = 0;  // begun by them
+  std::uint64_t sessions = 0;  // begun by the ends
 
   std::uint64_t total() const;
 };
 
 class PacketForger {
  public:
-  // Listens from now on; the radio must outlive it, and its tap is taken.
+  // Receives from now on. The radio outlives this object, which takes its tap.
   PacketForger(VirtualRadio& radio, std::uint64_t seed);
 
-  // So many datagrams now, of all kinds in turn, to both ends.
+  // Sends `count` datagrams now, of all kinds in turn, to both ends.
   void send(std::size_t count);
-  // One kind of all, the cheapest to make: what a flood is made of.
+  // Sends `count` datagrams of one kind that is cheap to make (a changed tag), for a flood.
   void flood(std::size_t count);
   const ForgeryFigures& figures() const { return figures_; }
 
@@ -62,16 +62,16 @@ class PacketForger {
 
   VirtualRadio& radio_;
   Random random_;
-  std::array<std::deque<Bytes>, 2> received_;  // delivered long ago, by direction
-  std::array<std::deque<Bytes>, 2> fresh_;     // maybe under way
-  std::array<std::deque<Bytes>, 2> before_;    // of sessions that are over
+  std::array<std::deque<Bytes>, 2> received_;  // no longer under way, by direction
+  std::array<std::deque<Bytes>, 2> fresh_;     // possibly under way
+  std::array<std::deque<Bytes>, 2> before_;    // from sessions that are over
   std::vector<Bytes> foreign_;
   std::uint64_t last_sessions_ = 0, turn_ = 0;
   ForgeryFigures figures_;
 };
 
-// Runs the radio while `count` forged datagrams come, so many each millisecond; ends restart at
-// times, so that there are sessions that are over.
+// Runs the radio until `count` forged datagrams were sent, `each_ms` per millisecond. One end
+// restarts from time to time, so that there are datagrams of earlier sessions.
 ForgeryFigures run_forgeries(VirtualRadio& radio, std::uint64_t count, std::size_t each_ms);
 
 }  // namespace pitwall::radio

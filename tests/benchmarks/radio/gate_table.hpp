@@ -1,6 +1,6 @@
-// What was promised of the radio and what was measured, as a table and as JSON.
-//   in     gates as they are measured
-//   out    text; whether all held
+// Gates of the radio, limit and measured figure, as a table and as JSON.
+//   in     gates in the order of measurement
+//   out    text; whether all hold
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

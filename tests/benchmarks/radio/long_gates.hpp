@@ -1,7 +1,8 @@
-// The long form of the radio's gates: an hour of link for the budget, half an hour and three seeds
-// for the ages over fades.
-//   in     of each of both, how much: 1.0 is the whole
-//   out    a line for each run as soon as it ended; whether all held
+// Long form of the radio's gates: an hour of link for the budget, divided over its cases, and
+// half an hour with changes of the keys; half an hour per case and seed for the ages over fades,
+// with three seeds.
+//   in     share of these lengths: 1.0 is the whole
+//   out    a line for each run as soon as it ends; whether all gates hold
 //   cost   about a minute for the whole
 // SPDX-License-Identifier: Apache-2.0
 #pragma once

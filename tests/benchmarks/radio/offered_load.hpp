@@ -1,6 +1,6 @@
-// Bulk offered to the car's end, so much more than the link carries: objects of 50 ms each, the
-// newest wins.
-//   in     the rate of the link, and how many times that is offered; 0: nothing
+// Bulk load offered to the car's end, a multiple of the link rate: an object every 50 ms, of at
+// most kBulkObject bytes; the newest one replaces the others.
+//   in     the rate of the link; the multiple of it to offer, 0: nothing
 //   units  bytes per second
 // SPDX-License-Identifier: Apache-2.0
 #pragma once

@@ -1,8 +1,8 @@
 // Largest amount sent in any window of a given length.
 //   in     packets in order of time
-//   out    the worst window's bytes and packets; totals
+//   out    bytes and packets of the worst window; totals
 //   invariants
-//          the window [t, t + length) is closed at its begin: the worst one begins with a packet
+//          the window [t, t + length) includes its begin: the worst one begins with a packet
 //   cost   O(1) for each packet, amortised
 // SPDX-License-Identifier: Apache-2.0
 #pragma once

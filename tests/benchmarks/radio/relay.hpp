@@ -1,9 +1,10 @@
-// Relay on a virtual radio: an attacker beside the path who hears each datagram and delivers it
-// from an address of his own before the original arrives. What comes back to it he forwards.
-//   in     the radio; how much earlier he delivers
-//   out    the ends are tempted to answer him; once silent he forwards nothing any more
+// Relay attack on a virtual radio: an attacker beside the path receives each datagram and delivers
+// a copy from his own address before the original arrives. He forwards the answers that he gets.
+//   in     the radio; the lead of the copy
+//   out    datagrams from a false address, which the ends may answer; once silent the attacker
+//          forwards nothing
 //   invariants
-//          what he delivers was sent by the other end; he changes nothing
+//          each datagram that he delivers was sent by the other end, unchanged
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -20,7 +21,7 @@ class Relay {
  public:
   static constexpr telemetry::Address kAddress{0x0A0000FE, 9'999};
 
-  // Takes the radio's tap and its stray datagrams; the radio outlives it.
+  // Takes the radio's tap and its stray datagrams. The radio outlives this object.
   Relay(VirtualRadio& radio, Duration way, Duration ahead);
   ~Relay();
   Relay(const Relay&) = delete;
@@ -28,7 +29,7 @@ class Relay {
 
   void begin() { active_ = true; }
   void fall_silent() { active_ = false; }
-  void step();  // before the radio's own
+  void step();  // call before VirtualRadio::step()
   std::uint64_t forwarded() const { return forwarded_; }
 
  private:

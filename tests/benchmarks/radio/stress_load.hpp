@@ -1,8 +1,8 @@
-// What may befall a radio beside loss: more commands than it carries, a flood of the key exchange's
-// messages, ends that restart again and again.
-//   in     step() once each millisecond, before the radio's own
+// Stress on a radio beside loss: more commands than it carries, a flood of key-exchange messages,
+// ends that restart again and again.
+//   in     step() once each millisecond, before VirtualRadio::step()
 //   invariants
-//          the car applies each command that is due at once
+//          in the trouble kCommands the car applies each due command at once
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -34,7 +34,7 @@ class StressLoad {
   VirtualRadio& radio_;
   Trouble trouble_;
   std::uint64_t ms_ = 0, applied_ = 0, openings_ = 0;
-  std::vector<std::vector<std::uint8_t>> received_;  // of the exchange
+  std::vector<std::vector<std::uint8_t>> received_;  // messages of the key exchange
 };
 
 }  // namespace pitwall::radio

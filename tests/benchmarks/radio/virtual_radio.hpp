@@ -1,13 +1,12 @@
-// Car and base with the radio between them, in virtual time: both endpoints, both directions of
-// each path. For tests, long runs and benchmarks of the protocol. A simulation.
-//   in     link parameters by path and direction, budgets, seed; what happens when
-//   out    the endpoints, ages at the base as one who looks at them each millisecond would see
-//          them, every departure
+// Simulation of car and base with the radio between them, in virtual time: both endpoints, both
+// directions of each path. For tests, long runs and benchmarks of the protocol.
+//   in     link parameters by path and direction, budgets, seed; the events of the run
+//   out    the endpoints, true ages at the base sampled each millisecond, every departure
 //   invariants
-//          one seed, one run; time moves in steps of 1 ms. The car samples its state and polls each
-//          kTick, as the vehicle's loop does; the base each step. A value tells its field and the
-//          millisecond of its sample (value_of()), so that what arrives can be compared with it
-//   time   now() is the air's; the ends have clocks of their own
+//          one seed gives one run; time moves in steps of 1 ms. The car samples its state and polls
+//          each kTick, as the vehicle's loop does; the base each step. A value depends on its field
+//          and the millisecond of its sample (value_of()), so that arrivals are compared with it
+//   time   now() is the true time of the radio; each end has its own clock
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -27,7 +26,7 @@ namespace pitwall::radio {
 
 inline constexpr Duration kStep = milliseconds(1), kTick = milliseconds(10);
 
-// Of the emulator of this path and direction, for who wants to know its fades beforehand.
+// Seed of the emulator of this path and direction, to compute its fades beforehand.
 constexpr std::uint64_t link_seed(std::uint64_t seed, telemetry::PathId path, bool down) {
   return seed * 4 + path * 2U + (down ? 0U : 1U);
 }
@@ -40,28 +39,28 @@ struct RadioSetup {
   Duration clock_offset{};       // the base's clock minus the car's
   double clock_drift_ppm = 0.0;  // of the base's clock
   std::uint64_t seed = 1;
-  std::uint64_t chance = 0;  // another run with the same keys and links
-  Duration tick_jitter{};    // each tick of the car comes late by 0 .. this, drawn
+  std::uint64_t chance = 0;  // other than 0: another run with the same keys and links
+  Duration tick_jitter{};    // each tick of the car is late by a random time of 0 .. this
   bool signed_only = false;
   std::uint64_t first_sequence = 1;
-  bool stamps_kept = true;  // a base that restarts knows the newest opening of before
-  Duration to_utc{};        // what the car's clock lacks to the calendar
-  std::array<telemetry::Address, telemetry::kPaths> spare{};  // where else the car looks for a base
-  // What they say that their registries are; none: what it is. Outlive the radio.
+  bool stamps_kept = true;  // a restarted base keeps the newest opening stamp from before
+  Duration to_utc{};        // UTC minus the car's clock
+  std::array<telemetry::Address, telemetry::kPaths> spare{};  // further base addresses of the car
+  // Registries that the ends announce; nullptr: the real one. They outlive the radio.
   const telemetry::SchemaClaim* schema_of_car = nullptr;
   const telemetry::SchemaClaim* schema_of_base = nullptr;
 };
 
-// What left an end, with IP and UDP.
+// A datagram that left an end; the size includes IP and UDP.
 struct Departure {
   Instant at{};
   std::size_t bytes = 0;
 };
 
-// What the base had that it must not: counted by the onlooker.
+// False data at the base, counted against the true samples.
 struct Falsehoods {
-  std::uint64_t too_young = 0;      // says of a sample that it was taken later than it was
-  std::uint64_t never_sampled = 0;  // a value that the car did not have then
+  std::uint64_t too_young = 0;      // the reported sample time is later than the true one
+  std::uint64_t never_sampled = 0;  // a value that the car did not have in that sample
   std::uint64_t went_back = 0;      // an older sample after a newer one
   std::uint64_t repeated = 0;       // the same packet a second time
 
@@ -87,37 +86,37 @@ class VirtualRadio {
   link::LinkEmulator& down(telemetry::PathId path) { return *down_[path]; }
   link::LinkEmulator& up(telemetry::PathId path) { return *up_[path]; }
 
-  // A new process: nothing is remembered but the keys and, at the base, the newest stamp. It is
-  // there after `away`; until then nobody hears or speaks.
+  // Replaces the end by a new process, which keeps only the keys and, at the base, the newest stamp
+  // if stamps_kept. It starts after `away`; until then the end neither receives nor sends.
   void restart_car(Duration away = {});
   void restart_base(Duration away = {});
-  // Of its next start.
+  // Takes effect at the car's next start.
   void set_clock_of_car(Duration to_utc) { setup_.to_utc = to_utc; }
-  // From now on nothing passes in this direction; or again.
+  // Blocks (true) or unblocks (false) each direction of the path from now on.
   void cut(telemetry::PathId path, bool down, bool up);
-  // The base sees this source from now on (another port of a NAT); the old one is dead.
+  // The other end sees this source from now on (another port of a NAT); the old address is dead.
   void move_car(telemetry::PathId path, telemetry::Address source);
   void move_base(telemetry::PathId path, telemetry::Address source);
-  // Sees each datagram before the link does; false swallows it.
+  // Called with each datagram before the link; if it returns false the datagram is dropped.
   using Tap = std::function<bool(bool down, telemetry::PathId, std::span<const std::uint8_t>)>;
   void tap(Tap tap) { tap_ = std::move(tap); }
-  // Hears what arrives where no end is: for who listens there.
+  // Called with each datagram that arrives at an address without an end.
   using Stray = std::function<void(bool down, telemetry::PathId, std::uint16_t port,
                                    std::span<const std::uint8_t>)>;
   void listen(Stray stray) { stray_ = std::move(stray); }
-  // Somebody else's datagram at an end.
+  // Delivers a datagram of a third party at an end.
   void inject(bool at_base, telemetry::PathId path, telemetry::Address from,
               std::span<const std::uint8_t> bytes);
-  // Nobody polls and nothing arrives for so long: a process that was stopped.
+  // Advances time without polls and arrivals, in whole ticks: a stopped process.
   void pause(Duration length) { now_ += kTick * (length / kTick); }
   telemetry::Address car_address(telemetry::PathId path) const { return car_side_.address[path]; }
   telemetry::Address base_address(telemetry::PathId path) const { return base_side_.address[path]; }
-  // Which groups the car samples (all); a group that it does not is never sent.
+  // Groups that the car samples (default: all); other groups are never sent.
   void sample_only(telemetry::GroupSet groups) { sampled_ = groups; }
 
   const AgeMeter& ages() const { return ages_; }
   void reset_ages() { ages_.reset(); }
-  // True time of the sample of the group that the base has; none: nothing yet.
+  // True time of the group's newest sample at the base; nullopt before the first one.
   std::optional<Instant> sample_at_base(telemetry::Group group) const;
   const Falsehoods& falsehoods() const { return falsehoods_; }
   std::uint64_t arrivals() const { return arrivals_; }
@@ -127,11 +126,11 @@ class VirtualRadio {
     return departures_[down ? 0 : 1][path];
   }
 
-  // What the car has in this field in the sample of this millisecond.
+  // Value of this field in the car's sample of this millisecond.
   static double value_of(telemetry::FieldIndex field, std::int64_t sample);
 
  private:
-  // By the number of the session and that of the packet, as its header has them.
+  // Found by the session number and the packet number in the header.
   struct Sent {
     std::uint16_t receiver = 0;
     std::uint32_t sequence_low = 0;
@@ -141,7 +140,7 @@ class VirtualRadio {
   struct Side {
     std::array<telemetry::Address, telemetry::kPaths> address{};
     std::array<bool, telemetry::kPaths> cut{};
-    Instant there{};  // away before
+    Instant there{};  // away before this time
   };
 
   telemetry::LinkEndpointConfig config(bool car) const;
@@ -169,7 +168,7 @@ class VirtualRadio {
   telemetry::Snapshot snapshot_;
   telemetry::GroupSet sampled_ = telemetry::groups_of(telemetry::Direction::kDown);
   Instant now_{};
-  std::int64_t sample_ = 0;  // number of the sample that the car has: its millisecond
+  std::int64_t sample_ = 0;  // number of the car's present sample: its millisecond
   Instant next_tick_{};
   std::uint64_t jitter_ = 1;
   std::vector<Sent> sent_;

@@ -1,15 +1,15 @@
-// Comparison of what arrived on a bus with the log that was played: complete, in order, at which
+// Comparison of the frames that arrived on a bus with the log that was played: completeness, order,
 // times.
-//   in     frames of the log; frames as a recorder saw them, with the kernel's stamps
+//   in     frames of the log; frames as a recorder received them, with the kernel's stamps
 //   out    counts of lost and extra frames, whether the sequence is that of the log, and errors:
-//            lateness   arrival minus (zero + stamp of the log since its first one), where zero is
-//                       whatever makes the least lateness of the run 0: no player is charged for
-//                       its start-up, or for a delay that is always the same
+//            lateness   arrival minus (zero + stamp of the log since its first one). Zero is chosen
+//                       so that the least lateness of the run is 0: start-up and a constant delay
+//                       do not count
 //            gap error  |gap between two arrivals - gap between their stamps|, in order of the log
 //   units  microseconds
 //   invariants
-//          a stamp that goes back counts as the latest one before it, as for the player
-//   errors errors are absent where the sequence is not that of the log: nothing to compare
+//          a stamp that goes back counts as the latest one before it, as in the player
+//   errors no timing errors are computed if the sequence is not that of the log
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -27,9 +27,10 @@ struct Quantiles {
   double p50_us = 0.0, p90_us = 0.0, p99_us = 0.0, max_us = 0.0;
 };
 
-// Of the sorted samples: the smallest one that the share is not above. Zeros for no samples.
+// Nearest rank: the least sample that at least this share of the samples does not exceed. Zeros
+// without samples.
 Quantiles quantiles_of(std::vector<Duration> samples);
-// Of each quantile on its own, the middle one; the mean of the two middle ones of an even number.
+// Median of each quantile on its own; for an even number of runs the mean of the two middle values.
 Quantiles median_of(std::span<const Quantiles> runs);
 
 struct TimingErrors {

@@ -1,4 +1,4 @@
-// Report of a match of players: table, gates, JSON.
+// Report of a comparison of players: table, gates, JSON.
 //   in     MatchFigures
 //   out    text for people, one JSON object for programs, whether every gate held
 //   invariants
@@ -15,7 +15,7 @@ namespace pitwall::benchmarks {
 
 struct MatchGate {
   std::string text;
-  double value = 0.0, least = 0.0;  // times; NaN where it cannot be formed
+  double value = 0.0, least = 0.0;  // ratios; NaN if it cannot be formed
 
   bool held() const { return value >= least; }
 };
@@ -23,11 +23,11 @@ struct MatchGate {
 struct MatchReport {
   std::uint64_t frames = 0;
   double length_s = 0.0;
-  std::string host_load;  // load averages of the host when it began
+  std::string host_load;  // load averages of the host at the start
   MatchFigures figures;
 };
 
-// The first ones are about content and order, all others about time.
+// The first ones are about content and order, the others about time.
 std::vector<MatchGate> gates_of(const MatchFigures& figures);
 std::string to_text(const MatchReport& report);
 std::string to_json(const MatchReport& report);

@@ -1,7 +1,8 @@
-// How fast a log is read, beside python-can: the same file, the same machine, one after the other.
+// Comparison of log reading speed with python-can: the same file, the same machine, one after the
+// other.
 //   in     a log; a folder to write it to, once as candump and once as Vector ASC
 //   out    frames per second of both, the best of kReadings; python-can is timed inside its
-//          process, so its start is not charged
+//          process, so its start-up does not count
 //   errors Problem: python-can is missing or reads another number of frames
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
@@ -15,7 +16,7 @@
 namespace pitwall::benchmarks {
 
 inline constexpr int kReadings = 5;
-inline constexpr double kLeastReadingTimes = 10.0;  // faster than python-can
+inline constexpr double kLeastReadingTimes = 10.0;  // speed relative to python-can
 
 struct ReadingSpeed {
   std::string format;

@@ -1,10 +1,11 @@
-// UDP sockets that stand for the receivers' inputs of a car: every datagram with its bytes and the
+// UDP sockets in place of a car's receiver inputs: they keep the bytes of every datagram and the
 // kernel's stamp.
-//   in     datagrams to the ports of address(), from this machine; the offset that all stamps of
-//          the run are converted with
-//   out    what came, per receiver, oldest first
-//   errors open(): Problem with a socket. lost(): what the queue of a socket did not hold
-//   bound  drain() has to be called before a queue is full: at 165 datagrams a second a second
+//   in     datagrams to the ports of address(), from this machine; the offset that converts all
+//          stamps of the run
+//   out    the received datagrams, per receiver, oldest first
+//   errors open(): Problem with a socket. lost(): datagrams that a socket dropped, cut or failed to
+//          receive
+//   bound  drain() must be called before a queue is full: within a second at 165 datagrams a second
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

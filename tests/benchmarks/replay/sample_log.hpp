@@ -1,10 +1,10 @@
-// A log to play that needs no car: what the race car's CAN bus carries, bit by bit on a wire of
-// 1 Mbit/s, as a recorder would have stamped it. The same on every machine.
+// Synthetic CAN log for replay tests, without a car: the traffic of the race car's CAN bus, bit by
+// bit on a wire of 1 Mbit/s, with the stamps of a recorder. The same on every machine.
 //
-//   drive-by-wire   reports at the cadence of the database, all of one tick back to back
+//   drive-by-wire   reports at the period of the database, all of one tick back to back
 //   computer        its eight commands every 10 ms, in one burst
 //   calibration     a measurement tool's stream on 29-bit identifiers: 8 frames every 10 ms
-//   stamps          end of frame plus what an interrupt takes; whole microseconds
+//   stamps          end of frame plus the latency of an interrupt; whole microseconds
 //
 //   in     length of the log
 //   out    about 2,500 frames a second, 32 % load; payloads are counters and noise, no physics

@@ -1,17 +1,19 @@
-// Comparison of what arrived of a recording that was played in several passes with the recording:
-// frames and datagrams complete, each track in order, and all tracks in one order.
+// Comparison of the arrivals of a recording, played in several passes, with the recording: frames
+// and datagrams complete, each track in order, and all tracks in one common order.
 //
 //   order across tracks
 //     due       frame  1.0 ms   datagram  1.5 ms
 //     arrival          1.1 ms             1.6 ms   the order is shown
-//                      1.9 ms             1.6 ms   broken: the frame came after what is due later
-//     A player may send what is due within kGroup together, track by track: that breaks nothing.
+//                      1.9 ms             1.6 ms   broken: the frame arrived after a later due
+//                      record
+//     A player may send what is due within kGroup together, track by track: this does not count as
+//     broken.
 //
-//   in     the log and the datagrams of one pass, its length, how many there were; what sockets
+//   in     the log and the datagrams of one pass, its length, the number of passes; what sockets
 //          received, with the kernel's stamps: of one clock, with one offset for all sockets, so
-//          that their order is the kernel's and has no error
-//   out    frames as compare() has them, against all passes; counts of each receiver; the order
-//          across tracks, where every track is complete and in order: else there is none to judge
+//          that their order is exactly the kernel's
+//   out    frames as compare() counts them, over all passes; counts of each receiver; the order
+//          across tracks if every track is complete and in order, otherwise nullopt
 //   cost   O(n log n)
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
@@ -49,9 +51,9 @@ struct DatagramCount {
 };
 
 struct TrackOrder {
-  std::uint64_t changes = 0;  // neighbours by due time that are of different tracks
-  std::uint64_t shown = 0;    // of them: arrived in that order
-  std::uint64_t broken = 0;   // records that arrived after one which is due later
+  std::uint64_t changes = 0;  // neighbours by due time on different tracks
+  std::uint64_t shown = 0;    // of these: arrived in that order
+  std::uint64_t broken = 0;   // records that arrived after a record that is due later
 
   bool is_kept() const { return shown > 0 && broken == 0; }
 };

@@ -1,16 +1,16 @@
-// Bytes of two GNSS receivers beside a CAN log, and the recording that holds both, as the black box
-// of a car does. The same on every machine.
+// Synthetic bytes of two GNSS receivers beside a CAN log, and the recording that holds both, as the
+// black box of a car writes it. The same on every machine.
 //
 //   receivers  NovAtel, each with position and velocity at 20 Hz and its IMU at 125 Hz, one message
-//              to a datagram; 330 datagrams a second in all
-//   stamps     end of the message plus what a line and a read take; whole microseconds
+//              per datagram; 330 datagrams a second in all
+//   stamps     end of the message plus the latency of line and read; whole microseconds
 //
 //   in     start and length of the traffic; the CAN log
-//   out    datagrams in the order of their stamps; an MCAP file with /can/in, /gnss/0 and /gnss/1
+//   out    datagrams in order of their stamps; an MCAP file with /can/in, /gnss/0 and /gnss/1
 //   invariants
-//          a recording is in the order of its stamps, so a frame that is stamped earlier than the
-//          one before gets the stamp of that one
-//   errors to_recording(): Problem with what the file does not take
+//          a recording is in order of its stamps: a frame with an earlier stamp than the one before
+//          gets the stamp of that one
+//   errors to_recording(): Problem with what the file cannot hold
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

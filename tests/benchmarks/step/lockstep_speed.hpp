@@ -1,7 +1,7 @@
-// What the lockstep bench costs on this machine: processor time of the one thread that runs it.
-//   in     a loaded scenario; whether the event log is written as well (to nowhere)
-//   out    processor time of a simulated second, and of the reference unit, taken twice in each of
-//          them and not part of it
+// Cost of the lockstep bench on this machine: processor time of the one thread that runs it.
+//   in     a loaded scenario; whether the event log is produced too (its bytes are discarded)
+//   out    processor time of a simulated second, and of the reference unit, which is measured twice
+//          in each of them and not included
 //   errors Problem of the run
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
@@ -15,7 +15,7 @@
 
 namespace pitwall::benchmarks {
 
-// What the benchmarks of the closed loop drive.
+// Scenario of the closed-loop benchmarks.
 inline constexpr const char* kBenchScenario = "hil/scenarios/lvms_flying_lap.yaml";
 
 inline constexpr double kLeastTimesRealTime = 50.0;
@@ -30,7 +30,7 @@ struct LockstepCost {
 
 Result<LockstepCost, Problem> lockstep_cost(const bench::Loaded& loaded, bool with_log);
 
-// Of several runs, by what a second of them costs in units: the one in the middle.
+// The run with the median cost of a second in reference units.
 LockstepCost median_of(std::vector<LockstepCost> runs);
 cost::CostGate lockstep_gate(const LockstepCost& cost, const std::string& which);
 

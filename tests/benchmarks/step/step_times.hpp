@@ -1,9 +1,9 @@
-// What each step of the car costs in the closed loop, fed with what a lap feeds it.
-//   in     a loaded scenario, which is run kStepRuns times: alike to the bit, so that the least of
-//          a tick is what the step costs, and the rest what the machine did to it
-//   out    for each tick the least processor time of its step and how far back the filter had to
-//          go; allocations in all of them; processor time of the reference unit, taken between the
-//          ticks and as the least likewise
+// Cost of each step of the car in the closed loop, with the inputs of a lap.
+//   in     a loaded scenario. It is run kStepRuns times with equal results to the bit, so the least
+//          time of a tick is the cost of its step; the rest is disturbance by the machine
+//   out    for each tick the least processor time of its step and the rewind of the filter;
+//          allocations in all steps; processor time of the reference unit, measured between the
+//          ticks, also as the least
 //   errors Problem of the run
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
@@ -22,7 +22,7 @@ inline constexpr int kStepRuns = 3;
 
 struct StepTime {
   double least_us = 0.0;
-  std::optional<Duration> rewind;  // for the latest of what the tick brought; none: nothing late
+  std::optional<Duration> rewind;  // for the oldest measurement of the tick; nullopt: none late
 };
 
 struct StepTimes {

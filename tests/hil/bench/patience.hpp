@@ -1,4 +1,4 @@
-// How long these tests wait for a loaded machine; nothing is measured with it.
+// Timeout of the bench tests on a loaded machine; it is not a measured limit.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

@@ -1,4 +1,5 @@
-// A scenario in which the car stands, and a fault of one second for it.
+// Scenario that begins with the car at standstill, without faults; and a fault of one second for
+// it.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

@@ -1,4 +1,4 @@
-// A bus of 500 kbit/s: the length of a bit, and frames for it.
+// Bus of 500 kbit/s for tests: the length of a bit, and frames.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

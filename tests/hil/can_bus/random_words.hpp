@@ -1,4 +1,4 @@
-// A seeded source of 32-bit words.
+// Seeded generator of random 32-bit words.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

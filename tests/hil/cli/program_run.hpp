@@ -1,4 +1,5 @@
-// The built program of a test (PITWALL_TESTED_PROGRAM), run to its end: exit code and output.
+// Test fixture that runs the built program under test (PITWALL_TESTED_PROGRAM) to its end: exit
+// code and output.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -19,7 +20,8 @@ struct ProgramOutput {
   std::string out, err;
 };
 
-// A folder that is gone when the test ends; programs run in the root of the source tree.
+// Has a temporary folder, removed at the end of the test; programs run in the root of the source
+// tree.
 class ProgramRun : public ::testing::Test {
  protected:
   void SetUp() override { ASSERT_TRUE(folder_); }
@@ -30,7 +32,7 @@ class ProgramRun : public ::testing::Test {
     return transport::read_file(path(file)).value_or("");
   }
 
-  // A shipped scenario with one thing replaced, as a file of its own.
+  // Writes a copy of a shipped scenario with one text replaced; returns its path.
   std::string spoilt(const std::string& scenario, const std::string& from, const std::string& to) {
     const std::string root = PITWALL_SOURCE_DIR;
     std::string text = transport::read_file(root + "/hil/scenarios/" + scenario).value_or("");
@@ -53,8 +55,7 @@ class ProgramRun : public ::testing::Test {
     return {status ? status->shell_code() : -1, text_of("out"), text_of("err")};
   }
 
-  // Wrong usage or bad input: exit code 2, a reason on stderr, nothing on stdout that looks like a
-  // result.
+  // Expects wrong usage or bad input: exit code 2, the reason on stderr, no verdict on stdout.
   void expect_refusal(const std::vector<std::string>& words, const std::string& reason) {
     const ProgramOutput result = run(words);
     std::string line;

@@ -1,4 +1,4 @@
-// Messages of the car as frames, and back.
+// Encoding of the car's messages as frames, and decoding.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

@@ -1,4 +1,4 @@
-// Infinity, as a number of a signal or a limit.
+// Infinity as a value of a signal or a limit.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

@@ -1,4 +1,4 @@
-// The period of a recorded drive's samples.
+// Sampling period of a recorded drive.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

@@ -1,4 +1,4 @@
-// Wheels of a car whose speed is imposed.
+// Wheel speeds of a car whose speed is imposed.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -8,8 +8,8 @@
 
 namespace pitwall::plant {
 
-// Each turns as fast as its hub goes, so that none of them pushes or holds. All at the speed of the
-// car would resist every turn, as locked axles do.
+// Sets each wheel to the speed of its hub, so that no wheel drives or brakes. With all wheels at
+// the speed of the car they would resist every turn, like locked axles.
 inline void roll_freely(const Params& p, State& s) {
   const Motion& m = s.motion;
   const double angle_rad = m.steering_motor_rad / p.steering.ratio;

@@ -1,4 +1,4 @@
-// The name of an entry, with its section.
+// Full name of a plant entry: section and key.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

@@ -1,4 +1,4 @@
-// A car that rolls straight ahead in a gear, on the level.
+// State of a car that rolls straight ahead in a gear, on level ground.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

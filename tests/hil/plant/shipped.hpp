@@ -1,4 +1,4 @@
-// The plant files that ship.
+// Loader of the shipped plant files.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -24,7 +24,7 @@ inline PlantFile shipped_car(const std::string& name) {
   return file.value_or(PlantFile{});
 }
 
-// Why the text is refused; empty if it is read.
+// The reason why the text is refused; empty if it is valid.
 inline std::string refusal(const std::string& text) {
   const auto plant = read_plant(text, "plant.yaml");
   return plant ? std::string{} : to_string(plant.error());

@@ -1,4 +1,4 @@
-// The step of the plant.
+// Time step of the plant in the tests.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

@@ -1,4 +1,4 @@
-// Event logs as the bench writes them, small and made to order: ten seconds along a circle.
+// Small event logs in the format of the bench, with chosen content: ten seconds along a circle.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -102,7 +102,7 @@ inline Bytes log_of(const LogOrder& order) {
 
 inline RunData run_of(const LogOrder& order) { return read_run(log_of(order), "events.mcap"); }
 
-// The result file that belongs to `run`.
+// Text of the result file of `run`.
 inline std::string result_of(const RunData& run, Duration behind = {}) {
   bench::RunResult r;
   r.scenario = run.facts.scenario;

@@ -1,4 +1,4 @@
-// A small CAN database and a log with known signals: a hundred frames of 10 ms.
+// Small CAN database and a log with known signals: a hundred frames of 10 ms.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -50,7 +50,7 @@ inline std::int16_t raw_speed_at(std::size_t i) {
 inline double speed_at(std::size_t i) { return 0.05 * raw_speed_at(i) - 10.0; }
 inline std::uint8_t gear_at(std::size_t i) { return static_cast<std::uint8_t>(i / 40); }
 
-// Bytes put together by hand, not by the encoder.
+// The bytes are composed here, without the encoder.
 inline replay::CanLog some_log() {
   replay::CanLog log;
   log.channels = {"can0"};

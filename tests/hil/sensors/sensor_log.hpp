@@ -1,5 +1,5 @@
-// Receivers for tests: without any error, or with all of them but without lever arms, and what they
-// said over a while.
+// Receiver models for tests: without any error, or with all errors but without lever arms; and the
+// log of their samples over a time.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -12,7 +12,7 @@
 
 namespace pitwall::sensors {
 
-// Metres per degree at 36.27 N on WGS 84, good to 1e-4.
+// Metres per degree at 36.27 N on WGS 84, relative error below 1e-4.
 inline constexpr double kMetresPerDegreeNorth = 110'961.0, kMetresPerDegreeEast = 89'861.0;
 
 inline Params noisy() {

@@ -1,4 +1,4 @@
-// CSVs of made-up tracks for the tests: a stadium of two straights and two half circles.
+// Synthetic track CSVs for the tests: a stadium of two straights and two half circles.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -15,7 +15,7 @@ namespace pitwall::track_file {
 inline constexpr double kStraight_m = 400.0, kRadius_m = 120.0;
 inline const double kStadium_m = 2.0 * kStraight_m + 2.0 * std::numbers::pi * kRadius_m;
 
-// Left-hand, from the middle of the lower straight.
+// Point of the left-hand stadium at station s; s = 0 is the middle of the lower straight.
 inline Place stadium_at(double s_m) {
   const double arc_m = std::numbers::pi * kRadius_m;
   const bool back = s_m >= 0.5 * kStadium_m;

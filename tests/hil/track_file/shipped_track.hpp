@@ -1,4 +1,4 @@
-// A track that ships.
+// Loader of a shipped track file.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

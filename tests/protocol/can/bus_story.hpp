@@ -1,6 +1,6 @@
-// A sender with a period, a delay and losses, written down: what was sent, when it arrived, what
-// was lost. The truth that a monitor is judged by; it shares no code with the monitor.
-//   in      period, largest delay, counter cycle, chance of loss, a seed
+// Simulated sender of a periodic message with delay and losses: what is sent, when it arrives, what
+// is lost. It is the reference for the message monitor and shares no code with it.
+//   in      period, largest delay, counter cycle, probability of loss, a seed
 //   out     sends in order; the run of a monitor over them with a tick of 10 ms
 //   units   Instant and Duration
 // SPDX-License-Identifier: Apache-2.0
@@ -55,7 +55,7 @@ inline std::vector<Send> story(const SenderHabits& habits, Random& noise) {
     s.due = start + habits.period * static_cast<std::int64_t>(i);
     const auto span = static_cast<std::uint64_t>(habits.delay_max.ns);
     s.arrival = s.due + nanoseconds(span == 0 ? 0 : static_cast<std::int64_t>(noise.below(span)));
-    if (s.arrival <= newest) s.arrival = newest + nanoseconds(1);  // one bus: no overtaking
+    if (s.arrival <= newest) s.arrival = newest + nanoseconds(1);  // the bus keeps the order
     newest = s.arrival;
     s.counter = habits.bottom + static_cast<std::uint32_t>((first + i) % cycle);
     s.is_lost = i > 0 && static_cast<double>(noise.below(1'000'000)) < habits.loss * 1e6;
@@ -76,7 +76,7 @@ struct Received {
   std::map<FrameVerdict, int> verdicts;
 };
 
-// Judges what arrived, tick by tick, and watches on for `afterwards`.
+// Runs the monitor over the arrivals, tick by tick, until `afterwards` past the last one.
 inline Received run_monitor(const MessageRow& row, const std::vector<Send>& sends,
                             Duration afterwards, const CounterCycle& cycle = {}) {
   Received incoming;
@@ -98,12 +98,12 @@ inline Received run_monitor(const MessageRow& row, const std::vector<Send>& send
   return incoming;
 }
 
-// Index of the send that lies nearest to `t`.
+// Index of the send that is nearest to `t`.
 inline std::int64_t nearest_send(const std::vector<Send>& sends, Duration period, Instant t) {
   return ((t - sends.front().due) + period / 2).ns / period.ns;
 }
 
-// How often each send was reported as lost, by its due time alone.
+// How often each send was reported as lost; found by its due time only.
 inline std::map<std::int64_t, int> blamed(const std::vector<Send>& sends, Duration period,
                                           const std::vector<LossReport>& reports) {
   std::map<std::int64_t, int> out;

@@ -1,4 +1,4 @@
-// What the tests of CAN databases share: our own files, the recorded public ones, and noise.
+// Common inputs of the tests of CAN databases: our own files, the public recorded ones, and noise.
 //   errors  our own files must load; the public ones may be missing (empty list)
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
@@ -49,7 +49,7 @@ inline std::vector<std::filesystem::path> public_files() {
   return out;
 }
 
-// Public files that cannot be true: a signal outside its message; 29-bit ids without the mark.
+// Invalid public files: a signal outside its message; 29-bit ids without the extended flag.
 inline bool is_broken(const std::filesystem::path& path) {
   return path.stem() == "bad_message_length" || path.stem() == "issue_199";
 }
@@ -65,13 +65,13 @@ inline Frame random_frame(const Message& m, Random& noise) {
   return f;
 }
 
-// A message of `length` bytes around these SG_ lines.
+// DBC text with one message of `length` bytes that contains these SG_ lines.
 inline std::string dbc_with(const std::string& signals, int length = 8) {
   return "VERSION \"\"\nNS_ :\n  CM_\n  BA_\nBS_:\nBU_: A\nBO_ 100 M: " + std::to_string(length) +
          " A\n" + signals + "\n";
 }
 
-// A signal for it.
+// A valid signal line for dbc_with().
 inline const std::string kSignal = " SG_ a : 0|8@1+ (1,0) [0|0] \"\" A\n";
 
 inline std::string complaint(const std::string& text) {
@@ -85,7 +85,7 @@ inline Database leniently(const std::string& text, const std::string& name = "t.
   return result ? *result : Database{};
 }
 
-// Every error of a lenient reading, worst first, one a line.
+// Every error of a lenient parse, worst first, one per line.
 inline std::string errors_of(const Database& d) {
   std::string out;
   for (const Finding* const f : worst_first(d)) {

@@ -1,4 +1,4 @@
-// One message of a bus and its monitor, by themselves.
+// Test fixture of one CAN message and its monitor, without a bus.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

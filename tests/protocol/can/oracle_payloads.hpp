@@ -1,5 +1,5 @@
-// How many random payloads of each message a comparison with another decoder takes.
-//   in     PITWALL_ORACLE_PAYLOADS, which a long run raises
+// Number of random payloads per message in a comparison with another decoder.
+//   in     PITWALL_ORACLE_PAYLOADS, which a long run sets to a larger number
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

@@ -1,4 +1,4 @@
-// Bytes that a receiver says.
+// Bytes of a receiver.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

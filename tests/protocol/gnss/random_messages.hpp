@@ -1,4 +1,4 @@
-// Messages with every field at random: anything that a field can hold and that is not refused.
+// Messages with random fields: every value that a field can hold and that is not refused.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -40,7 +40,7 @@ class Filler {
     } else if (kind == Kind::kHex || kind == Kind::kNumber || random_() % 2 == 0) {
       value = static_cast<T>(random_());
     } else {
-      value = static_cast<T>(random_() % 100);  // most of these have a name
+      value = static_cast<T>(random_() % 100);  // most of these values have a name
     }
   }
   template <class T, std::size_t N>
@@ -89,7 +89,7 @@ inline NovatelMessage random_message(std::size_t index, std::mt19937_64& random)
   return message;
 }
 
-// A port that ASCII can name, a time status with and without a name, all else at random.
+// The port has an ASCII name, the time status has a name or not, everything else is random.
 inline NovatelHeader random_header(std::mt19937_64& random) {
   constexpr std::array<std::uint8_t, 4> kPorts{0x20, 0x3E, 0x41, 0xA0};
   constexpr std::array<std::uint8_t, 4> kStatus{20, 100, 180, 77};
@@ -106,7 +106,7 @@ inline NovatelHeader random_header(std::mt19937_64& random) {
   return h;
 }
 
-// What of a header the message's own form of header carries.
+// The part of a header that the message's form of header (long or short) carries.
 inline NovatelHeader as_sent(NovatelHeader h, const NovatelMessage& message) {
   std::visit([&h](const auto& m) { h.id = m.kId, h.short_form = m.kShort; }, message);
   if (!h.short_form) return h;
@@ -116,7 +116,7 @@ inline NovatelHeader as_sent(NovatelHeader h, const NovatelMessage& message) {
   return s;
 }
 
-// Some fields of some groups, at least one.
+// At least one field, of some groups.
 inline VectorNavOutput random_output(std::mt19937_64& random) {
   VectorNavOutput output;
   for (std::size_t i = 0; i < kVectorNavGroups; ++i) {

@@ -1,4 +1,4 @@
-// The public NovAtel recordings that lie beside the project, and the bytes of a file.
+// Reader of the public NovAtel recordings beside the project.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -22,7 +22,8 @@ inline std::optional<std::vector<std::uint8_t>> recording(const std::string& nam
   return std::vector<std::uint8_t>{std::istreambuf_iterator<char>{in}, {}};
 }
 
-// One line of a JSON-lines file each; enough of JSON for flat numbers: the number after "key": .
+// Lines of a JSON-lines file. number_after() is enough of a parser for flat numbers: it reads the
+// number after "key": .
 inline std::vector<std::string> recorded_lines(const std::string& name) {
   std::ifstream in{recordings_folder() + name};
   std::vector<std::string> lines;

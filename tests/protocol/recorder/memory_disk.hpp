@@ -1,4 +1,4 @@
-// A disk in memory that can be full.
+// Disk of the recorder in memory, with a capacity that can be used up.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

@@ -1,4 +1,4 @@
-// When the records of these tests begin, how often they come, and which clock tells it.
+// Start, period and clock of the records in these tests.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

@@ -1,4 +1,4 @@
-// What the tests of this folder record: a struct with a field of every kind, and a file in memory.
+// Samples for the tests of this folder: a struct with a field of every kind, and a file in memory.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -36,7 +36,7 @@ constexpr auto cdr_fields(std::type_identity<Sample>) {
                     CdrField{"delta", &Sample::delta},   CdrField{"total", &Sample::total}};
 }
 
-// Extremes and everything between, the same for the same i.
+// Extreme and ordinary values; the same for the same i.
 inline Sample sample(std::uint32_t i) {
   Sample s;
   s.mode = static_cast<std::uint8_t>(i);

@@ -1,4 +1,4 @@
-// Messages filled at random, and what they say as JSON, for comparison with other decoders.
+// Random ROS messages and their JSON text, for comparison with other decoders.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -30,7 +30,7 @@ void fill(Random& random, T& value) {
   } else if constexpr (std::is_same_v<T, bool>) {
     value = random() % 2 == 0;
   } else if constexpr (std::is_floating_point_v<T>) {
-    // Halves, which every decimal notation keeps.
+    // Multiples of one half, which every decimal notation represents exactly.
     value = static_cast<T>(static_cast<std::int64_t>(random() % 2'000'001) - 1'000'000) / 2;
   } else {
     value = static_cast<T>(random());
@@ -67,7 +67,7 @@ void append_json(std::string& out, const T& value) {
   }
 }
 
-// f.template operator()<M>() for every message that we speak.
+// Calls f.template operator()<M>() for every message type that we support.
 template <class F>
 void for_each_message(F&& f) {
   const auto each = [&f]<class... M>(std::tuple<M...>*) { (f.template operator()<M>(), ...); };

@@ -1,4 +1,4 @@
-// Any sendable frame, by a raw generator whose sequence the standard fixes.
+// Random sendable CAN frame. It uses the raw engine, whose sequence the C++ standard fixes.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

@@ -1,7 +1,7 @@
-// Stops of a family of cars: every car, place and kind of stop, by several processes at once.
-//   in     cars, places, how many processes
+// Survey of the stops of a family of cars: every car, place and kind of stop, in several processes.
+//   in     cars, places, number of processes
 //   out    figures of every stop; the table of margins and the worst ten
-//   errors a stop that fails is told with car, place and kind
+//   errors row_of() names car, place, kind and reason of a failed stop
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -26,11 +26,11 @@ std::vector<SurveyedStop> survey(std::span<const plant::FamilyCar> cars,
                                  std::span<const StopPlace> places, unsigned processes);
 
 std::string row_of(const plant::FamilyCar& car, const SurveyedStop& stop);
-// Prints the table; how many stops failed.
+// Prints the table; returns the number of failed stops.
 std::size_t print_survey(std::span<const plant::FamilyCar> cars,
                          std::span<const SurveyedStop> stops);
 
-// The cars of the plant files, then drawn ones.
+// The cars of the plant files, then random ones.
 std::vector<plant::FamilyCar> family_of(std::uint64_t seed, std::size_t count);
 
 }  // namespace pitwall::testing

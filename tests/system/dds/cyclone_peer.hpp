@@ -1,4 +1,4 @@
-// Another DDS at the same table: Cyclone DDS, with types made by its own compiler.
+// Cyclone DDS participant as an independent peer in tests, with types from its own compiler.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -15,7 +15,7 @@
 
 namespace pitwall::testing {
 
-// A sample of Cyclone's, given back with it.
+// A sample on loan from Cyclone; the destructor returns the loan.
 template <class M>
 class Loan {
  public:
@@ -42,7 +42,7 @@ struct Endpoint {
   std::array<std::uint8_t, 16> guid{};
 };
 
-// Of an endpoint of Cyclone's.
+// Quality of service of a Cyclone endpoint.
 struct Ask {
   bool reliable = true, latched = false;
   int depth = 64;
@@ -89,7 +89,7 @@ class CyclonePeer {
     return {reader, sample};
   }
 
-  // Of all in the domain: who writes, or who reads.
+  // All writers, or all readers, of the domain.
   std::vector<Endpoint> others(bool writers) {
     const dds_entity_t reader = dds_create_reader(
         participant_,
@@ -105,7 +105,7 @@ class CyclonePeer {
         endpoint.user_data.assign(static_cast<const char*>(data), size);
         dds_free(data);
       }
-      // The reader of this very list is no other.
+      // The reader of this builtin topic itself does not count.
       if (!endpoint.topic.starts_with("DCPS")) found.push_back(std::move(endpoint));
     }
     dds_delete(reader);
@@ -123,7 +123,7 @@ class CyclonePeer {
     dds_qset_history(qos, DDS_HISTORY_KEEP_LAST, ask.depth);
     return qos;
   }
-  // The type has the name that ROS 2 gives it.
+  // Gives the type the name that ROS 2 uses.
   dds_entity_t topic_of(const dds_topic_descriptor_t& description, const char* type,
                         const char* topic) {
     dds_topic_descriptor_t& named = descriptions_.emplace_back(description);
@@ -137,7 +137,7 @@ class CyclonePeer {
   std::deque<dds_topic_descriptor_t> descriptions_;
 };
 
-// Until it is so, or patience ends. The network has no clock of ours to wait by.
+// Waits until `is_so` or the timeout, by the monotonic clock: the network has no virtual time.
 inline bool comes(const std::function<bool()>& is_so, Duration patience = seconds(30)) {
   for (const Instant end = transport::monotonic_now() + patience;
        transport::monotonic_now() < end;) {

@@ -1,11 +1,11 @@
-// A lockstep run on the banking of Las Vegas at racing speed, and how far localization was from the
-// truth in it: the spatial filter, which drives the car, and the planar one of the paper, which
-// hears the same samples.
+// Lockstep run on the banking of Las Vegas at racing speed, with the localization errors against
+// the truth: of the spatial filter, which drives the car, and of the paper's planar filter, which
+// receives the same samples.
 //   in     a seed, faults, a window of scenario time
 //   out    errors of both, tick by tick, and their summary
 //   invariants
-//          a jump is the change of the error from one tick to the next: what the pose moved by that
-//          the car did not
+//          a jump is the change of the position error from one tick to the next, so the motion of
+//          the car does not count
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -22,23 +22,23 @@
 
 namespace pitwall::bench {
 
-inline constexpr double kRacing_s = 52.0;  // the car has its speed from here on
+inline constexpr double kRacing_s = 52.0;  // from this time the car is at racing speed
 
 struct RunPlan {
   std::uint64_t seed = 1;
   std::vector<scenario::Fault> faults;
   double until_s = 70.0;
   bool vectornav = false;   // unit 1 is a VN-310
-  world::MonitorSet off{};  // of localization, as a control of the test itself
+  world::MonitorSet off{};  // monitors of localization that are off, to check the test itself
 };
 
-// One tick of one filter. `error` is estimate less truth.
+// One tick of one filter. Errors are estimate minus truth.
 struct Tick {
   double at_s = 0.0;
   double truth_speed_mps = 0.0, bank_rad = 0.0;
-  double east_m = 0.0, north_m = 0.0, up_m = 0.0;  // of the position
+  double east_m = 0.0, north_m = 0.0, up_m = 0.0;  // error of the position
   double yaw_rad = 0.0, roll_rad = 0.0, pitch_rad = 0.0;
-  double speed_mps = 0.0, left_mps = 0.0;  // of the velocity in Body
+  double speed_mps = 0.0, left_mps = 0.0;  // error of the velocity in Body
   double position_sigma_m = 0.0;
   double nees = kUnset;  // of east, north, yaw, speed and left: 5 degrees of freedom
   bool estimated = false;
@@ -54,7 +54,7 @@ struct ScoredRun {
 ScoredRun run_scored(const RunPlan& plan);
 
 struct Errors {
-  std::size_t ticks = 0, without = 0;  // with an estimate, without
+  std::size_t ticks = 0, without = 0;  // number with and without an estimate
   double position_rms_m = 0.0, heading_rms_rad = 0.0, speed_rms_mps = 0.0, height_rms_m = 0.0;
   double position_max_m = 0.0, jump_max_m = 0.0;
   double speed_mean_mps = 0.0;  // of the car
@@ -68,7 +68,7 @@ void print_header();
 void print_row(const std::string& what, const char* filter, const Errors& errors);
 void print_both(const std::string& what, const ScoredRun& run, double from_s, double until_s);
 
-// How many seeds: PITWALL_LOCALIZATION_SEEDS, or `quick`.
+// Number of seeds: PITWALL_LOCALIZATION_SEEDS, otherwise `quick`.
 std::uint64_t seeds(std::uint64_t quick);
 
 scenario::Fault fault(const char* kind, std::uint32_t unit, double at_s, double for_s,

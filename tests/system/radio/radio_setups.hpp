@@ -1,4 +1,4 @@
-// Links and budgets that the gates of the radio share.
+// Links and budgets for the radio tests.
 //   units  bytes per second, Duration
 // SPDX-License-Identifier: Apache-2.0
 #pragma once

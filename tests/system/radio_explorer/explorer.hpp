@@ -1,8 +1,9 @@
-// Breadth first through every order of actions: each world is visited once, a law that breaks is
-// told with the shortest way to it.
-//   in     budget, planted fault, depth, how many worlds at most
-//   out    worlds seen, whether all within the depth were, the first breach
-//   cost   a world is kept as its fingerprint (two hashes of 64 bits) and the way that led there
+// Breadth-first search through every order of actions. Each world is visited once; a broken
+// invariant is reported with the shortest sequence of actions that leads to it.
+//   in     budget, planted fault, depth, largest number of worlds
+//   out    number of worlds, whether all within the depth were visited, the first breach
+//   cost   a visited world is kept as its fingerprint (two hashes of 64 bits); those of the last
+//          depth also with the sequence of actions that leads there
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -17,15 +18,15 @@ namespace pitwall::explorer {
 
 struct Breach {
   Broken what = Broken::kNothing;
-  std::vector<Action> way;
+  std::vector<Action> way;  // from the start to the breach
 };
 std::string text_of(const Breach& breach);
 
 struct Explored {
   std::size_t worlds = 0;
   std::size_t transitions = 0;
-  std::size_t depth = 0;   // that was visited whole
-  bool exhausted = false;  // no world has an action left
+  std::size_t depth = 0;   // completely visited
+  bool exhausted = false;  // no reachable world is left
   std::optional<Breach> breach;
 };
 

@@ -1,11 +1,11 @@
-// Addresses in the explorer's world: where the base is, what the car believes of it by the real
-// PathAddresses, and a relay that delivers copies from an address of his own.
-//   in     packets as they leave and arrive, waits, moves, restarts
-//   out    whether a packet of the car reaches the base; the first law that breaks
+// Model of the radio addresses in the explorer: the address of the base, the car's record of it in
+// the real PathAddresses, and a relay that delivers copies from an address of its own.
+//   in     packets when they leave and arrive, waits, moves, restarts
+//   out    whether a packet of the car reaches the base; the first broken invariant
 //   invariants
-//          a base that is where the car was told is found after a wait in silence, wherever it was
-//          before. An address is believed only once a packet that was sent there came to the
-//          base, a relay's not while the base is heard at the proved one
+//          a base at its configured address is found after a wait in silence, from any earlier
+//          address. An address becomes proved only after a packet that was sent there has reached
+//          the base; the relay's does not while the base is received at the proved address
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -23,10 +23,10 @@ namespace pitwall::explorer {
 
 inline constexpr telemetry::Address kHome{1, 1}, kAway{1, 2}, kRelay{9, 9};
 
-// Faults of the roaming that a test plants.
+// Planted faults of the address tracking, to check that the explorer finds them.
 enum class PlantedRoam : std::uint8_t {
   kNone,
-  kNoReturn,        // in silence the car opens to the proved address alone
+  kNoReturn,        // in silence the car sends openings only to the proved address
   kBelievesNewest,  // the newest packet proves its address
 };
 
@@ -47,16 +47,16 @@ class Whereabouts {
   UpRoute base_sends();
   DownRoute car_sends(bool to_trial) const;
   bool on_trial() const { return base_seen_.token().has_value(); }
-  // False where an address is believed now that must not be.
+  // False if an address has become proved that must not be.
   [[nodiscard]] bool car_hears(const UpRoute& route, telemetry::Address from, Instant now);
-  // Whether it arrives.
+  // True if the packet arrives.
   bool base_hears(const DownRoute& route);
   void base_moves();
   void base_restarts();
   void car_restarts();
-  // Longer than a silence after which the car opens anew. True: it found the base.
+  // A wait longer than the silence after which the car sends openings. True if it found the base.
   bool wait();
-  bool found() const;  // false: the base is at home, and a wait in silence did not find it
+  bool found() const;  // false: the base is at kHome, and a wait in silence did not find it
 
   void fingerprint(telemetry::Fingerprint& print) const;
 
@@ -66,12 +66,12 @@ class Whereabouts {
   std::uint8_t trials_ = 0;
   telemetry::Address base_at_ = kHome;
   telemetry::PathAddresses base_seen_;
-  std::optional<std::uint64_t> owed_;  // proof that the base has yet to send
+  std::optional<std::uint64_t> owed_;  // proof that the base has to send
   std::uint8_t sent_ = 0, newest_ = 0, newest_of_base_ = 0, trial_first_ = 0;
-  std::optional<Instant> base_received_;             // at the proved address
-  std::array<bool, 3> reached_{true, false, false};  // a probe sent there came to the base
+  std::optional<Instant> base_received_;             // last packet from the proved address
+  std::array<bool, 3> reached_{true, false, false};  // a probe sent there has reached the base
   bool received_ = true;                             // since the last wait
-  bool searched_ = false;                            // in the silence that lasts
+  bool searched_ = false;                            // in the present silence
 };
 
 }  // namespace pitwall::explorer

@@ -1,11 +1,12 @@
-// Both ends of commands, stops and authority, the packets between them and an all-knowing witness,
-// as one value: copied, changed by one action, judged and told apart by its fingerprint.
+// State of the radio explorer as one value: both ends of commands, stops and authority, the packets
+// between them, and the true events. It is copied, changed by one action, judged, and identified by
+// its fingerprint.
 //   in     actions
-//   out    the next world; the first law that it breaks
+//   out    the next world; the first invariant that it breaks
 //   invariants
-//          packets carry what the real desks say and are read by the real ledger, view and latch.
-//          The air may hold, lose, double and reorder them; a session's packets end with it, as the
-//          association has it
+//          packets carry the state of the real transmitters and are read by the real ledger, view
+//          and latch. The radio channel may hold, lose, duplicate and reorder them; packets of a
+//          session end with it, as in the association
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -23,7 +24,7 @@
 
 namespace pitwall::telemetry {
 
-// What tells two worlds apart: all that can change what happens next.
+// Identity of a world: a hash of all state that can change what happens next.
 struct Fingerprint {
   std::uint64_t a = 0x9E3779B97F4A7C15ULL, b = 0xC2B2AE3D27D4EB4FULL;
 
@@ -47,8 +48,9 @@ using telemetry::CommandId;
 using telemetry::HolderId;
 
 inline constexpr HolderId kA = 1, kB = 2;
-inline constexpr std::uint8_t kNumbersMax = 8;  // commands of one run of the base
-inline constexpr std::uint8_t kRunsMax = 4;     // of either end
+// Command numbers of one run of the base, and run numbers of the base; 0 is unused in both.
+inline constexpr std::uint8_t kNumbersMax = 8;
+inline constexpr std::uint8_t kRunsMax = 4;
 
 enum class Action : std::uint8_t {
   kIssueA,  // a speed limit, by console A
@@ -57,13 +59,13 @@ enum class Action : std::uint8_t {
   kRelease,
   kTake,      // by console A
   kHandOver,  // to the other console
-  kRenew,     // by whoever holds it
+  kRenew,     // by the present holder
   kBaseSends,
   kCarSends,
-  kDeliverUp0,  // and it is gone
+  kDeliverUp0,  // and remove the packet
   kDeliverUp1,
   kDeliverUp2,
-  kDoubleUp0,  // delivered, and still on its way
+  kDoubleUp0,  // deliver a copy; the packet stays under way
   kDoubleUp1,
   kDoubleUp2,
   kLoseUp0,
@@ -71,34 +73,34 @@ enum class Action : std::uint8_t {
   kDeliverDown0,
   kDeliverDown1,
   kLoseDown0,
-  kHandOut,  // the ledger to the consumer
+  kHandOut,  // from the ledger to the consumer
   kApply,    // by the consumer
   kWait,     // 1.1 s
   kRestartBase,
   kRestartCar,
   kBaseMoves,  // to its other address, or back
-  kCarProbes,  // as kCarSends, to the address on trial
+  kCarProbes,  // like kCarSends, to the address on trial
   kRelayUp0,   // a relay delivers a copy from his own address before the packet arrives
 };
 inline constexpr std::size_t kActions = 28;
 const char* text_of(Action action);
 
-// How often each may happen; what is left is part of the world.
+// How often each action may still happen; the rest is part of the world.
 struct Budget {
   std::uint8_t issues = 0, presses = 0, releases = 0, changes = 0, up = 0, down = 0, doubles = 0,
                waits = 0, base_restarts = 0, car_restarts = 0, moves = 0, relays = 0;
 };
 
-// Faults that a test plants, to see that they are found.
+// Planted faults, to check that the explorer finds them.
 enum class Planted : std::uint8_t {
   kNone,
-  kForgetfulLedger,     // the car remembers no number
-  kAgeFromReception,    // a command is as old as its packet is here
-  kRenewalAtReception,  // the authority is renewed by whatever arrives
-  kLatchFollows,        // the stop ends when the base says none
-  kReleaseAfterPress,   // a release that was given before the press undoes it at the base
-  kAnyConsole,          // the ledger does not ask who gave a command
-  kOldRunsCount         // the ledger keeps its numbers when the base begins again
+  kForgetfulLedger,     // the car forgets the command numbers
+  kAgeFromReception,    // the age of a command counts from its reception
+  kRenewalAtReception,  // any received packet renews the authority
+  kLatchFollows,        // the stop ends when the base sends no stop
+  kReleaseAfterPress,   // a release issued before the press cancels the press at the base
+  kAnyConsole,          // the ledger does not check the issuer of a command
+  kOldRunsCount         // the ledger keeps its numbers after a restart of the base
 };
 
 enum class Broken : std::uint8_t {
@@ -118,11 +120,11 @@ enum class Broken : std::uint8_t {
 const char* text_of(Broken broken);
 
 struct UpPacket {
-  std::uint8_t run = 0, boot = 0;  // the session's
+  std::uint8_t run = 0, boot = 0;  // of the session: run of the base, boot of the car
   Instant sent{};
   UpRoute route;
   telemetry::StopState stop;
-  std::uint8_t presses = 0;  // before it was sent
+  std::uint8_t presses = 0;  // number before it was sent
   double holder = 0, epoch = 0, renewal = 0, renewal_age = 0;
   FixedVector<std::uint8_t, 96> body;
 };
@@ -133,24 +135,24 @@ struct DownPacket {
   FixedVector<std::uint8_t, 72> body;
 };
 
-// What really happened, for the judge alone.
+// True events, used only to judge the ends.
 struct Truth {
   struct OfCommand {
     Instant issued{};
     std::uint8_t applied = 0;
-    std::uint8_t presses = 0;  // before it was given
+    std::uint8_t presses = 0;  // number before it was issued
     HolderId issuer = 0;
     bool release = false;
   };
   std::array<std::array<OfCommand, kNumbersMax>, kRunsMax> commands{};
-  std::array<Instant, 3> renewed{};  // by console
+  std::array<Instant, 3> renewed{};  // newest renewal, by console
   std::array<bool, 3> ever_held{};
   std::uint8_t presses = 0;           // in this run of the base
-  std::uint8_t presses_received = 0;  // by this run of the car, of this run of the base
-  std::uint8_t presses_released = 0;  // before the newest release that was applied was given
+  std::uint8_t presses_received = 0;  // of them, by this run of the car
+  std::uint8_t presses_released = 0;  // of them, before the newest applied release was issued
   std::uint8_t releases = 0;          // that opened the latch
-  CommandId newest_applied = 0;       // speed limits, of this run of both
-  double newest_epoch = -1, newest_holder = 0;  // heard by this run of the car
+  CommandId newest_applied = 0;       // speed limits, in this run of both ends
+  double newest_epoch = -1, newest_holder = 0;  // received by this run of the car
 };
 
 class World {
@@ -158,7 +160,7 @@ class World {
   World(const Budget& budget, Planted planted, PlantedRoam roam = PlantedRoam::kNone);
 
   bool can(Action action) const;
-  Broken act(Action action);  // CHECKs that it can
+  Broken act(Action action);  // CHECKs that can(action) is true
   telemetry::Fingerprint fingerprint() const;
 
  private:
@@ -201,9 +203,9 @@ class World {
   telemetry::CommandLedgerOf<4> ledger_;
   telemetry::AuthorityView view_;
   telemetry::StopLatch latch_;
-  std::uint8_t run_met_ = 0;  // by this run of the car
+  std::uint8_t run_met_ = 0;  // run of the base in session with this run of the car; 0: none
   std::optional<telemetry::DueCommand> in_hand_;
-  std::uint8_t run_in_hand_ = 0;  // of the base that gave it
+  std::uint8_t run_in_hand_ = 0;  // run of the base that issued it
 
   Whereabouts where_;
   FixedVector<UpPacket, 3> up_;

@@ -1,16 +1,17 @@
-// Upper bound of the speed at which a car hits a wall, where no stop on the track can be promised:
-// computed from the track, the modelled car and the car's file, never from a run. docs/safe_stop.md
-// has the derivation.
+// Upper bound of the speed at which a car hits a wall after a loss for which no stop on the track
+// is promised. It is computed from the track, the modelled car and the car's file, never from a
+// run; docs/safe_stop.md has the derivation.
 //   in     what is lost, the car's Setup, the modelled car, the speed when it is lost
-//   out    the impact with the largest speed and that with the largest part normal to the wall,
-//          each over every place of the lap and every error of the curvature; speed 0: no contact
+//   out    the impact with the largest speed and the impact with the largest part normal to the
+//          wall, each over every place of the lap (10 m apart) and every error of the curvature;
+//          speed 0: no contact
 //   invariants
-//          the car keeps its speed until somebody reacts; then
-//            v' = -(pressure of whoever brakes, within the ellipse; air; rolling)
-//          it follows k = (delta + K g sin(bank)) / (L + K v^2) of the angle that it holds, or the
-//          line's curvature where it is steered without reference; both times 1 +- kCurvatureError,
-//          and a step of the motor beside it; no more than the tyres carry
-//          nothing that helps is counted: no engine brake, no scrubbing of tyres
+//          the car keeps its speed until the brakes react; then
+//            v' = -(brake pressure, within the friction ellipse; air; rolling resistance)
+//          it follows k = (delta + K g sin(bank)) / (L + K v^2) of the held angle, or the line's
+//          curvature if it is steered without reference; both times 1 +- kCurvatureError, plus one
+//          step of the motor, and at most what the tyres can transmit
+//          effects that help are not counted: engine brake, scrubbing of tyres
 //   units  SI
 //   errors none
 //   source Rajamani, Vehicle Dynamics and Control, 2nd ed., eq. 3.12 (steady-state bicycle)
@@ -29,26 +30,27 @@ namespace pitwall::testing {
 
 enum class Loss : std::uint8_t {
   kSteering,   // the motor holds its angle; the car brakes as in an emergency
-  kReference,  // no receiver and no inertial unit: steered by map and distance; brakes likewise
+  kReference,  // no receiver and no inertial unit: steered by map and distance; the same braking
   kComputer    // car process and guardian dead: the drive-by-wire holds the angle and brakes
 };
 const char* text_of(Loss loss);
 
-// Our structure, the other one, and the first in the set-up that understeers: plant files.
+// Plant files: our structure, the other structure, and ours in the set-up that understeers.
 inline constexpr std::array kRacingCars{"av21", "av21_compliant", "av21_putnam"};
 inline constexpr double kRacing_mps = 65.7;  // 147 mph
 
-// Of the curvature that is driven to the one that is meant, while the car brakes: the load moves to
-// the front and the tyres share their grip.
+// Relative error of the driven curvature while the car brakes: the load moves to the front and the
+// tyres share their grip.
 inline constexpr double kCurvatureError = 0.10;
 
 struct Impact {
   double speed_mps = 0.0, normal_mps = 0.0;
-  double from_s_m = kUnset, after_m = 0.0, after_s = 0.0;  // where it was lost; until the wall
+  // Station of the loss; distance and time from there to the wall.
+  double from_s_m = kUnset, after_m = 0.0, after_s = 0.0;
   bool left = false;
 };
 
-// The part of the speed that is normal to the nearer wall; `slip_rad` of the course beside the yaw.
+// Part of the speed normal to the nearer wall; `slip_rad` is the course minus the yaw.
 double normal_mps(const world::TrackMap& track, const plant::Road& road, double speed_mps,
                   double slip_rad);
 

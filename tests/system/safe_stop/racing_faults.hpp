@@ -1,9 +1,9 @@
-// Faults at racing speed, all from the same bytes: the car drives from rest to a turn of Las Vegas,
-// and there each fault happens once, in a process that is forked off. What nobody can notice while
+// Faults at racing speed, all from the same state to the byte. The car drives from rest to a turn
+// of Las Vegas; there the process forks once for each fault. A fault that cannot be detected while
 // the car drives is followed by the operator's stop.
 //   in     the modelled car
-//   out    RacingFigures of every fault, judged by what is true of the plant
-//   errors a lead-in that does not reach the place: every fault has begun == false
+//   out    RacingFigures of every fault, computed from the true state of the plant
+//   errors if the car does not reach the place, every fault has begun == false
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -19,15 +19,15 @@ namespace pitwall::testing {
 enum class RacingFault : std::uint8_t {
   kSteeringSlow,  // 6 degrees per second at the motor
   kThrottleStuck,
-  kBrakeFree,   // no pressure comes any more
-  kBrakeDrags,  // a pressure that never goes
+  kBrakeFree,   // the pressure stays zero
+  kBrakeDrags,  // a pressure that stays applied
   kFrontBrakeLost,
   kRearBrakeLost,
-  kPositions,  // no receiver solves
+  kPositions,  // the receivers report 1000 times their deviation
   kImus,       // no inertial sample
-  // A stop on the track is not promised: impact_bound.hpp.
+  // A stop on the track is not promised for these: see impact_bound.hpp.
   kSteeringStuck,
-  kReference,  // both
+  kReference,  // both receivers, with their inertial units
   kComputer    // car process and guardian
 };
 inline constexpr std::size_t kRacingFaults = 11;
@@ -36,7 +36,7 @@ const char* text_of(RacingFault fault);
 struct RacingFigures {
   bool begun = false, stood = false, contact = false;
   double from_mps = kUnset, lasted_s = 0.0, distance_m = 0.0;
-  double impact_mps = 0.0, normal_mps = 0.0;  // normal to the wall
+  double impact_mps = 0.0, normal_mps = 0.0;  // at the wall: whole speed, and normal to it
   double slip_deg = 0.0;                      // largest slip angle of the car, above 5 m/s
   double wall_gap_m = 1e9;
   double end_mps = kUnset;

@@ -1,7 +1,8 @@
-// One stop from speed at a place of Las Vegas Motor Speedway: a car starts from rest far enough
-// before it, drives at the speed that its planner allows, and at the place the operator's switch
-// disarms it, which is a controlled stop. Sensors with noise, localization in the loop; judged by
-// what is true of the plant.
+// Stop of one car from speed at a place of Las Vegas Motor Speedway. The car starts from rest far
+// enough before the place and drives at the speed that its planner allows. At the place the
+// operator's switch disarms it: a controlled stop, or an emergency stop if the case says so.
+// Sensors have noise and localization is in the loop; the figures come from the true state of the
+// plant.
 //   in     station, temperature of the tyres, what breaks at the stop
 //   out    StopFigures; `planned` is the stop trajectory that was ready when the stop began
 //   errors a run that cannot be built fails the test
@@ -16,18 +17,18 @@
 
 namespace pitwall::testing {
 
-inline constexpr double kColdLoss = 0.35;  // of the modelled friction at 25 C
+inline constexpr double kColdLoss = 0.35;  // loss of the modelled friction at 25 C
 
 enum class Breakage : std::uint8_t {
   kNothing,
   kFullBrake,           // the stop is planned and followed without any limit
-  kFrontBrakes,         // half the torque of the front brakes is gone: the rear ones lock first
-  kFullRearBrake,       // both
-  kPlanning,            // planning is dead from the first tick of the stop on
-  kControl,             // control gives nothing usable
+  kFrontBrakes,         // the front brakes have half their torque: the rear wheels lock first
+  kFullRearBrake,       // kFullBrake and kFrontBrakes
+  kPlanning,            // planning is dead from the first tick of the stop
+  kControl,             // the output of control is unusable
   kPlanningAndControl,  // both
-  kPositions,           // no position, velocity and heading from 4 s after the begin on
-  kSensors              // no sample of any receiver from 4 s after the begin on
+  kPositions,           // only IMU samples of the receivers, from 4 s after the beginning
+  kSensors              // no sample of any receiver, from 4 s after the beginning
 };
 const char* text_of(Breakage breakage);
 
@@ -42,9 +43,9 @@ struct StopFigures {
   bool begun = false, stood = false, contact = false;
   double from_mps = kUnset, from_bank_deg = kUnset;
   double distance_m = 0.0, lasted_s = kUnset;
-  double cross_track_m = 0.0;  // largest, of the true place from the planned path
-  double use = 0.0;            // largest share of its friction that a tyre used
-  double use_before = 0.0;     // in the second before the stop began
+  double cross_track_m = 0.0;  // largest distance of the true position from the planned path
+  double use = 0.0;            // largest share of its friction that a tyre uses
+  double use_before = 0.0;     // likewise, in the second before the stop begins
   double jerk_mps3 = 0.0;      // largest, of the true forward acceleration over 0.2 s
   double planned_jerk_mps3 = 0.0;
   double decel_mps2 = 0.0, slip_deg = 0.0;

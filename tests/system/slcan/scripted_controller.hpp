@@ -1,8 +1,8 @@
-// A CAN controller that a test plays: the far end of a pseudo-terminal whose near end is a network
-// interface of the kernel's own driver slcan (line discipline N_SLCAN). States, bus errors,
-// bus-off, received frames and a transmitter that does not move are all real to everything above.
-//   in     what the controller says: say("sw096000\r"); whether it takes what the kernel sends
-//   out    what the kernel sent, line by line, with the order kept
+// Simulated CAN controller behind the kernel's driver slcan (line discipline N_SLCAN): the far end
+// of a pseudo-terminal whose near end is a network interface. States, bus errors, bus-off, received
+// frames and a blocked transmitter look real to all software above.
+//   in     lines of the controller: say("sw096000\r"); whether it reads what the kernel sends
+//   out    the lines that the kernel sent, in order
 //   errors open(): Problem (no module slcan, not root)
 //   source Linux drivers/net/can/slcan; Lawicel ASCII protocol
 // SPDX-License-Identifier: Apache-2.0
@@ -30,15 +30,15 @@ class ScriptedController {
 
   const std::string& interface() const { return interface_; }
   void say(std::string_view words);
-  // Whether what the kernel sends is taken; where not, its queue fills.
-  // At once: nothing is taken after listen(false) has returned.
+  // Whether the kernel's output is read; if not, the kernel's queue fills. Takes effect at once:
+  // nothing is read after listen(false) has returned.
   void listen(bool on);
-  // Said soon after each "open" (O or L) of the kernel; empty: nothing.
+  // Sent 20 ms after each "open" (O or L) of the kernel; empty: nothing is sent.
   void answer_open(std::string words);
-  // Of what was taken since the last call: data frames ("t..."), or everything.
+  // Data frames ("t...") read since the last call.
   std::vector<std::string> take_frames();
   std::size_t opened() const { return opened_.load(); }
-  // Pulls the plug: the interface vanishes.
+  // Closes the line, so that the interface vanishes.
   void unplug();
 
  private:
@@ -52,7 +52,7 @@ class ScriptedController {
   transport::FileDescriptor master_, line_;
   std::string interface_;
   std::atomic<bool> end_{false};
-  std::mutex reading_;  // held while something is taken
+  std::mutex reading_;  // held during a read
   bool listening_ = true;
   std::atomic<std::size_t> opened_{0};
   std::mutex lock_;

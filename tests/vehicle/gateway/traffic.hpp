@@ -1,4 +1,4 @@
-// Frames as a healthy car sends them, and a seeded source of numbers for unhealthy ones.
+// CAN frames of a healthy car for the gateway tests.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -76,7 +76,7 @@ inline can::Frame marelli(const Marelli& flags) {
   return frame_of(m);
 }
 
-// All zero bytes of the right length are a legal frame of every message of the car but the tyre
+// Zero bytes of the right length are a valid frame of every message of the car, except the tyre
 // temperatures, which then read -100 degrees.
 inline can::Frame empty_frame(const can::MessageRow& row) {
   can::Frame frame;

@@ -1,5 +1,5 @@
-// A car on a straight road with a guardian beside it: what the car's process says and publishes,
-// what the drive-by-wire reports, and what the brake does to the speed.
+// Simulation of a car on a straight road and its guardian: frames and record of the car process,
+// the reports of the drive-by-wire, and the effect of the brake on the speed.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -18,7 +18,7 @@ namespace av21 = can::av21;
 inline constexpr double kSpeed_mps = 65.0, kDecel_mps2 = 5.0;
 inline constexpr std::uint64_t kRun = 77;
 
-// To standstill along x with a constant deceleration, and 40 m beyond.
+// Stop along x with a constant deceleration, and 40 m beyond the standstill.
 inline world::Trajectory straight_stop(double from_x_m, double speed_mps) {
   world::Trajectory stop;
   const double stop_m = speed_mps * speed_mps / (2.0 * kDecel_mps2);
@@ -50,7 +50,7 @@ class Straight {
   std::uint8_t counter = 0;
   std::uint8_t report_counter = 0;
   std::vector<can::Frame> sent;    // by the guardian, in the last tick
-  std::vector<can::Frame> so_far;  // by the guardian
+  std::vector<can::Frame> so_far;  // by the guardian, in all ticks
   Output out;
 
   Straight() {
@@ -60,7 +60,7 @@ class Straight {
     record.datum = {36.0, -115.0, 600.0};
   }
 
-  // One millisecond; the car and the drive-by-wire speak every ten.
+  // One millisecond; the car and the drive-by-wire send every ten.
   void tick() {
     now += milliseconds(1);
     move();
@@ -87,7 +87,7 @@ class Straight {
   void run(Duration span) {
     for (const Instant until = now + span; now < until;) tick();
   }
-  // Until the car process has just spoken, and then silent.
+  // Runs until just after a transmission of the car process; from then on it is silent.
   void fall_silent() {
     while ((now - Instant{}).ns % milliseconds(10).ns != 0) tick();
     car_speaks = car_publishes = false;
@@ -170,10 +170,10 @@ class Straight {
   }
 
  public:
-  bool keep_stop = false;  // the record's stop stays as it is
+  bool keep_stop = false;  // the record keeps its stop trajectory
 };
 
-// A car that drove for a second, and whose process has been silent for `span`.
+// A car that has driven for a second, and whose process has then been silent for `span`.
 inline Straight silent_for(Duration span) {
   Straight car;
   car.drive_for_a_second();

@@ -1,5 +1,5 @@
-// The car file that ships, and what a slip of the pen can make of it: mechanical changes of its
-// text, each with the line that it touched.
+// Mutations of the shipped car file: mechanical changes of its text like typing errors, each with
+// the line that it changes.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -32,19 +32,19 @@ inline const std::string& av21() {
   return text;
 }
 
-// Why the text is refused; empty if it is read.
+// The reason why the text is refused; empty if it is valid.
 inline std::string refusal(const std::string& text) {
   const auto car = read_car(text, "car.yaml");
   return car ? std::string{} : to_string(car.error());
 }
 
-// A piece of the text: [from, to), on `line` (the first is 1).
+// A piece of the text: [from, to), on `line` (from 1).
 struct Piece {
   std::size_t from, to, line;
   std::string text;
 };
 
-// Calls fn(offset of the line, line without its comment, number of the line).
+// Calls fn(offset of the line, line without its comment, line number).
 template <class Fn>
 void each_line(const std::string& text, Fn fn) {
   std::size_t from = 0, number = 0;
@@ -59,7 +59,7 @@ void each_line(const std::string& text, Fn fn) {
 
 inline bool is_of_word(char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '_'; }
 
-// Every number that is a value or an entry of a list.
+// Every number that is a value or an element of a list.
 inline std::vector<Piece> numbers(const std::string& text) {
   std::vector<Piece> found;
   each_line(text, [&](std::size_t offset, const std::string& line, std::size_t number) {
@@ -93,7 +93,7 @@ inline std::vector<Piece> keys(const std::string& text) {
   return found;
 }
 
-// Lines that say something.
+// Lines with content.
 inline std::vector<Piece> lines(const std::string& text) {
   std::vector<Piece> found;
   each_line(text, [&](std::size_t offset, const std::string& line, std::size_t number) {
@@ -108,15 +108,15 @@ inline std::string replaced(const std::string& text, const Piece& piece, const s
   return text.substr(0, piece.from) + by + text.substr(piece.to);
 }
 
-// The text with the first `what` replaced; `what` must be there.
+// The text with the first `what` replaced; throws if `what` is not in it.
 inline std::string with(const std::string& text, const std::string& what, const std::string& by) {
   const std::size_t at = text.find(what);
   if (at == std::string::npos) throw std::runtime_error("not in the file: " + what);
   return replaced(text, {at, at + what.size(), 0, what}, by);
 }
 
-// The number's path: "control.lateral.brackets[3].q[0]". One key per line and flow mappings, as the
-// file is written.
+// Path of the number: "control.lateral.brackets[3].q[0]". Requires one key per line and flow
+// mappings, as in the shipped file.
 inline std::string path_of(const std::string& text, const Piece& number) {
   std::vector<std::pair<std::size_t, std::string>> open;  // indentation, name
   std::size_t item = 0;
@@ -149,10 +149,10 @@ inline std::string path_of(const std::string& text, const Piece& number) {
   return path.substr(1);
 }
 
-// What a module was told, by the path of the number in the file and in the file's unit.
+// Parameters of a module, by the path of the number in the file and in the file's unit.
 using Reported = std::map<std::string, double>;
 
-// Other numbers that are likely to be legal too: whole ones where a whole one may be needed.
+// Other numbers that are probably valid too; integers for an integer.
 inline std::vector<std::string> neighbours(const std::string& number) {
   const double value = std::stod(number);
   if (number.find_first_of(".e") == std::string::npos) {
@@ -165,8 +165,8 @@ inline std::vector<std::string> neighbours(const std::string& number) {
   return {more.str(), less.str()};
 }
 
-// Every number of the section moves the parameter of its own name, to the value that is written,
-// and no other.
+// Each number of the section changes the parameter of its own name, to the written value, and no
+// other parameter.
 template <class Read>
 void expect_each_number_to_move_its_own(const std::string& section, Read read) {
   const auto parsed = [](const std::string& text) {

@@ -1,5 +1,5 @@
-// What the car's computer hears of a healthy car that stands on the track: every CAN message at its
-// period and the samples of both receivers. And its opposite: seeded noise of every kind.
+// Inputs of the car's computer in a healthy car that stands on the track: every CAN message at its
+// period and the samples of both receivers. Also the opposite: seeded noise of every kind.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -28,7 +28,7 @@ namespace pitwall::pipeline::testing {
 namespace av21 = can::av21;
 
 inline constexpr Duration kTick = milliseconds(10);
-inline constexpr Instant kStart{5'000'000'000};  // a machine is never started at zero
+inline constexpr Instant kStart{5'000'000'000};  // the clock of a real machine is never zero
 
 inline std::string text_of(const char* path) {
   std::ifstream file(std::filesystem::path(PITWALL_SOURCE_DIR) / path, std::ios::binary);
@@ -60,13 +60,13 @@ inline const Setup& setup() {
   return made;
 }
 
-// Any bit pattern a third of the time, else of a size that could be meant.
+// One third of the numbers are random bit patterns, the others have a plausible size.
 inline double any_number(Random& random) {
   if (random.one_in(3)) return std::bit_cast<double>(random.next());
   return (static_cast<double>(random.below(2'000'001)) - 1e6) * 1e-4;
 }
 
-// What one tick is given; the frames live here.
+// Inputs of one tick; owns the frames.
 struct Received {
   std::vector<can::ReceivedFrame> frames;
   world::SensorInput sensors;
@@ -159,7 +159,7 @@ class StandingCar {
       if (tick % 5 != 0) continue;  // 20 Hz
       world::GnssPosition p{.unit = unit, .at = now, .solution_status = world::kSolutionComputed};
       p.position_type = world::kPositionNarrowInt;
-      // The car leans with the road, and its masts with it.
+      // The car and its antenna masts lean with the road.
       const double cb = std::cos(here.bank_rad), sb = std::sin(here.bank_rad);
       const double ahead = mount.antenna.x_m,
                    left = cb * mount.antenna.y_m + sb * mount.antenna.z_m;
@@ -189,7 +189,7 @@ inline can::ReceivedFrame random_frame(Random& random, Instant now) {
   can::Frame& frame = f.frame;
   frame.id = static_cast<std::uint32_t>(random.below(can::kMaxStandardId + 1));
   frame.length = static_cast<std::uint8_t>(random.below(9));
-  if (random.one_in(2)) {  // of the database, mostly of the right length
+  if (random.one_in(2)) {  // from the database, mostly with the right length
     const can::MessageRow& row = av21::kMessages[random.below(av21::kMessages.size())];
     frame.id = row.id;
     if (!random.one_in(8)) frame.length = row.length;

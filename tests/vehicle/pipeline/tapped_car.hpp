@@ -1,5 +1,5 @@
-// A tick of which every number is another one, so that two fields that were exchanged show, and the
-// telemetry tap of it.
+// Tick in which every number is different, so that a test detects exchanged fields, and the
+// telemetry tap of this tick.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -62,7 +62,7 @@ inline void hear_car(world::VehicleSignals& s) {
   receive(s.tyre_pressure_kpa, world::PerWheel{{151, 152, 153, 154}}, 20);
 }
 
-// How often, of the last second.
+// Rates, gaps and latencies of the last second.
 inline void hear_sensors(safety::WatchdogOutput& watchdog) {
   const auto figures = [&](safety::Stream stream, double rate_hz, int gap_ms, int latency_ms) {
     auto& row = watchdog.rows[static_cast<std::size_t>(stream)];
@@ -148,7 +148,7 @@ inline Outputs full() {
   return out;
 }
 
-// What the car kept: faults, a plan, a filter that runs.
+// State of the car: faults, a plan, a running filter.
 inline std::unique_ptr<Car> full_car() {
   auto car = std::make_unique<Car>();
   car->supervisor.log.record({ago_ms(9'000), safety::Cause::kGnssRateLost, 1.0}, false);
@@ -203,7 +203,7 @@ inline std::unique_ptr<Car> full_car() {
   return car;
 }
 
-// A second and a little of ticks: 20 Hz of one receiver, 100 Hz of one IMU, once round the track.
+// 1.3 s of ticks: one receiver at 20 Hz, one IMU at 100 Hz, more than one lap of the track.
 inline TickLog full_log() {
   TickLog log;
   constexpr int kTicks = 130;

@@ -1,4 +1,4 @@
-// A car under the supervisor's command, in virtual time.
+// Simulated car under the supervisor's command, in virtual time.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -12,7 +12,7 @@
 
 namespace pitwall::safety::testing {
 
-// A car that does what it is told: 250 kPa for 1 m/s^2, 6 m/s^2 with full throttle.
+// A car that executes every command: 250 kPa for 1 m/s^2, 6 m/s^2 with full throttle.
 struct Drive {
   SupervisorParams params;
   SupervisorState state;
@@ -52,13 +52,13 @@ struct Drive {
   void run(Duration span) {
     for (const Instant end = now + span; now < end;) tick();
   }
-  // The drive-by-wire has not been heard for this long; zero: it is heard.
+  // Sets the age of all drive-by-wire streams; zero: just received.
   void silence(Duration age) {
     for (auto s = static_cast<std::size_t>(Stream::kWheelSpeed);
          s <= static_cast<std::size_t>(Stream::kDiagnostics); ++s)
       car.watchdog.rows[s].age = age;
   }
-  // Nothing of it is heard any more, the wheels among it; it still obeys.
+  // All drive-by-wire streams are lost, wheel speeds included; the car still executes commands.
   void kill_bus() {
     silence(milliseconds(71));
     wheels_known = false;

@@ -1,4 +1,4 @@
-// What the frame gate's tests share: frames as a car would send them, and a gate with a clock.
+// Common parts of the frame gate's tests: frames as a car sends them, and a gate with a clock.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -68,7 +68,7 @@ inline can::Frame blank(std::uint32_t id, std::uint8_t length) {
   frame.length = length;
   return frame;
 }
-// A frame of this id that every rule lets pass, with this counter where it has one.
+// A frame of this id that passes every rule, with this counter if the message has one.
 inline can::Frame harmless(std::uint32_t id, int counter) {
   if (id == 1400) return brake(0, counter);
   if (id == 1401) return throttle(0, counter);
@@ -85,7 +85,7 @@ inline const can::MessageRow* row_of(std::uint32_t id) {
   return nullptr;
 }
 
-// A gate that has been on for 100 s, armed and driving; the command is fresh after every wait.
+// A gate that has run for 100 s, armed and driving; the command is fresh after every wait.
 struct Gate {
   GateParams params;
   GateState state;

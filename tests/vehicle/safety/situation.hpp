@@ -1,4 +1,4 @@
-// A healthy situation, piece by piece, and a seeded source of numbers to spoil it.
+// Inputs of the supervisor in a healthy situation, which a test changes one by one.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -62,7 +62,7 @@ struct Situation {
     at(Instant{}, 0.0);
   }
 
-  // Everything that has a time is of now.
+  // Sets the time of all inputs to now.
   void at(Instant now, double speed_mps) {
     signals.wheel_speed_mps = {{{speed_mps, speed_mps, speed_mps, speed_mps}}, now, true};
     ego.vx_mps = speed_mps;

@@ -1,5 +1,6 @@
-// Linear systems of one tick, x+ = a x + b u, y = c x + d u: from differential equations with the
-// hold of the tick, and their frequency response. Small matrices; no library, for the sake of -Og.
+// Discrete linear systems of one tick, x+ = a x + b u, y = c x + d u: conversion from differential
+// equations with zero-order hold, and frequency response. For small matrices; no library, so that
+// they are fast enough with -Og.
 //   source Franklin, Powell, Workman, Digital Control of Dynamic Systems, 3rd ed., sec. 4.3 (hold)
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
@@ -33,7 +34,7 @@ Matrix<kSize, kSize> product(const Matrix<kSize, kSize>& left, const Matrix<kSiz
   return out;
 }
 
-// By its series for a part of the time, squared until it is the whole.
+// Matrix exponential by scaling and squaring: its series for a part of the time, then squared.
 template <std::size_t kSize>
 Matrix<kSize, kSize> exponential(Matrix<kSize, kSize> m) {
   constexpr int kSquarings = 8, kTerms = 16;

@@ -1,5 +1,5 @@
-// A single-track car with linear tyres and a steering that is late and lags, at constant speed
-// along a straight, under the law of steering. Shares nothing with the code under test.
+// Linear single-track car with steering delay and lag, at constant speed along a straight, under
+// the control law of steering. It shares no code with the code under test.
 //   source Rajamani, Vehicle Dynamics and Control, 2nd ed., eq. 2.31 (single track)
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
@@ -16,9 +16,9 @@
 namespace pitwall::steering::testing {
 
 constexpr double kMass_kg = 790.0, kInertia_kg_m2 = 1000.0, kFront_m = 1.724, kRear_m = 1.247;
-constexpr double kRearSlope_n_per_rad = 260e3;  // of both rear tyres
+constexpr double kRearSlope_n_per_rad = 260e3;  // cornering stiffness of both rear tyres
 
-// The slope of the front tyres that makes an understeer gradient with that of the rear ones.
+// Cornering stiffness of the front tyres that gives the understeer gradient with that of the rear.
 constexpr double front_slope(double understeer, double rear_n_per_rad) {
   return kRear_m / (understeer * (kFront_m + kRear_m) / kMass_kg + kFront_m / rear_n_per_rad);
 }
@@ -26,9 +26,9 @@ constexpr double front_slope(double understeer, double rear_n_per_rad) {
 struct CarCase {
   double speed_mps = 65.0;
   double understeer = 0.0002;  // rad/(m/s^2)
-  double tyre_share = 1.0;     // of the slope of the rear tyres; the front ones by the understeer
+  double tyre_share = 1.0;  // factor of the rear tyres' stiffness; the front follows `understeer`
   double delay_s = 0.04, lag_s = 0.06;
-  bool learned = true;  // the law knows the understeer
+  bool learned = true;  // the control law has learned the understeer
 };
 
 class LinearCar {
@@ -68,7 +68,7 @@ class LinearCar {
   std::deque<double> delayed_;
 };
 
-// The law that steered before: stiffer, and without the lead of the yaw rate.
+// Parameters of the earlier control law: stiffer, and without the lead of the yaw rate.
 inline Params stiff() {
   Params p;
   p.bandwidth_rad_per_s = 2.5, p.damping = 0.9, p.lead_s = 0.0, p.gain_share = 0.0;
@@ -77,7 +77,7 @@ inline Params stiff() {
   return p;
 }
 
-// What came of a start beside the path: the largest distance in each span of five seconds.
+// Result of a start beside the path: the largest distance in each span of five seconds.
 struct Settling {
   std::array<double, 6> worst_m{};
   double angle_rate_late_rad_per_s = 0.0;  // largest, in the last span

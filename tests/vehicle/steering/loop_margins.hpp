@@ -1,7 +1,7 @@
-// Margins of a stable loop from its open frequency response: how much more or less gain, how much
-// more lag and delay it bears, and how near it comes to -1.
+// Margins of a stable loop from its open-loop frequency response: gain up and down, phase, delay,
+// and the peak of the sensitivity.
 //   in     the response as a function of the frequency, negative feedback; highest frequency
-//   out    Margins; infinite (down: 0) where nothing is the limit
+//   out    Margins; infinite (gain_down: 0) if there is no limit
 //   source Astrom, Murray, Feedback Systems, 2nd ed., sec. 10.3 and 13.2 (sensitivity)
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
@@ -21,7 +21,7 @@ struct Margins {
   double sensitivity = 0.0;  // largest |1 / (1 + L)|
 };
 
-// Where f changes its sign between two frequencies.
+// Frequency between the two at which f changes its sign.
 template <class Fn>
 double crossing(Fn f, double low, double high) {
   const bool rises = f(low) < 0.0;
@@ -62,7 +62,7 @@ Margins margins_of(Response loop, double highest_rad_per_s) {
     const std::complex<double> now = loop(frequency(i));
     if ((std::abs(before) < 1.0) != (std::abs(now) < 1.0)) {
       const double w = crossing(excess, frequency(i - 1), frequency(i));
-      // The lag down to -180 degrees, and the way up to +180.
+      // The lag to -180 degrees, and the lead to +180.
       const double lag = std::arg(-loop(w));
       const double whole = 2.0 * std::numbers::pi;
       out.phase_rad = std::min(out.phase_rad, std::abs(lag));

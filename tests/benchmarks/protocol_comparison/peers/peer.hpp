@@ -1,8 +1,9 @@
-// What the programs of `bench radio` have in common: their command line, their clock, the state
-// that they send, and what the base says of it.
-// See tests/benchmarks/protocol_comparison/comparison.hpp.
+// Common parts of the peer programs of `pitwall-benchmarks radio`: command line, clock, the state
+// that they send, and what the base prints. See
+// tests/benchmarks/protocol_comparison/comparison.hpp.
 //   in     car|base END_NS BULK [MODE]
-//   out    the base prints "MADE_NS ARRIVED_NS" for each state, "bulk ARRIVED_NS BYTES" for bulk
+//   out    the base prints "MADE_NS ARRIVED_NS [STREAM]" for each state, "bulk ARRIVED_NS BYTES"
+//          for bulk
 //   units  ns of CLOCK_MONOTONIC
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
@@ -22,7 +23,7 @@ namespace pitwall::peers {
 inline constexpr std::size_t kFloats = 84, kIntegers = 10, kFlags = 6;
 inline constexpr std::size_t kBulkBytes = 4'000;
 inline constexpr Duration kStatePeriod = milliseconds(20), kBulkPeriod = milliseconds(50);
-// What a tuned contestant is told of the link, and how much of it it uses.
+// Link rate for which a tuned peer is configured, and the share of it that the peer uses.
 inline constexpr double kLinkBytes_per_s = 32'000.0, kTunedShare = 0.95;
 
 struct Call {
@@ -43,7 +44,7 @@ inline Call call_of(int argc, char** argv) {
           .mode = argc > 4 ? argv[4] : ""};
 }
 
-// A vehicle's state as it changes while driving: no field stays zero for long.
+// Vehicle state that changes as while driving: no field stays zero for long.
 struct VehicleState {
   std::int64_t made_ns = 0;
   std::array<float, kFloats> floats{};
@@ -66,15 +67,15 @@ inline VehicleState state_at(Instant now) {
   return state;
 }
 
-// When bulk goes: by default as it comes.
+// Size and times of the bulk; the defaults send each object at once.
 struct BulkPlan {
-  std::size_t bytes = kBulkBytes;  // at once
+  std::size_t bytes = kBulkBytes;  // per send
   Duration period = kBulkPeriod, offset = milliseconds(7);
 };
 
-// MODE "paced": bulk in pieces, each half a period behind a state, of what state leaves of the
-// tuned share of the link.
-//   in   bytes of a period's state and of a piece's headers, with IP and UDP
+// MODE "paced": one piece of bulk half a period after each state, as large as the state leaves room
+// for in the tuned share of the link.
+//   in   bytes of the state of a period and of the headers of a piece, with IP and UDP
 inline BulkPlan paced(Duration state_period, std::size_t state, std::size_t headers) {
   const double all = kLinkBytes_per_s * kTunedShare * state_period.seconds();
   const double left = all - static_cast<double>(state + headers);
@@ -83,7 +84,8 @@ inline BulkPlan paced(Duration state_period, std::size_t state, std::size_t head
           .offset = state_period / 2};
 }
 
-// Every period of each until the end; what is late is done at once and not made up for.
+// Sends state and bulk at their periods until the end. A late send happens at once; missed ones are
+// not repeated.
 template <class SendState, class SendBulk>
 void send_until_end(const Call& call, Duration state_period, const BulkPlan& bulk,
                     SendState&& send_state, SendBulk&& send_bulk) {
@@ -104,7 +106,7 @@ void send_until_end(const Call& call, Duration state_period, const BulkPlan& bul
   }
 }
 
-// `stream`: which part of the state, with a blank in front; empty where it comes whole.
+// `stream`: name of the part of the state, after a blank; empty if the state arrives as a whole.
 inline void note_arrival(std::int64_t made_ns, const char* stream = "") {
   std::printf("%lld %lld%s\n", static_cast<long long>(made_ns),
               static_cast<long long>(transport::monotonic_now().ns), stream);

@@ -1,4 +1,5 @@
-// A drive of the car's own pipeline with every kind of input, recorded by the car's own black box.
+// Recorded test drive: the car's own pipeline with every kind of input, recorded by the car's own
+// black box.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -62,7 +63,7 @@ class RecordedDrive {
                at);
   }
 
-  // The samples as their receivers say them.
+  // Encodes the samples as their receivers send them.
   void receive(const world::SensorInput& samples, Instant now) {
     receivers_.clear();
     encoders_.encode(samples, [&](std::uint8_t unit, std::span<const std::uint8_t> bytes) {
@@ -71,7 +72,7 @@ class RecordedDrive {
     });
   }
 
-  // What comes now and then: commands, a joystick, a stop, a guardian, a link with losses.
+  // Adds the rare inputs: commands, a joystick, a stop, a guardian, a link with losses.
   void add_rare(std::uint64_t tick, Instant now, pipeline::Inputs& in) {
     commands_.clear();
     if (tick == 40 || tick == 41)
@@ -107,7 +108,7 @@ class RecordedDrive {
   std::vector<world::OperatorCommand> commands_;
 };
 
-// Made once for all tests of this folder.
+// The recording is made once for all tests of this folder.
 inline const std::string& recorded_folder() {
   static const transport::TemporaryFolder folder =
       *transport::TemporaryFolder::create("pitwall-recorded-");

@@ -1,4 +1,4 @@
-// A log as python-can reads and writes it (log_oracle.py), and the comparison with ours.
+// CAN logs as python-can reads and writes them (log_oracle.py), and the comparison with ours.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -17,7 +17,7 @@
 namespace pitwall::replay::oracle {
 
 struct Message {
-  char kind = 'F';  // E: error frame, X: refused by python-can's own check, Q: it gave up here
+  char kind = 'F';  // F: frame, E: error frame, X: refused by python-can's own check, Q: it stopped
   double at_s = 0.0;
   std::string channel;
   LoggedFrame logged;
@@ -31,7 +31,7 @@ inline std::string hex_of(const can::Frame& f) {
   return out.empty() ? "-" : out;
 }
 
-// Runs a command of the oracle; what it printed.
+// Runs a command of the oracle and returns its output.
 inline std::string run(const std::string& arguments, const std::string& folder,
                        const std::string& input = {}) {
   const std::string in = folder + "/oracle.in", out = folder + "/oracle.out";
@@ -79,7 +79,7 @@ inline std::vector<Message> read(const std::string& format, const std::string& p
   return out;
 }
 
-// The frames of a log, written by python-can; channels are numbers, as its formats want them.
+// Lets python-can write the frames of a log; channels are numbers, as its formats need them.
 inline void write(const std::string& format, const std::string& path, const CanLog& log,
                   const std::string& folder, std::size_t error_frames = 0) {
   std::string list;
@@ -99,13 +99,13 @@ inline void write(const std::string& format, const std::string& path, const CanL
 }
 
 struct Tolerance {
-  bool relative = false;  // stamps from the first frame only
-  bool direction = true;  // known to both
-  int first_channel = 0;  // what python-can calls can0
-  double stamp_s = 1e-6;  // its stamps are doubles
+  bool relative = false;  // stamps count from the first frame only
+  bool direction = true;  // the format keeps the direction for both readers
+  int first_channel = 0;  // python-can's number of can0
+  double stamp_s = 1e-6;  // python-can's stamps are doubles
 };
 
-// What python-can reads and refuses itself, we have left out with a remark, or understood.
+// A frame that python-can reads and refuses itself must be left out with a remark by ours, or read.
 inline void expect_same(const CanLog& ours, const std::vector<Message>& theirs,
                         const Tolerance& tolerance) {
   std::vector<Message> wanted;

@@ -1,4 +1,4 @@
-// A capture that was never made: every kind of frame that the formats know, on three channels.
+// Generated CAN log with every kind of frame that the formats support, on three channels.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -13,7 +13,7 @@ struct MadeLog {
   std::size_t frames = 300;
   std::size_t channels = 3;
   bool fd = true, remote = true;
-  std::int64_t step_ns = 1'000;  // stamps are multiples of it
+  std::int64_t step_ns = 1'000;  // resolution of the stamps
   std::uint64_t seed = 1;
 };
 

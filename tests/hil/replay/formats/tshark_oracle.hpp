@@ -1,4 +1,4 @@
-// A log as tshark dissects it, and the comparison with ours.
+// CAN logs as tshark dissects them, and the comparison with ours.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -14,7 +14,7 @@
 
 namespace pitwall::replay::oracle {
 
-// One line a packet: stamp, id, extended, remote, error, length, BRS, ESI, data, protocols.
+// One line per packet: stamp, id, extended, remote, error, length, BRS, ESI, data, protocols.
 inline std::vector<std::vector<std::string>> tshark_rows(const std::string& path,
                                                          const std::string& folder) {
   const std::string out = folder + "/tshark.out";
@@ -36,7 +36,7 @@ inline std::vector<std::vector<std::string>> tshark_rows(const std::string& path
   return rows;
 }
 
-// `judges_fd`: of BLF tshark 4.0 shows every frame as a classic one, whatever its flags.
+// `judges_fd`: false for BLF, where tshark 4.0 shows every frame as a classic one.
 inline void expect_as_tshark(const CanLog& ours, const std::string& path, const std::string& folder,
                              bool judges_fd = true) {
   std::size_t next = 0, errors = 0;

@@ -1,5 +1,5 @@
-// What the tests of this folder read: a black box in memory, files of other makers in a folder, and
-// recordings as lines that tests/support/oracles/bag_line.mjs writes too.
+// Samples for the tests of this folder: a black box in memory, files written by other programs, and
+// recordings as lines in the form of tests/support/oracles/bag_line.mjs.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -72,7 +72,7 @@ inline std::string all_remarks(const Recording& recording) {
   return text;
 }
 
-// Every invariant that recording.hpp promises.
+// Checks every invariant of recording.hpp.
 inline void expect_sound(const Recording& recording) {
   EXPECT_TRUE(std::ranges::is_sorted(recording.records, precedes));
   std::vector<Source> seen = recording.sources;
@@ -85,7 +85,7 @@ inline void expect_sound(const Recording& recording) {
     EXPECT_GE(record.at, source.first);
     EXPECT_LE(record.at, source.last);
     ++source.records;
-    for (const std::uint8_t byte : record.bytes()) EXPECT_LE(byte, 255);  // may be read
+    for (const std::uint8_t byte : record.bytes()) EXPECT_LE(byte, 255);  // reads every byte
   }
   EXPECT_EQ(seen, recording.sources);
 }
@@ -124,7 +124,7 @@ inline can::Frame some_frame(std::uint32_t i) {
   return frame;
 }
 
-// Frames heard and said, bytes of a receiver, a state and a text, every 10 ms.
+// Received and sent frames, bytes of a receiver, a state and a text, every 10 ms.
 inline std::string black_box(std::uint32_t steps) {
   ByteSink file;
   recording::McapWriter writer{recorder::channels(),
@@ -149,7 +149,7 @@ inline std::string black_box(std::uint32_t steps) {
   return file.bytes;
 }
 
-// Of this process alone: tests run beside each other.
+// A path that only this process uses, because tests run in parallel.
 inline std::string scratch(const std::string& name) {
   const std::string own = "pitwall_recordings_" + std::to_string(::getpid()) + "_" + name;
   return (std::filesystem::path{::testing::TempDir()} / own).string();
@@ -165,7 +165,7 @@ inline void write_bytes(const std::string& path, const std::string& bytes) {
                                               static_cast<std::streamsize>(bytes.size()));
 }
 
-// A bag of another maker in a file, and its bytes.
+// Writes a bag by another program (write_bag.mjs) and returns its path.
 inline std::string bag_mcap(const std::string& compression, int chunk_bytes, int count) {
   const std::string path = scratch(compression + ".mcap");
   pitwall::testing::node("write_bag.mjs", "'" + path + "' " + compression + " " +
@@ -194,7 +194,7 @@ inline std::string oracle_lines_of_db3(const std::string& path) {
                                      (kOracles / "say_bag_lines.mjs").string() + "'");
 }
 
-// The same bytes on every machine.
+// Pseudo-random numbers, the same on every machine.
 class Dice {
  public:
   explicit Dice(std::uint32_t seed) : state_(seed) {}
@@ -207,7 +207,7 @@ class Dice {
   std::uint32_t state_;
 };
 
-// One of: bytes turned, bytes taken out, bytes put in, the end cut off.
+// One kind of damage: some bytes changed, removed or inserted, or the end cut off.
 inline std::string damaged(std::string file, Dice& dice) {
   const std::size_t at = dice.below(file.size());
   const std::size_t count = 1 + dice.below(16);

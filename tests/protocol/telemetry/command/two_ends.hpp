@@ -1,6 +1,6 @@
-// Both ends of commands, stops and authority with nothing but bad air between them: real bodies of
-// packets, fifty a second each way, over one or two radios that lose, delay, double and reorder.
-//   units  virtual time of the base's clock; the car's stands kCarAhead from it
+// Simulation of both ends of commands, stops and authority over a bad radio: real packet bodies,
+// fifty a second each way, over one or two radios that lose, delay, duplicate and reorder them.
+//   units  virtual time of the base's clock; the car's clock is kCarAhead ahead of it
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -30,10 +30,10 @@ inline constexpr Duration kSlotTime = milliseconds(20), kTickTime = milliseconds
 inline constexpr Duration kCarAhead = seconds(777'777);
 inline constexpr HolderId kOperator = 7;
 
-// Loss of one radio one way: each for itself, or fades of a mean length.
+// Loss of one radio in one direction: independent packets, or fades with a mean length.
 struct Fading {
-  double loss = 0.0;          // the long-run share
-  Duration mean_fade{};       // zero: each packet for itself
+  double loss = 0.0;          // long-run share
+  Duration mean_fade{};       // zero: each packet is lost independently
   double loss_between = 0.0;  // outside fades
 };
 
@@ -42,11 +42,11 @@ struct AirParams {
   int radios = 1;
   Duration delay_min = milliseconds(20), delay_max = milliseconds(20);
   double twice = 0.0;
-  Duration clock_bound{};  // the receiver takes a packet for up to so much older than it is
+  Duration clock_bound{};  // error bound of the clock: a packet seems up to this much older
   std::uint32_t seed = 1;
 };
 
-// Between nothing and all of it.
+// A random duration between zero and `most`.
 inline Duration some_of(Duration most, std::mt19937_64& random) {
   return from_seconds(draw_uniform(random, 0.0, most.seconds()));
 }
@@ -82,7 +82,7 @@ struct Flight {
   std::vector<std::uint8_t> bytes;
 };
 
-// One way, all radios of it. A packet counts once, by whichever radio it comes first.
+// One direction with all its radios. The first copy of a packet to arrive counts.
 class Way {
  public:
   Way(const AirParams& params, std::uint32_t salt) : params_(params), random_(params.seed + salt) {
@@ -103,7 +103,7 @@ class Way {
       }
     }
   }
-  // `once`: as the session's replay window has it; else doubles are delivered too.
+  // `once`: drops duplicates as the session's replay window does; otherwise they are delivered too.
   template <class Take>
   void arrive(Instant now, bool once, Take&& take) {
     while (!flying_.empty() && flying_.top().arrives <= now) {
@@ -128,11 +128,11 @@ class Way {
   std::uint64_t sequence_ = 0;
 };
 
-// What happened to one command, seen from outside.
+// Life of one command, as an outside observer sees it.
 struct Story {
   Command command;
   Instant issued{};
-  std::optional<Instant> known;  // to the car
+  std::optional<Instant> known;  // first arrival at the car
   int applied = 0;
   std::optional<Instant> applied_at;
 };
@@ -172,9 +172,9 @@ class TwoEnds {
   Way up, down;
   Instant now{};
   bool renews = true, once = true, clock_known = true, consumer_asks = true;
-  bool stands = false;          // the car
-  bool releases = false;        // kReleaseStop goes to the latch
-  std::size_t room = kMaxBody;  // of a packet
+  bool stands = false;          // the car is at standstill
+  bool releases = false;        // kReleaseStop is passed to the latch
+  std::size_t room = kMaxBody;  // for the body of a packet
 
   CommandTransmitter transmitter{kBaseBoot};
   AuthorityRegister authority;
@@ -264,7 +264,7 @@ class TwoEnds {
   std::mt19937_64 random_;
 };
 
-// What became of the command; empty while nothing did.
+// Outcome of the command at the base; nullopt before there is one.
 inline std::optional<Outcome> fate(const TwoEnds& rig, CommandId id) {
   const CommandProgress* progress = rig.transmitter.progress(id);
   return progress == nullptr ? std::nullopt : progress->fate;

@@ -1,4 +1,5 @@
-// A sender and a receiver of one kind of delivery, a packet each way every 20 ms, and air between.
+// Sender and receiver of one kind of delivery, with a packet each way every 20 ms over a lossy
+// channel.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -14,7 +15,7 @@ namespace pitwall::telemetry {
 
 using Bytes = std::vector<std::uint8_t>;
 
-// A packet with what `fill` puts into it, in so much room.
+// A packet with the content that `fill` writes, of at most `room` bytes.
 template <class Fill>
 Bytes packet_of(Instant now, std::size_t room, Fill&& fill) {
   Bytes buffer(room);
@@ -62,7 +63,7 @@ struct DeliveryRig {
       take_all(sender, packet, sent, at);
     });
   }
-  // What flies belongs to a session that is over.
+  // Drops the packets under way, because they belong to the session that ends.
   void new_session() {
     there.forget();
     back.forget();

@@ -1,4 +1,4 @@
-// The time from packet to packet.
+// Interval between packets in the tests.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

@@ -1,4 +1,4 @@
-// A car and a base that speak through the test's own hands.
+// Car and base associations whose datagrams the test carries by itself.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -35,7 +35,8 @@ struct EndOptions {
   bool signed_only = false;
   std::uint8_t paths = 1;
   std::uint64_t first_sequence = 1;
-  std::optional<Duration> to_utc{};  // none: of two cars the one with the higher seed is the later
+  // nullopt: the seed in ms, so that of two cars the one with the higher seed is the later one.
+  std::optional<Duration> to_utc{};
   Stamp newest_stamp = 0;
   std::array<FixedVector<Address, kSpares>, kPaths> spare{};
 };
@@ -72,7 +73,7 @@ class End {
     if (!due) return std::nullopt;
     return std::pair{Datagram(due->bytes.begin(), due->bytes.end()), due->to};
   }
-  // A packet that holds one number; empty where there are no keys.
+  // A packet that holds one number; empty if there are no keys.
   Datagram seal(std::uint32_t content, Instant now) {
     std::array<std::uint8_t, 64> body{};
     for (std::size_t i = 0; i < 4; ++i) body[i] = static_cast<std::uint8_t>(content >> 8 * i);
@@ -90,7 +91,7 @@ class End {
   std::array<std::uint8_t, kMaxDatagram> plain_{}, out_{};
 };
 
-// The opening and its answer; the car has keys, the base waits for the first packet.
+// Exchanges the opening and its answer: the car has keys, the base waits for the first packet.
 inline void exchange(End& car, End& base, Instant now, Address car_at = kCarAddress) {
   const auto opening = car.poll(now);
   ASSERT_TRUE(opening);
@@ -101,7 +102,7 @@ inline void exchange(End& car, End& base, Instant now, Address car_at = kCarAddr
   car.feed(answer->first, kBaseAddress, now);
 }
 
-// A session that works both ways.
+// Establishes a session that works in both directions.
 inline void establish(End& car, End& base, Instant now, Address car_at = kCarAddress) {
   exchange(car, base, now, car_at);
   ASSERT_TRUE(car->ready());

@@ -1,4 +1,4 @@
-// A file of bench time for a test, gone at its end, and processes that live by it.
+// Clock file of bench time for a test, removed at its end, and processes that use this clock.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -18,12 +18,12 @@ struct ClockFile {
   std::string path = folder.path() + "/clock";
 };
 
-// Has a processor all the time.
+// Uses the processor all the time.
 [[noreturn]] inline void compute() {
   while (true) ::getppid();
 }
 
-// Another process that does this and ends; killed with the test.
+// Another process that runs `what` and exits; it is killed at the end of the test.
 class Other {
  public:
   explicit Other(const std::function<void()>& what) : process_(::fork()) {
@@ -40,7 +40,7 @@ class Other {
 
   pid_t process() const { return process_; }
   void tell(int signal) const { ::kill(process_, signal); }
-  // True: it ended by itself.
+  // True if it ended by itself.
   bool wait() {
     int status = 0;
     return ::waitpid(process_, &status, 0) == process_ && WIFEXITED(status);

@@ -1,6 +1,6 @@
-// A small plant for the tests of control: a single-track car with saturating tyres on a banked
-// road, steering delay and lag, first-order brake and throttle, driving a closed path of its own.
-// Written for the tests alone; shares nothing with the code under test or with the bench.
+// Small plant for the tests of control: a single-track car with saturating tyres on a banked road,
+// with steering delay and lag, first-order brake and throttle, on a closed path. For tests only; it
+// shares no code with the code under test or with the bench.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -42,7 +42,7 @@ inline Path oval(double straight_m = 500.0) {
   constexpr double kTurn_per_m = 1.0 / 220.0, kClothoid_m = 120.0;
   const double arc_m = std::numbers::pi / kTurn_per_m - kClothoid_m;
   const double half_m = straight_m + 2.0 * kClothoid_m + arc_m;
-  const auto share = [&](double s_m) {  // of the full turn
+  const auto share = [&](double s_m) {  // of the full curvature
     const double s = std::fmod(s_m, half_m) - straight_m;
     if (s <= 0.0) return 0.0;
     if (s < kClothoid_m) return s / kClothoid_m;
@@ -86,7 +86,7 @@ struct Car {
   double angle_rad = 0.0, throttle = 0.0, brake_kpa = 0.0, ax_mps2 = 0.0;
   std::deque<double> delayed;
 
-  // tanh tyre: initial slope as given, saturates at friction * load.
+  // tanh tyre: the initial slope is the given one, the force saturates at friction * load.
   double tyre(double slip_rad, double per_load, double load_n) const {
     const double peak_n = model.friction * load_n;
     return -peak_n * std::tanh(per_load * load_n * slip_rad / peak_n);
@@ -143,10 +143,10 @@ struct Car {
 struct Lap {
   double cross_track_max_m = 0.0, cross_track_mean_m = 0.0, angle_rate_rms_rad_per_s = 0.0;
   double speed_error_max_mps = 0.0;
-  bool lost = false;  // farther than 5 m from the path, or spun
+  bool lost = false;  // more than 5 m from the path, or spun
 };
 
-// Drives for `duration_s` from the path's start; the first `settle_s` are not graded.
+// Drives for `duration_s` from the start of the path; the first `settle_s` are not graded.
 inline Lap drive(const Params& params, const LateralGains& gains, const Path& path,
                  const CarModel& model, double speed_mps, double duration_s,
                  double settle_s = 4.0) {
@@ -199,7 +199,7 @@ inline Lap drive(const Params& params, const LateralGains& gains, const Path& pa
   return lap;
 }
 
-// The tune that the project recommends for the AV-21.
+// Recommended parameters of the AV-21.
 inline Params recommended() {
   Params p;
   p.bicycle = {.mass_kg = 790.0,

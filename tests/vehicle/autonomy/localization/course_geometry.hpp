@@ -1,5 +1,5 @@
-// The course of drive.hpp as vectors and matrices: where its car is, how it lies, how it moves and
-// what an IMU at its centre of gravity would measure.
+// Vectors and matrices of the course of drive.hpp: position, attitude and velocity of the car, and
+// the samples of an ideal IMU at its centre of gravity.
 //   frames Map; rate and force in Body
 // SPDX-License-Identifier: Apache-2.0
 #pragma once

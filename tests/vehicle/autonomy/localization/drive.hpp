@@ -1,5 +1,5 @@
-// A car of which everything is known in closed form, and the sensors that watch it: a circle of any
-// radius on a banked road at constant speed, or a straight. Written for the tests alone.
+// Car with an analytic motion, and models of its sensors: a circle of any radius on a banked road
+// at constant speed, or a straight. For tests only.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -14,11 +14,12 @@ namespace pitwall::localization::testing {
 
 constexpr double kLatitude_deg = 36.2722, kLongitude_deg = -115.0103, kHeight_m = 594.0;
 
-// Constant motion: a straight when curvature is zero. The centre of gravity goes level along its
+// Constant motion; a straight if the curvature is zero. The centre of gravity moves level along its
 // circle; the car lies in the plane of the road and slips in it. As vectors: course_geometry.hpp.
 struct Course {
   double curvature_per_m = 0.0, bank_rad = 0.0;
-  double speed_mps = 30.0, slip_rad = 0.0;  // velocity left of the car's axis, in the road's plane
+  // Slip: angle of the velocity to the left of the car's axis, in the plane of the road.
+  double speed_mps = 30.0, slip_rad = 0.0;
   double course0_rad = 0.4, x0_m = 120.0, y0_m = -80.0;
 
   double turn_rate() const { return speed_mps * curvature_per_m; }
@@ -27,7 +28,7 @@ struct Course {
   Surroundings surroundings(double t_s) const;
 };
 
-// Steady driving with the side slip that the tyre model of the recommended parameters gives.
+// Steady driving with the side slip of the recommended parameters' tyre model.
 Course banked_turn(double speed_mps = 55.0);
 
 struct SensorModel {
@@ -40,17 +41,17 @@ struct SensorModel {
   std::array<double, world::kCorners> wheel_factor{1.0, 1.0, 1.0, 1.0};
 };
 
-// Runs the car and the filter side by side at 100 Hz. `units` renames the units: what the filter
-// knows as unit u stands where unit units[u] of the car stands.
+// Runs the car and the filter together at 100 Hz. `name` renames the units: unit u of the car is
+// reported to the filter as unit name[u].
 struct Rig {
   Course course;
   SensorModel sensors;
   Params params = recommended();
   Datum datum = Datum::at(kLatitude_deg, kLongitude_deg, kHeight_m).value();
-  std::array<Random, 2> random{Random{11}, Random{22}};  // of each unit of the car
+  std::array<Random, 2> random{Random{11}, Random{22}};  // one per unit of the car
   Random wheel_random{33};
-  std::array<std::array<double, 3>, 2> wander_m{};  // of each unit's positions
-  std::array<std::uint8_t, 2> name{0, 1};           // of each unit of the car, as it is reported
+  std::array<std::array<double, 3>, 2> wander_m{};  // slow position error of each unit
+  std::array<std::uint8_t, 2> name{0, 1};           // reported name of each unit of the car
   State state;
   world::SensorUse use;
   std::int64_t ms = 0;
@@ -63,14 +64,14 @@ struct Rig {
 
   const UnitParams& mount(std::size_t unit) const { return params.units[name[unit]]; }
 
-  // What a unit of the car measures at an instant, with its noise. A velocity is the central
-  // difference of the antenna's own path: it knows nothing of lever-arm formulas.
+  // Measurement of a unit of the car at an instant, with its noise. The velocity is the central
+  // difference of the antenna's path, so it does not depend on a lever-arm formula.
   world::GnssPosition position(std::size_t unit, std::int64_t at_ms);
   world::GnssVelocity velocity(std::size_t unit, std::int64_t at_ms);
   world::GnssHeading heading(std::size_t unit, std::int64_t at_ms);
   world::ImuSample imu(std::size_t unit, std::int64_t at_ms);
 
-  // What arrives in the tick that ends at `ms`: positions 30 ms late, headings 50 ms late.
+  // Samples that arrive in the tick that ends at `ms`: positions 30 ms late, headings 50 ms late.
   world::SensorInput arrivals();
   void turn_wheels();
   const Output& take(const world::SensorInput& in);

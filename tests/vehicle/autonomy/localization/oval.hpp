@@ -1,6 +1,6 @@
-// A car on a banked oval with hills, known in closed form, and the sensors that watch it: the path
-// and the attitude are formulas, everything else is their difference over time. Written for the
-// tests alone; knows nothing of the filter.
+// Car on a banked oval with hills, with an analytic motion, and models of its sensors: path and
+// attitude are formulas, all other quantities are their differences over time. For tests only; it
+// shares no code with the filter.
 //   frames Map, Body; SI
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
@@ -19,13 +19,13 @@
 namespace pitwall::localization::testing {
 
 struct Pose {
-  Eigen::Vector3d at;  // of the centre of gravity
+  Eigen::Vector3d at;  // position of the centre of gravity
   Eigen::Matrix3d attitude;
 };
 
 struct Oval {
   double half_length_m = 300.0, half_width_m = 230.0, round_rad_per_s = 0.25;
-  double turned_rad = 0.0, east_m = 0.0, north_m = 0.0;  // where the map lies
+  double turned_rad = 0.0, east_m = 0.0, north_m = 0.0;  // rotation and position of the map
   double cg_height_m = 0.28;
 
   double angle(double t_s) const { return round_rad_per_s * t_s + 0.05 * std::sin(0.4 * t_s); }
@@ -45,7 +45,7 @@ struct Oval {
     const Eigen::Vector3d v = velocity(t_s);
     return std::atan2(v.y(), v.x());
   }
-  // Some side slip, as tyres need it.
+  // Side slip of a plausible size.
   double slip_rad(double t_s) const { return -0.02 + 0.004 * std::cos(2.0 * angle(t_s)); }
 
   Road road(double t_s) const {
@@ -57,7 +57,7 @@ struct Oval {
     r.x_m = under.x(), r.y_m = under.y(), r.height_m = under.z();
     return r;
   }
-  // The slope of the surface along and across its direction, written out once more.
+  // Normal of the surface from its slopes along and across its direction, written independently.
   static Eigen::Vector3d up(const Road& r) {
     const Eigen::Vector3d along(std::cos(r.direction_rad), std::sin(r.direction_rad),
                                 std::tan(r.climb_rad));
@@ -91,7 +91,7 @@ struct Oval {
   double forward_mps(double t_s) const { return pose(t_s).attitude.col(0).dot(velocity(t_s)); }
 };
 
-// One sigma each; what wanders is a Gauss-Markov process, as the filter is told.
+// One sigma each. A slowly changing error is a Gauss-Markov process, as in the filter's model.
 struct OvalSensors {
   double position_m = 0.010, height_m = 0.015, wander_share = 0.949, wander_s = 30.0,
          together = 0.6;
@@ -99,7 +99,7 @@ struct OvalSensors {
   double gyro_rad_per_s = 0.0015, accel_mps2 = 0.05, gyro_bias_rad_per_s = 8.7e-4,
          accel_bias_mps2 = 0.03, scale = 1e-3;
   double wheel_scale = -0.014, wheel_mps = 0.13;
-  double road_tilt_rad = 0.003, road_height_m = 0.02;  // of the map, for a run
+  double road_tilt_rad = 0.003, road_height_m = 0.02;  // errors of the map, constant in a run
 };
 
 struct Arrival {
@@ -107,7 +107,7 @@ struct Arrival {
   std::int64_t at_ms = 0;
 };
 
-// Everything that a drive says, in the order in which it is delivered.
+// All measurements of a drive, in order of delivery.
 class OvalDrive {
  public:
   OvalDrive(const Oval& oval, std::uint64_t seed, const OvalSensors& sensors = {})
@@ -148,7 +148,7 @@ class OvalDrive {
             .road = road(t)};
   }
 
-  // Positions, velocities and headings of a unit; a silent bias of its position.
+  // Times without positions, velocities and headings of a unit; times with a bias of its position.
   struct Span {
     double from_s = 1e9, to_s = 1e9;
     bool holds(double t_s) const { return t_s >= from_s && t_s < to_s; }
@@ -222,7 +222,7 @@ class OvalDrive {
             .sigma_a = sensors_.heading_rad,
             .direction_rad = direction};
   }
-  // At its own place on the car, by the motion of that place.
+  // The IMU is not at the centre of gravity; its samples come from the motion of its own position.
   Measurement imu(double t_s) {
     constexpr double kStep_s = 2e-3;
     const Eigen::Vector3d place(-0.2, 0.1, 0.0);

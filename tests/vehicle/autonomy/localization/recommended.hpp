@@ -1,4 +1,4 @@
-// Parameters that suit the AV-21 and its sensors, and random numbers. Written for the tests alone.
+// Recommended parameters for the AV-21 and its sensors, and random numbers. For tests only.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -11,7 +11,7 @@
 
 namespace pitwall::localization::testing {
 
-// The sum of twelve uniform numbers is normal enough for 6 sigma.
+// Sum of twelve uniform numbers: close enough to a normal distribution, within 6 sigma.
 inline double draw_normal(Random& random) {
   double sum = -6.0;
   for (int i = 0; i < 12; ++i) sum += random.uniform();

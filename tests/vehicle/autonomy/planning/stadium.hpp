@@ -1,5 +1,5 @@
-// A track for the tests of planning: two straights and two turns, banked, and the parameters that
-// the project recommends for the AV-21.
+// Stadium track for the tests of planning: two straights and two banked turns, and the recommended
+// parameters of the AV-21.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -73,7 +73,7 @@ inline world::RaceControl green(double round_speed_mps = kUnset) {
   return rc;
 }
 
-// A car beside station s of the line, moving along it.
+// A car at station s of the line, offset to the left by `offset_m`, moving along it.
 inline world::EgoState ego_on(const Line& line, double s_m, double offset_m, double speed_mps) {
   const LinePoint p = line.at(s_m);
   world::EgoState ego;
