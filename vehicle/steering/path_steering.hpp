@@ -5,8 +5,8 @@
 //   in     position and course relative to the path, yaw rate, the path at the preview distance
 //   out    road-wheel angle [rad], left positive
 //   invariants
-//          angle = L k + K a + d' + A k_fb + d + trim + bump, with, of the path ahead, k = kappa
-//          cos(bank), a of steering/road_load.hpp, and of the learned gradient K'
+//          angle = L k + K a + d' + A k_fb + d + trim + bump, with k = kappa cos(bank) and a of
+//          steering/road_load.hpp for the path ahead, and with the learned gradient K'
 //            K    = model's + K',  A = L + (model's + gain_share K') v^2
 //            k_fb = -(w^2 (e + T v chi) + 2 z w v (chi + T (r / cos(bank) - v kappa))) / v^2
 //                   e to the left of the path, chi the course relative to it, T = lead_s

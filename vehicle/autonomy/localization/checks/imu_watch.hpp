@@ -26,7 +26,7 @@
 
 namespace pitwall::localization {
 
-inline constexpr std::size_t kImuAxes = 6;  // rates x, y, z, forces x, y, z
+inline constexpr std::size_t kImuAxes = 6;  // rates x, y, z, then forces x, y, z
 using ImuAxes = std::array<double, kImuAxes>;
 inline constexpr std::size_t kCoursesKept = 5;
 
@@ -37,7 +37,7 @@ struct ImuWatch {
     ImuAxes mean{};           // low-passed
     double turned_rad = 0.0;  // integral of the yaw rate
   };
-  // The direction of the way over ground by one receiver, and what each IMU had turned then.
+  // Course over ground from one receiver, and the integrated yaw of each IMU at that time.
   struct Course {
     Instant at{};
     double course_rad = 0.0;
@@ -49,7 +49,7 @@ struct ImuWatch {
   };
   std::array<Unit, world::kGnssUnits> units{};
   std::array<Courses, world::kGnssUnits> courses{};
-  ImuAxes offset{};  // lasting, unit 1 less unit 0
+  ImuAxes offset{};  // constant difference, unit 1 minus unit 0
   double offset_known_s = 0.0;
   bool apart = false, together = false;
   Instant apart_since{}, together_since{};
@@ -59,16 +59,16 @@ static_assert(std::is_trivially_copyable_v<ImuWatch>);
 
 ImuAxes axes_of(const world::ImuSample& sample);
 
-// A sample that is a number.
+// Takes a sample, whose values must be finite.
 void note(ImuWatch& watch, const world::ImuSample& sample);
-// The course over ground of a receiver, where it is fast enough to have one.
+// Takes a course over ground of a receiver, to be called only at speeds that define a course.
 void note_course(ImuWatch& watch, std::size_t receiver, Instant at, double course_rad);
 
-// What the car does by other senses; unset where they do not say.
+// Motion of the car from other sensors; unset if they do not provide it.
 struct ImuWitness {
   double bank_rad = 0.0, speed_mps = kUnset;
-  double accel_mps2 = kUnset;  // along the car, by the wheels
-  bool stands = false;         // every wheel stands
+  double accel_mps2 = kUnset;  // longitudinal, from the wheels
+  bool stands = false;         // all wheel speeds are zero
 };
 void watch_imu(const CheckParams& params, ImuWatch& watch, const ImuWitness& witness, Instant now);
 
