@@ -4,7 +4,7 @@
 //   out    lower bound of the share of the bit rate in the last three full slots of 10 ms: without
 //          stuff bits, which add up to a fifth, and without the frames that this node sends
 //   cost   no allocation, O(1) per frame
-//   source Bosch CAN 2.0: 47 bits beside the data for a frame with an identifier of 11 bits,
+//   source Bosch CAN 2.0: 47 bits plus the data for a frame with an identifier of 11 bits,
 //          including the interframe space; 67 with 29
 // SPDX-License-Identifier: Apache-2.0
 #pragma once

@@ -110,7 +110,7 @@ struct FlagSource {
 
 // Period in which the guardian drove the car: commands received then are not from an unknown node.
 struct StandIn {
-  Instant from{}, until{};  // both included; equal if never
+  Instant from{}, until{};  // both included; equal: never
 
   constexpr bool covers(Instant at) const { return from < until && from <= at && at <= until; }
 };

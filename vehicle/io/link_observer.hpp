@@ -11,7 +11,7 @@
 //          the newest information decides the controller state. An error frame counts from the time
 //          the kernel created it, an interface report from the time it was requested. Of two of the
 //          same age the worse one decides
-//          an interface that is missing or not up is down, whatever a frame reported before; so is
+//          an interface that is missing or not up is down, even if an error frame is newer; so is
 //          a unix bus whose hub has closed, which the socket detects before the next report
 //          a report without a controller (vcan, unix bus) has no state: then only the error frames
 //          count, and without any the state is unknown

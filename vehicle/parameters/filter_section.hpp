@@ -14,7 +14,7 @@ namespace pitwall::parameters {
 localization::FilterParams read_filter(yaml::StrictMap map);
 // Optional as a whole or in parts; the defaults are those of the module.
 localization::CheckParams read_checks(yaml::StrictMap& section);
-// Optional likewise: the preferred unit of each channel, "both", "unit_0" or "unit_1".
+// Also optional: the preferred unit of each channel, "both", "unit_0" or "unit_1".
 localization::Priorities read_priorities(yaml::StrictMap& section);
 
 }  // namespace pitwall::parameters

@@ -39,7 +39,7 @@ struct Rates {
 struct RadioPathParams {
   double bytes_per_s = 32'000.0;        // 256 kbit/s; [8000, 1250000]
   double packets_per_s = 100.0;         // [10, 1000]
-  double safety_bytes_per_s = 4'400.0;  // reserved share for safety; [1000, bytes_per_s)
+  double safety_bytes_per_s = 4'400.0;  // reserved for safety; [1000, bytes_per_s)
 };
 inline constexpr std::size_t kRadioPathsMax = 2;
 

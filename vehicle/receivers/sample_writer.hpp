@@ -28,8 +28,8 @@ class SampleWriter {
     append(sample, list, out);
   }
 
-  // The receiver status is stamped with its arrival, because it is valid whatever time the receiver
-  // has.
+  // The receiver status is stamped with its arrival, because it is valid even if the receiver's
+  // time is wrong.
   void write(Instant arrival, world::ReceiverHealth health, world::SensorInput& out) {
     ++counters_.health;
     health.at = arrival;

@@ -5,9 +5,9 @@
 //   invariants
 //          at most `restarts` in any `window`; the next bus-off latches `failed` (Cause kBusOff)
 //          a controller that is down, or that sends no frame for `stall_max`, counts as bus-off
-//          a controller that stays down through `restarts` of them latches `failed` too, whatever
-//          the window. So a successful restart or the latch comes at most (restarts + 1) x pause
-//          after it went down
+//          a controller that stays down through `restarts` of them latches `failed` too, even if
+//          they exceed the window. So a successful restart or the latch comes at most
+//          (restarts + 1) x pause after it went down
 //          a reset (rising edge) clears the latch only while the controller is not bus-off. The
 //          restarts that were made still count
 //   seen   kBusLoad: bus load above `load_max`; kControllerState: warning, passive, bus-off or

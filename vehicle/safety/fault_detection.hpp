@@ -102,7 +102,7 @@ struct FaultInputs {
   bool driving = false;       // control is expected to give commands
   bool moves = false;         // mode in which the car may roll: driving, coasting, stopping
   bool radio_fades = false;   // link-loss policy is beyond its first step
-  bool engine_off = false;    // the drive-by-wire was told to shut down
+  bool engine_off = false;    // the drive-by-wire is commanded to shut down
   const world::SensorInput* sensors = nullptr;  // null: clocks are not monitored
   world::ComputerHealth computer{};
   // Last command to the actuators; unset before the first.

@@ -35,7 +35,7 @@ using Row = std::array<world::Mode, kEvents>;
 inline constexpr auto kCtrlStop = kControlledStop, kEmergency = kEmergencyStop;
 // clang-format off
 inline constexpr std::array<Row, world::kModes> kNext{{
-  //                   NobodyObeys Emergency   Stop       Coast       Standstill
+  //                   DbwGone     Emergency   Stop       Coast       Standstill
   //                   Disarm      Reset       Passed     Arm         Go
   /* Disarmed       */ {{kDisarmed, kDisarmed,  kDisarmed,  kDisarmed,  kDisarmed,
                          kDisarmed, kDisarmed,  kDisarmed,  kStandby,   kDisarmed}},

@@ -20,8 +20,8 @@
 //   brake  a stop brakes as an emergency does if its steering does not follow, or if it has neither
 //          position nor inertial unit: when the path cannot be held, less speed is safer
 //   engine shut down at standstill only, with one exception: a throttle that stays open in a stop,
-//          at any speed. The drive-by-wire is then told to shut down as in an emergency (CT 12):
-//          the engine is off and the gear disengaged; steering and brake still follow commands
+//          at any speed. The drive-by-wire then gets the shut-down of an emergency (CT 12): the
+//          engine is off and the gear disengaged; steering and brake still follow commands
 //   source mission, row 4 (system executive); mode_table.hpp for the transitions
 //
 //           fault                   stands for 0.5 s           reset

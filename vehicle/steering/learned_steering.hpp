@@ -1,6 +1,6 @@
 // Learned steering correction: the steering angle that this car on these tyres needs beyond the
 // steady-state bicycle model of its file, estimated from the commanded angles and the yaw rate,
-// whichever controller steered.
+// for every controller that steers.
 //   in     the last commanded angle, speed, yaw rate, banking of the road
 //   out    Learned: a constant angle, an understeer gradient, its change with the lateral
 //          acceleration, and a lag, each in addition to the model; their covariance
@@ -110,7 +110,7 @@ double residual_rad(const Bicycle& car, const Learned& learned, const Turning& a
 double yaw_rate_rad_per_s(const Bicycle& car, const Learned& learned, double angle_rad,
                           double speed_mps, double bank_rad);
 
-// To be called in every tick, whichever controller steers.
+// To be called in every tick, for every controller that steers.
 void follow_command(const LearningParams& params, Learned& learned, double commanded_rad,
                     Duration dt);
 // To be called in every tick in which the car is driven along its line.

@@ -78,7 +78,7 @@ struct ImuSample {
   std::array<double, 3> specific_force_mps2{kUnset, kUnset, kUnset};  // x, y, z
 };
 
-// Time report of a receiver: its clock beside the car's.
+// Time report of a receiver, with the car's time of its arrival.
 struct ReceiverTime {
   std::uint8_t unit = 0;
   Instant received{};            // arrival of the bytes, on the car's clock

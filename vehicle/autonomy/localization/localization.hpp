@@ -87,8 +87,7 @@ struct State {
 static_assert(std::is_trivially_copyable_v<State>);
 
 // Every sample of a full SensorInput, and the wheels.
-inline constexpr std::size_t kVerdictsMax =
-    80;  // every sample that fits in a SensorInput, + wheels
+inline constexpr std::size_t kVerdictsMax = 80;
 
 // Units that recently fed a channel: bit k is unit k.
 using UnitSet = std::uint8_t;

@@ -21,7 +21,7 @@
 
 namespace pitwall::localization {
 
-inline constexpr std::size_t kTrailTicks = 64;  // more than the longest window of the filter
+inline constexpr std::size_t kTrailTicks = 64;  // 0.64 s: above window_s of the car file
 
 // Motion of the car at one instant. Angles and heights that a planar filter does not estimate are
 // those of the road.

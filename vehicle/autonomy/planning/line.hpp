@@ -56,7 +56,7 @@ struct LinePosition {
 };
 
 struct Line {
-  std::vector<LinePoint> points;  // equal steps of s; closed: the first follows the last
+  std::vector<LinePoint> points;  // equal steps of s; the first is one step after the last
   double length_m = 0.0, spacing_m = 0.0;
 
   double wrap(double s_m) const;

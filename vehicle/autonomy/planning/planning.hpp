@@ -100,7 +100,7 @@ enum class Followed : std::uint8_t {
   kDrive,
   kCoast,  // the drive trajectory with closed throttle
   kStop,
-  kEmergency  // the stop trajectory, with the full grip
+  kEmergency  // the stop trajectory, as short as the grip allows
 };
 
 struct Inputs {

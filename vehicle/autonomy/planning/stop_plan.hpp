@@ -11,7 +11,7 @@
 //          it is complete where the car reaches low_speed. The path keeps clearance_m from the
 //          walls; a car that is nearer already comes no nearer
 //   frames Map; offsets positive left
-//   errors none: where nothing better is possible the path stays beside the line
+//   errors none: if nothing better is possible the path stays parallel to the line
 //   cost   O(kRoadPoints) per tried place and change, below 0.2 ms; no allocation
 // SPDX-License-Identifier: Apache-2.0
 #pragma once

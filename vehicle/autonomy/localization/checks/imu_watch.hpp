@@ -2,11 +2,11 @@
 // whose yaw rate contradicts the course over ground, or whose acceleration contradicts the change
 // of speed.
 //
-//     unit 0   ____/----      apart since here; the course turns as unit 1 says: unit 0 is blamed
+//     unit 0   ____/----      apart since here; the course agrees with unit 1: unit 0 is blamed
 //     unit 1   _________      after imu_contradict_s, and free again after readmit_after_s together
 //
 //   in     samples of both units (Body, rad/s and m/s^2), courses over ground (rad), and at each
-//          tick what other sensors say of the motion
+//          tick the motion from other sensors
 //   out    the blamed unit, if any; whether the units differ; their constant difference is learned
 //   invariants
 //          without another sensor no unit is blamed. Exchanging the units exchanges the result

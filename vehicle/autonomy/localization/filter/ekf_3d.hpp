@@ -104,7 +104,7 @@ enum class ModelOf : std::uint8_t {
 };
 inline constexpr std::size_t kModels = 8;
 
-// A value: plain arrays, so that it is trivially copyable.
+// Plain arrays, so that it is trivially copyable.
 struct SpatialBelief {
   Instant at{};
   std::array<double, 3> position_m{};
