@@ -1,11 +1,11 @@
-// Load of the bus, by the frames that arrive: a babbling node shows here before any other message
-// is missed.
-//   in     frames with their instants; now
-//   out    share of the bit rate in the last three full slots of 10 ms, at least: without stuff
-//          bits, which add up to a fifth, and without what this node sends itself
+// Load of the CAN bus from the frames that arrive. A babbling node shows here before another
+// message is lost.
+//   in     frames with their instants; the time
+//   out    lower bound of the share of the bit rate in the last three full slots of 10 ms: without
+//          stuff bits, which add up to a fifth, and without the frames that this node sends
 //   cost   no allocation, O(1) per frame
-//   source Bosch CAN 2.0: 47 bits round the data of a frame with an identifier of 11 bits, the
-//          space between two frames included, 67 with 29
+//   source Bosch CAN 2.0: 47 bits plus the data for a frame with an identifier of 11 bits,
+//          including the interframe space; 67 with 29
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -18,7 +18,7 @@
 
 namespace pitwall::gateway {
 
-inline constexpr double kBitRate = 500'000.0;  // of the car's bus
+inline constexpr double kBitRate = 500'000.0;  // bit/s
 inline constexpr Duration kLoadSlot = milliseconds(10);
 
 struct BusLoad {

@@ -1,10 +1,10 @@
-// Tables of the raw flag values of both race-control encodings. Value 1 is red in one and green in
-// the other, 4 is green in one and chequered in the other: hence one table each and no shared
-// constant.
+// Tables of the raw flag values of both race-control encodings. The encodings differ (value 1 is
+// red in one and green in the other, 4 is green in one and chequered in the other), so each has its
+// own table and no constant is shared.
 //   in     the raw field of base_to_car_summary (MyLaps, 4 bits) or marelli_report_1 (8 bits)
-//   out    typed flags; a value that its table does not list is kUnknown, which means "stop"
-//   source flags as spoken by the IAC teams' public code; where two teams disagree on a value it is
-//          left out (MyLaps vehicle 1: "null" for one, "chequered" for another)
+//   out    typed flags; a value that is not in the table is kUnknown, which means "stop"
+//   source flags as in the public code of the IAC teams; a value on which two teams disagree is
+//          left out (MyLaps vehicle 1: "null" in one, "chequered" in another)
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -54,8 +54,8 @@ inline constexpr std::array kMarelliVehicle{
     VehicleFlagRow{35, world::VehicleFlag::kDefender},
     VehicleFlagRow{36, world::VehicleFlag::kAttacker}};
 
-// Marelli's "GSpeed": green with a round speed; the value is the speed in mph. Known are 40, 60,
-// 80, 100 and from 120 to 190; within that span the rounds rise in steps of 5 mph.
+// Marelli's "GSpeed": green with a round speed; the value is the speed in mph. Known values are 40,
+// 60, 80, 100 and 120 to 190 in steps of 5 mph.
 constexpr bool is_green_speed(std::uint8_t raw) {
   const bool low = raw == 40 || raw == 60 || raw == 80 || raw == 100;
   return low || (raw >= 120 && raw <= 190 && raw % 5 == 0);
@@ -89,7 +89,7 @@ constexpr world::VehicleFlag vehicle_meaning(world::FlagEncoding encoding, std::
   return world::VehicleFlag::kUnknown;
 }
 
-// From the most restrictive to the least; every enumerator once. Unknown ranks with stop.
+// From the most to the least restrictive, with every enumerator once. Unknown ranks with stop.
 inline constexpr std::array kTrackByRestriction{
     world::TrackFlag::kUnknown,   world::TrackFlag::kRed,        world::TrackFlag::kOrange,
     world::TrackFlag::kChequered, world::TrackFlag::kYellow,     world::TrackFlag::kNone,
@@ -108,7 +108,7 @@ inline constexpr std::array kVehicleByRestriction{world::VehicleFlag::kPurpleEme
                                                   world::VehicleFlag::kDefender,
                                                   world::VehicleFlag::kAttacker};
 
-// The one of the two that comes first in the list.
+// Returns the flag that comes first in `order`.
 template <class Flag, std::size_t N>
 constexpr Flag first_of(const std::array<Flag, N>& order, Flag a, Flag b) {
   for (const Flag flag : order)

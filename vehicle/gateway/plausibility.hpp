@@ -1,7 +1,7 @@
-// May a decoded value be believed? Ranges of the parameters, and slews of the database's side file
-// in the time that passed since the value accepted before.
+// Plausibility check of decoded values: the ranges of the parameters, and the slew limits of the
+// database's side file for the time since the last accepted value.
 //   in     values in any unit for ranges, in units of the database for slews
-//   out    Reading; settle() remembers the values, all of one frame or none
+//   out    Reading; settle() stores all values of a frame or none
 //   errors by value
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
@@ -18,7 +18,7 @@
 
 namespace pitwall::gateway {
 
-// Of the physical values of equal raw steps.
+// Tolerance for the rounding of physical values.
 inline constexpr double kRounding = 1e-9;
 
 struct Context {
@@ -27,7 +27,7 @@ struct Context {
   Instant at;
 };
 
-// A value with the range it must lie in.
+// A value and its range.
 struct Ranged {
   double value;
   Span span;
@@ -42,7 +42,7 @@ Reading in_range(const std::array<Ranged, N>& values) {
   return Reading::kApplied;
 }
 
-// A signal without a limit.
+// Row of a signal without a limit.
 inline constexpr std::size_t kNoLimit = can::av21::kSlews.size();
 
 consteval std::size_t slew_row(std::uint32_t id, std::string_view signal) {
@@ -51,7 +51,7 @@ consteval std::size_t slew_row(std::uint32_t id, std::string_view signal) {
   return kNoLimit;
 }
 
-// The period of the message of each row.
+// Message period of each row of kSlews.
 inline constexpr auto kSlewPeriods = [] {
   std::array<Duration, kNoLimit> periods{};
   for (std::size_t i = 0; i < kNoLimit; ++i)
@@ -75,7 +75,7 @@ inline bool too_fast(const Context& c, const Change& change) {
   return std::abs(change.value - track.value) > limit.max_per_s * passed.seconds() + kRounding;
 }
 
-// All or none.
+// Stores all values, or none if one changes too fast.
 template <std::size_t N>
 Reading settle(Context& c, const std::array<Change, N>& changes) {
   for (const Change& change : changes)

@@ -1,7 +1,7 @@
-// One frame of the car, decoded and applied to the state if all of it is plausible; else nothing of
-// it. Holds the mapping from the signals of the CAN database to SI, and the ranges and slews.
-//   in     a frame that has passed the integrity rules of inbound.hpp (id, length, counter)
-//   out    Reading: applied, or why not
+// Mapping of one frame from the car to SI signals, with its ranges and slew limits. The frame is
+// applied to the state as a whole if every value is plausible, otherwise not at all.
+//   in     a frame that has passed the integrity rules of inbound.hpp (identifier, length, counter)
+//   out    Reading: applied, or the reason for the refusal
 //   units  in: as in the CAN database; out: SI
 //   errors by value
 // SPDX-License-Identifier: Apache-2.0

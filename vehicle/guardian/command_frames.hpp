@@ -1,10 +1,11 @@
-// The car's commands on the bus, as the guardian hears them and goes on with them: every counter
-// continues, the flags stay acknowledged as the autonomy did last, the dash switches stay.
-//   in     frames off the bus; a command to speak
+// Decoder of the car's commands on the bus, and encoder of the guardian's frames that continue
+// them: every counter continues, the acknowledged flags and the dash switches stay as they were
+// last sent, ct_report reports the coordinated stop.
+//   in     frames from the bus; a command to send
 //   out    up to 8 frames: brake 1400 first, throttle, steering, gear, ct_report, ct_report_2, dash
-//          switches, accelerations; a message that the car never sent is left out
+//          switches, accelerations; ct_report_2 and dash switches only if the car sent them before
 //   units  as in the CAN database: degrees at the motor, %, kPa
-//   errors a frame that does not decode is not heard; a number that is not finite gives no frame
+//   errors a frame that cannot be decoded is ignored; a number that is not finite gives no frame
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -26,7 +27,7 @@ namespace pitwall::guardian {
 inline constexpr std::size_t kCommandFrames = 8;
 using CommandFrames = FixedVector<can::Frame, kCommandFrames>;
 
-// What the car said last.
+// Last command frames of the car.
 struct ReceivedCommands {
   std::optional<can::av21::BrakePressureCmd> brake;
   std::optional<can::av21::AcceleratorCmd> throttle;
@@ -42,13 +43,13 @@ struct ReceivedCommands {
 };
 static_assert(std::is_trivially_copyable_v<ReceivedCommands>);
 
-// True if it was one of the car's commands (1400..1402).
+// Returns true for a command of the car (1400..1402).
 bool receive(ReceivedCommands& car, const can::ReceivedFrame& received);
 
 CommandCounters counters_of(const ReceivedCommands& car);
 world::ActuatorCommand command_of(const ReceivedCommands& car, double steering_ratio);
 
-// The last frames as they were: what a frame gate has to have seen to judge the next ones.
+// The last frames unchanged, to initialise a frame gate for the next ones.
 CommandFrames repeat(const ReceivedCommands& car);
 
 struct CommandValues {
@@ -56,7 +57,8 @@ struct CommandValues {
   double steering_ratio = kUnset;
   double ax_mps2 = kUnset, ay_mps2 = kUnset;  // unset: no accelerations are sent
 };
-// Goes on: `counters` are those of the frames before, and afterwards those of these.
+// Next frames. `counters` holds the counters of the previous frames, and afterwards those of the
+// new ones.
 CommandFrames encode_frames(const ReceivedCommands& car, CommandCounters& counters,
                             const CommandValues& values);
 

@@ -1,18 +1,19 @@
-// The guardian of the car process: watches that it speaks on the bus and, when it falls silent at
-// speed, drives the last checked stop trajectory until the car stands. A second process with its
-// own bus socket, its own receivers' ports, its own frame gate; the car process is known by its
-// record and by its frames only.
-//   in     the newest CarRecord (or none), frames off the bus, samples of the receivers, now
+// Guardian of the car process: monitors its commands on the bus and, if they stop at speed, drives
+// the last checked stop trajectory until the car stands. It is a second process with its own bus
+// socket, its own ports of the receivers and its own frame gate; it has only the record and the
+// frames of the car process.
+//   in     the newest CarRecord (or null), frames from the bus, samples of the receivers, the time
 //   out    frames that passed the guardian's own gate, Status
-//   rate   every 5 ms (any rate from 1 to 10 ms); frames leave every kSpeakEvery while it drives
+//   rate   every 5 ms (any rate from 1 to 10 ms); frames are sent every kSpeakEvery while it drives
 //   invariants
-//          it acts only if all of this holds:
-//            no command (1400..1402) of the car was heard for kSilence, but others are on the bus;
+//          it takes over only if all of this holds:
+//            no command (1400..1402) of the car was received for kSilence, but other frames were;
 //            time in which the guardian itself did not run is not counted;
-//            the last record says armed and driving or stopping, and is no more than kRecordLag
-//            older than the last command; it holds a checked stop trajectory, and the car is on it
-//          It gives the car back, or keeps it, as record.hpp says.
-//   errors none: what keeps it from acting is the cause of kNothingToDrive
+//            the last record says armed and driving, coasting or stopping, and is at most
+//            kRecordLag older than the last command; it holds a checked stop trajectory, and the
+//            car is on it
+//          it hands the car back, or keeps it, as record.hpp says
+//   errors none: the reason not to act is the cause of kNothingToDrive
 //   cost   no allocation; below 20 us
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
@@ -43,20 +44,20 @@ struct Params {
   ReckoningParams reckoning;
   safety::FollowingParams following;
   safety::GateParams gate;
-  double off_path_max_m = 5.0;  // the car beside the trajectory when it takes over
+  double off_path_max_m = 5.0;  // lateral distance to the trajectory at the takeover
   Duration standstill_dwell = milliseconds(500);
-  Duration bus_silence_max = milliseconds(50);  // of everybody else
+  Duration bus_silence_max = milliseconds(50);  // of all other nodes
   Duration position_age_max = milliseconds(500);
-  Duration hand_back_again = seconds(5);  // sooner than this after a hand-back it keeps the car
+  Duration hand_back_again = seconds(5);  // a takeover within this time after a hand-back is final
 };
 
 struct State {
   Status status;
   CarRecord record;  // the newest
   ReceivedCommands received;
-  Instant stepped_at{};           // the last tick
-  Instant silent_from{};          // last command, later by the time in which no tick was run
-  Instant others_at{};            // newest frame of anybody else
+  Instant stepped_at{};           // last tick
+  Instant silent_from{};          // last command, plus the time in which no tick ran
+  Instant others_at{};            // newest frame of another node
   world::VehicleSignals signals;  // wheel speeds and steering only
   ReckoningState reckoning;
   safety::FollowingState following;
@@ -65,12 +66,12 @@ struct State {
   Instant next_speech{}, standing_since{}, handed_back_at{};
   bool standing = false, handed_back = false;
   int fresh_records = 0;
-  double ax_mps2 = kUnset, ay_mps2 = kUnset;  // specific force, for the report
+  double ax_mps2 = kUnset, ay_mps2 = kUnset;  // specific force, for the accelerations frame
 };
 static_assert(std::is_trivially_copyable_v<State>);
 
 struct Inputs {
-  const CarRecord* record = nullptr;  // the newest that is whole; none yet: null
+  const CarRecord* record = nullptr;  // the newest valid one; null if none yet
   std::span<const can::ReceivedFrame> can;
   const world::SensorInput& sensors;
   Instant now{};
@@ -79,7 +80,7 @@ struct Inputs {
 struct Output {
   FixedVector<can::Frame, safety::kMaxFrames> frames;
   bool mode_changed = false;
-  std::uint64_t gate_refusals = 0;  // since it took over last
+  std::uint64_t gate_refusals = 0;  // since the last takeover
 };
 
 Output step(const Params& params, State& state, const Inputs& inputs);

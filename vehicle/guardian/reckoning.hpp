@@ -1,22 +1,24 @@
-// Position estimator of the guardian for when the car process is silent: begun with the car
-// process's last estimate, moved on by a gyroscope and the wheel speeds, corrected by GNSS
-// positions and headings that fit. Small and with fixed gains on purpose: it has to hold for the
-// twenty seconds of a stop.
-//   in     the car's estimate while it lives; IMU samples, positions and headings of the guardian's
-//          own receivers, wheel speeds and steering angle off the bus, the banking of the path
+// Position estimator of the guardian while the car process is silent. It starts from the car
+// process's last estimate, propagates it with a gyroscope and the wheel speeds, and corrects it
+// with GNSS positions and headings within their gates. It is small and has fixed gains on purpose:
+// it must last for the twenty seconds of a stop.
+//   in     the car's estimate while the car process runs; IMU samples, positions and headings of
+//          the guardian's own receivers, wheel speeds and steering angle from the bus, the banking
+//          of the path
 //   out    Pose at `now`
 //   frames Map, Body; banking positive where the left side is lower
 //   invariants
 //          with r the yaw rate about body z, phi the banking:
-//            yaw' = r / cos(phi);  vy = b r - v C a_y,  a_y = v r - g sin(phi)
-//            (the rear axle slips by C a_y)
-//            x' = v cos(yaw) - vy cos(phi) sin(yaw), y' likewise
-//          The gyroscope is the one that agrees better with the steering when two are there and
-//          differ; its bias is the mean difference from the car's own estimate while it lived.
-//          Without any, the steady-state yaw rate of the angle (steering/learned_steering.hpp)
-//          A position corrects by a share of its innovation, and the yaw by the lateral part of it
-//          (alpha-beta filter, beta = alpha^2 / (2 - alpha))
-//   errors a sample outside its gate, or not fixed, changes nothing and is counted
+//             yaw' = r / cos(phi);  vy = b r - v C a_y,  a_y = v r - g sin(phi)
+//             (the rear axle slips by C a_y)
+//             x' = v cos(yaw) - vy cos(phi) sin(yaw), y' likewise
+//          if two gyroscopes are available and differ, the one that agrees better with the steering
+//          is used; the bias of each is its mean difference from the car's own estimate. Without a
+//          gyroscope the yaw rate is the steady-state one of the steering angle
+//          (steering/learned_steering.hpp)
+//          a position corrects the position by a share of its innovation, and the yaw by the
+//          lateral part of it (alpha-beta filter, beta = alpha^2 / (2 - alpha))
+//   errors a sample outside its gate, or without a fixed solution, changes nothing and is counted
 //   source Kalata, "The tracking index", 1984 (alpha-beta)
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
@@ -35,8 +37,8 @@
 namespace pitwall::guardian {
 
 struct ReceiverMounting {
-  double x_m = 0.0, y_m = 0.0, z_m = 0.0;  // of the primary antenna, from the centre of gravity
-  double baseline_yaw_rad = 0.0;           // of the antenna baseline, in Body
+  double x_m = 0.0, y_m = 0.0, z_m = 0.0;  // primary antenna, from the centre of gravity
+  double baseline_yaw_rad = 0.0;           // direction of the antenna baseline in Body
 };
 
 struct ReckoningParams {
@@ -46,11 +48,11 @@ struct ReckoningParams {
   steering::Bicycle bicycle;
   double steering_ratio = 19.5;              // [10, 25]
   Duration gyro_age_max = milliseconds(50);  // [10, 200] ms
-  double gyro_differ_rad_per_s = 0.05;       // beyond this the steering decides; [0.01, 0.5]
+  double gyro_differ_rad_per_s = 0.05;       // above it the steering decides; [0.01, 0.5]
   double position_share = 0.15;              // alpha; [0.02, 0.5]
   double position_sigma_max_m = 0.3;         // [0.05, 2]
-  double position_gate_m = 0.6;              // just after an accepted one; [0.2, 3]
-  double position_gate_mps = 0.5;            // grows by this since then; [0, 2]
+  double position_gate_m = 0.6;              // directly after an accepted position; [0.2, 3]
+  double position_gate_mps = 0.5;            // growth of the gate with time; [0, 2]
   double heading_share = 0.05;               // [0, 0.5]
   double heading_gate_rad = 0.05;            // [0.01, 0.3]
 };
@@ -72,27 +74,28 @@ struct ReckoningState {
   bool begun = false;
   Pose pose;
   std::array<Gyroscope, world::kGnssUnits> gyros;
-  bool gyro_used = false;               // in the last step
-  steering::Learned learned;            // of the car's steering, for when no gyroscope is there
-  Instant position_at{};                // of the last accepted one; of the car's last word before
-  bool positioned = false;              // a position was accepted since the car's last word
+  bool gyro_used = false;     // in the last step
+  steering::Learned learned;  // for use without a gyroscope
+  Instant position_at{};      // last accepted position; before it, last estimate of the car
+  bool positioned = false;    // a position was accepted since that estimate
   std::uint32_t used = 0, refused = 0;  // positions and headings
 };
 static_assert(std::is_trivially_copyable_v<ReckoningState>);
 
-// What the car says of itself on the bus.
+// Motion of the car from the bus.
 struct Motion {
-  double speed_mps = kUnset;           // by its wheels; unset: nothing new, the last is kept
+  double speed_mps = kUnset;           // from the wheels; unset: the last value is kept
   double steering_motor_rad = kUnset;  // unset: not known
 };
 
-// In every tick: what the gyroscopes say.
+// Takes the gyroscope rates, in every tick.
 void listen(ReckoningState& state, const world::SensorInput& sensors);
 
-// While the car process lives: its word is taken, the gyroscopes are compared with it.
+// Takes the car's estimate and updates the gyroscope biases from it, while the car process runs.
 void follow_car(const ReckoningParams& params, ReckoningState& state, const world::EgoState& ego);
 
-// Alone: moves on to `now` and takes what the receivers say. Begun before.
+// Propagates to `now` and takes the receivers' samples, while the car process is silent. Requires
+// `begun`.
 void reckon(const ReckoningParams& params, ReckoningState& state, const Motion& motion,
             const world::SensorInput& sensors, const Geodetic& datum, double bank_rad, Instant now);
 

@@ -8,7 +8,7 @@
 //            east  = (N + h) cos(lat) sin(dlon)
 //            north = cos(lat0) (z - z0) - sin(lat0) (p - p0),
 //            p = (N + h) cos(lat) cos(dlon), z = (N (1 - e^2) + h) sin(lat)
-//   errors exact but for rounding: below 1 um within 10 km of the datum (a test compares)
+//   errors none; exact except for rounding: below 1 um within 10 km of the datum (a test compares)
 //   source EPSG Guidance Note 7-2, 4.1.1 and 4.1.2, "geocentric/topocentric conversions"
 // SPDX-License-Identifier: Apache-2.0
 #pragma once

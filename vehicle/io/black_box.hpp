@@ -1,14 +1,14 @@
-// The car's own recording: its state at 50 Hz, every frame of its bus, every datagram of its radio,
-// every byte of its receivers and what else each tick was given, in the base's format: the run can
-// be driven again of it (hil/bench/recorded).
-//   in     a folder; what is heard and said in each tick, the newest snapshot
-//   out    segments of a minute with an LCM log beside each, as protocol/recorder makes them;
-//          counters for the summary
+// Recording of the car: its state at 50 Hz, every frame of its bus, every datagram of its radio,
+// every byte of its receivers and the other inputs of each tick, in the format of the base. The run
+// can be replayed from it (hil/bench/recorded).
+//   in     a folder; the inputs and outputs of each tick, the newest snapshot
+//   out    segments of one minute, each with an LCM log, as protocol/recorder writes them; counters
+//          for the summary
 //   invariants
-//          all calls but open() and json() belong to the 100 Hz loop: they copy into a bounded
-//          queue and neither wait nor allocate. What does not fit is dropped and counted; a disk
-//          that is slow, full or gone does not touch the loop
-//   errors open(): Problem where the folder cannot be made or written; afterwards figures only
+//          all calls except open() and json() are made by the 100 Hz loop: they copy into a bounded
+//          queue without waiting or allocation. What does not fit is dropped and counted; a slow,
+//          full or missing disk does not affect the loop
+//   errors open(): Problem if the folder cannot be created or written; afterwards counters only
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -31,28 +31,28 @@ namespace pitwall::io {
 class BlackBox {
  public:
   static constexpr std::uint64_t kStateEvery = 2;                     // ticks
-  static constexpr const char *kBaseKey = "base", *kNoBase = "none";  // of the metadata
+  static constexpr const char *kBaseKey = "base", *kNoBase = "none";  // metadata key and value
 
-  // An empty folder: it is off. `car_file` and `track_file` are named in the recording.
-  // `no_base`: none is watched, and the recording says so.
+  // With an empty folder the recording is off. `car_file` and `track_file` are named in the
+  // recording; `no_base` is stored in it: no base station is used.
   static Result<BlackBox, Problem> open(const std::string& folder, const std::string& car_file,
                                         const std::string& track_file, bool no_base = false);
 
   bool on() const { return recorder_ != nullptr; }
   bool state_due(std::uint64_t tick) const { return on() && tick % kStateEvery == 0; }
-  // What the tick was given and what it said; after the receivers' bytes of the same tick.
+  // Inputs and sent frames of a tick; to be called after receiver() of the same tick.
   void tick(const pipeline::Inputs& in, std::span<const can::Frame> sent);
   void state(const telemetry::Snapshot& state, Instant now);
   // `down`: from the car to its base.
   void radio(bool down, Instant at, const recorder::RadioDatagram& datagram);
   void event(std::string_view text, Instant at);  // plain ASCII without quotes
   void receiver(std::size_t unit, Instant at, std::span<const std::uint8_t> bytes);
-  // Counters; not for the loop.
+  // Counters as JSON; not for the loop.
   std::string json() const;
 
  private:
   std::unique_ptr<recorder::Recorder> recorder_;
-  TickCounts counts_;  // of this tick
+  TickCounts counts_;  // in this tick
 };
 
 }  // namespace pitwall::io

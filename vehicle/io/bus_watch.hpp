@@ -1,13 +1,15 @@
-// Looks at the CAN interface ten times a second and carries out what the car wants done to it, in a
-// thread of its own: the kernel answers about interfaces under one lock, and a restart may take a
-// second, neither of which the 100 Hz loop can wait for.
+// Monitor of the CAN interface, ten times a second, and executor of restarts and flushes, in a
+// thread of its own. The kernel serves interface requests under one lock, and a restart may take a
+// second: the 100 Hz loop cannot wait for either.
 //
 //   loop    newest() ---- restart() ------------------------------ newest()
-//   thread  look .. look .  IFLA_CAN_RESTART or down and up, look . look ..
+//   thread  read .. read .  IFLA_CAN_RESTART or down and up, read . read ..
 //
-//   in     an interface name; requests. A request made while the same is under way is one with it
-//   out    the newest report, never waited for; counters of what was done and refused
-//   errors start(): Problem with the interface as place. A refusal is counted and its reason kept
+//   in     an interface name; requests. A request that is made while the same one runs is merged
+//          with it
+//   out    the newest report, without waiting; counters of executed and refused requests
+//   errors start(): Problem with the interface as place. A refusal is counted, and its reason is
+//          kept
 //   cost   newest(): no system call; restart(), flush(): one
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
@@ -30,9 +32,9 @@ namespace pitwall::io {
 struct BusReport {
   transport::CanInterfaceStatus interface;
   std::uint64_t restarts = 0, restarts_refused = 0;
-  std::uint64_t down_and_up = 0;  // of the restarts: those the kernel does not count
+  std::uint64_t down_and_up = 0;  // restarts that the kernel does not count
   std::uint64_t flushes = 0, flushes_refused = 0;
-  std::array<char, 160> refusal{};  // why the last one was refused; text ends at the first zero
+  std::array<char, 160> refusal{};  // reason of the last refusal, zero-terminated
 };
 
 class BusWatch {
@@ -46,7 +48,7 @@ class BusWatch {
   const BusReport& newest();
   void restart() { ask(restart_asked_); }
   void flush() { ask(flush_asked_); }
-  // A flush is asked for or under way, so frames may vanish at any moment.
+  // A flush is requested or running, so frames may vanish at any moment.
   bool flushing() const { return flush_asked_.load(); }
 
  private:
@@ -61,10 +63,10 @@ class BusWatch {
   transport::CanInterface interface_;
   transport::FileDescriptor bell_;
   std::atomic<bool> restart_asked_{false}, flush_asked_{false}, end_{false};
-  BusReport mine_;  // the thread's
+  BusReport mine_;  // of the thread
   std::mutex shared_lock_;
   BusReport shared_;
-  BusReport seen_;  // the caller's
+  BusReport seen_;  // of the caller
   std::thread thread_;
 };
 

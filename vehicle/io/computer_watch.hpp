@@ -1,9 +1,9 @@
-// Monitor of the car's computer: load, memory, disk, temperature. Reads once a second in a thread
-// of its own, because the files of the kernel may keep a reader waiting.
+// Monitor of the car's computer: processor load, memory and temperature. It reads once a second in
+// a thread of its own, because a read of kernel files may block.
 //   out    processor_share: of all processors over the last second, 0 .. 1; memory_mib: in use,
-//          caches left out; temperature_c: the hottest thermal zone. Unset where the kernel does
-//          not tell
-//   errors none; a file that is not there or reads otherwise leaves its figure unset
+//          without caches; temperature_c: the hottest thermal zone. Unset if the kernel does not
+//          provide it
+//   errors none; a file that is missing or has another format leaves its value unset
 //   cost   newest(): three atomic loads
 //   source proc(5): /proc/stat, /proc/meminfo; sysfs-class-thermal
 // SPDX-License-Identifier: Apache-2.0
@@ -23,15 +23,15 @@
 namespace pitwall::io {
 
 struct ProcessorTime {
-  std::uint64_t busy = 0, all = 0;  // jiffies of all processors since the boot
+  std::uint64_t busy = 0, all = 0;  // jiffies of all processors since boot
 };
 // The first line of /proc/stat: "cpu  user nice system idle iowait irq softirq steal ...".
 std::optional<ProcessorTime> processor_time_of(std::string_view stat);
-// Unset where no time passed, or it went back.
+// Unset if no time passed or the counters decreased.
 double share_between(const ProcessorTime& before, const ProcessorTime& after);
-// MemTotal less MemAvailable of /proc/meminfo.
+// MemTotal minus MemAvailable of /proc/meminfo.
 double memory_in_use_mib(std::string_view meminfo);
-// A thermal zone's file: thousandths of a degree Celsius.
+// File of a thermal zone, in thousandths of a degree Celsius.
 double temperature_of(std::string_view zone);
 
 struct ComputerReport {
@@ -40,7 +40,8 @@ struct ComputerReport {
 
 class ComputerWatch {
  public:
-  // `proc` and `zones`: other folders in tests. None if there is no event file to end it by.
+  // `proc` and `zones`: other folders in tests. Returns nullptr if the event file that ends the
+  // thread cannot be created.
   static std::unique_ptr<ComputerWatch> start(std::string proc = "/proc",
                                               std::string zones = "/sys/class/thermal");
   ~ComputerWatch();
@@ -50,7 +51,7 @@ class ComputerWatch {
   ComputerReport newest() const {
     return {share_.load(), memory_mib_.load(), temperature_c_.load()};
   }
-  // For tests: how often all was read.
+  // For tests: number of complete readings.
   std::uint64_t readings() const { return readings_.load(); }
 
  private:
@@ -61,7 +62,7 @@ class ComputerWatch {
 
   std::string proc_, zones_;
   transport::FileDescriptor bell_;
-  std::optional<ProcessorTime> before_;  // the thread's
+  std::optional<ProcessorTime> before_;  // of the thread
   std::atomic<double> share_{kUnset}, memory_mib_{kUnset}, temperature_c_{kUnset};
   std::atomic<std::uint64_t> readings_{0};
   std::atomic<bool> end_{false};

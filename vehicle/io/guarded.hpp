@@ -1,10 +1,11 @@
-// The car process's end of the memory that it shares with its guardian; without a name nothing is
-// shared and everything here does nothing.
-//   in     the name, whether the car shall be armed from the start; the outputs of every tick
-//   out    the guardian's word for the next tick; whether arming is barred
+// Car process's end of the memory that it shares with the guardian. Without a name nothing is
+// shared and all calls do nothing.
+//   in     the name, whether the car is to be armed from the start; the outputs of every tick
+//   out    the guardian's status for the next tick; whether arming is barred
 //   invariants
-//          a process that finds the record of a run that ended armed does not arm, and neither do
-//          those after it, until one was started without being armed
+//          a process started with --arm that finds the record of a run that ended armed refuses
+//          this arm request, and so do later processes, until one starts without --arm or the
+//          operator arms anew
 //   errors open(): Problem with the path
 //   cost   no allocation after open(); a tick below 20 us
 // SPDX-License-Identifier: Apache-2.0
@@ -27,11 +28,12 @@ class Guarded {
  public:
   static Result<Guarded, Problem> open(const std::string& name, bool arm);
 
-  // An arming request that is held since the start is refused.
+  // An arm request that has been held since the start is refused.
   bool barred() const { return barred_; }
-  // Of the guardian, as of now: read after the bus, so that no frame is newer than its word.
+  // The guardian's status at `now`; to be called after the bus was read, so that no frame is newer
+  // than the status.
   pipeline::GuardianView view(Instant now);
-  // Before the frames of the tick are sent.
+  // To be called before the frames of the tick are sent.
   void publish(const pipeline::Setup& setup, const pipeline::Car& car, const pipeline::Outputs& out,
                bool reset, Instant now);
   void finish();

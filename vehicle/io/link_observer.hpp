@@ -1,21 +1,22 @@
-// Observer of the car's CAN interface, from all sources: the socket (error frames, lost frames),
-// the interface as the kernel reports it ten times a second, and the transmit path. Pure.
-//
-//   invariants
-//       of the state: the newest news wins. An error frame counts from the time the kernel made it,
-//   an interface report from the time it was asked for. Of two equally old, the worse one holds.
+// Observation of the car's CAN interface from all sources: the socket (error frames, lost frames),
+// the interface report of the kernel ten times a second, and the transmit path. Pure.
 //
 //     error frame  ----- bus-off @120 -------------------------->  bus-off from 120 on
 //     interface    - active @100 ------- bus-off @200 --- active @300 (restarted) -> active
 //
-//   An interface that is not there or not up is down, whatever a frame said before; so is a unix
-//   bus whose hub has hung up, which the socket knows before the next report. A report without a
-//   controller (vcan, unix bus) says nothing of the state: then the error frames alone tell, and
-//   without any the state is unknown.
 //   in     LinkNews
 //   out    world::LinkObservation; losses and restarts since the first observation
 //   units  frames, Instant
-//   errors none; a counter of the interface that falls (a new driver) goes on from there
+//   invariants
+//          the newest information decides the controller state. An error frame counts from the time
+//          the kernel created it, an interface report from the time it was requested. Of two of the
+//          same age the worse one decides
+//          an interface that is missing or not up is down, even if an error frame is newer; so is
+//          a unix bus whose hub has closed, which the socket detects before the next report
+//          a report without a controller (vcan, unix bus) has no state: then only the error frames
+//          count, and without any the state is unknown
+//   errors none; if a counter of the interface decreases (a new driver), counting continues from
+//          there
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -35,10 +36,10 @@ struct LinkNews {
   std::uint64_t tx_drops = 0;
   Duration tx_stalled{};
   std::uint64_t down_and_up = 0;  // restarts that the kernel does not count
-  bool hung_up = false;           // the socket has no bus any more
+  bool hung_up = false;           // the socket has lost its bus
 };
 
-// Goes on where a counter starts again.
+// Monotonic count that continues when its source counter restarts.
 class GrowingCount {
  public:
   std::uint64_t follow(std::uint64_t value) {

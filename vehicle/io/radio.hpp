@@ -1,12 +1,12 @@
-// The car's radio as the process has it: one UDP socket for each path, and the protocol's endpoint
-// behind them. listen() before the step, speak() after it.
+// Radio of the car process: one UDP socket per path, and the endpoint of the radio protocol.
+// listen() is called before the step, speak() after it.
 //   in     arguments (addresses of base stations by path, key file), budgets of the car file; the
-//          calendar, once in open(), for the stamps of the key exchange; the newest snapshot
+//          UTC time, once in open(), for the stamps of the key exchange; the newest snapshot
 //   out    datagrams, marked as expedited forwarding; the endpoint, for the pipeline's RadioAdapter
 //   errors open(): Problem with the address, the key file or the budget as place; afterwards
 //          counters only
-//   cost   no allocation after open(); at most kReadsPerTick datagrams are taken per tick and path,
-//          the rest waits for the next one
+//   cost   no allocation after open(); at most kReadsPerTick datagrams are read per tick and path,
+//          the rest in the next tick
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -26,7 +26,7 @@
 namespace pitwall::io {
 
 struct RadioArguments {
-  std::vector<std::string> stations;  // by path, see station_addresses.hpp
+  std::vector<std::string> stations;  // one per path, see station_addresses.hpp
   std::string key_file;
 };
 
@@ -34,11 +34,11 @@ class Radio {
  public:
   static constexpr std::size_t kReadsPerTick = 512;
 
-  // `real_car`: false is shown as a simulation, and takes keys of a bench too.
+  // `real_car`: false marks the telemetry as a simulation, and accepts keys of a bench too.
   static Result<Radio, Problem> open(const RadioArguments& args,
                                      const pipeline::RadioParams& params, bool real_car);
 
-  // The box is told every datagram.
+  // Every datagram is recorded in `box`.
   void listen(BlackBox& box);
   bool due(Instant now) const { return endpoint_.due() <= now + kEarly; }
   void speak(const telemetry::Snapshot& snapshot, Instant now, BlackBox& box);
@@ -51,7 +51,7 @@ class Radio {
   transport::UdpAddress local(std::size_t path) const { return paths_[path].local(); }
 
  private:
-  // A tick that comes so much before its slot serves it: the next tick would be late.
+  // A tick at most this much before its slot serves it, because the next tick would be late.
   static constexpr Duration kEarly = milliseconds(2);
 
   Radio(const telemetry::LinkEndpointConfig& config, std::vector<transport::UdpSocket> paths);

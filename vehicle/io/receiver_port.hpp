@@ -1,12 +1,12 @@
-// Input of one receiver's bytes: over UDP, a TCP connection or a serial line.
-//   in     the link, the kind of receiver; now
-//   out    samples of all that waits; when its newest byte came
+// Input port for the bytes of one receiver, over UDP, TCP or a serial line.
+//   in     the link, the kind of receiver; the time
+//   out    samples of all waiting bytes; the arrival time of the newest byte
 //   invariants
-//          a datagram carries the time at which the kernel had it; bytes of a stream have come when
-//          they are read, so that the clock of the receiver has to be learned from the quickest
-//   errors open(): Problem with the link: a port that is taken, a device that is not there. Later
-//          a stream that ends is opened again, and counted
-//   cost   never waits, never allocates in the heap
+//          a datagram has the kernel's receive time. Bytes of a stream have the time of the read,
+//          so the clock of the receiver has to be learned from the fastest messages
+//   errors open(): Problem with the link: a port that is in use, a missing device. A stream that
+//          ends later is opened again and counted
+//   cost   never waits, no heap allocation
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -32,14 +32,14 @@ class ReceiverPort {
   static Result<ReceiverPort, Problem> open(const ReceiverLink& link, std::uint8_t unit,
                                             const world::ReceiverParams& params);
 
-  // `told` hears every byte as it was read, before it is judged.
+  // `reported` gets every byte as it was read, before it is decoded.
   using Observer = std::function<void(Instant at, std::span<const std::uint8_t> bytes)>;
   void read(world::SensorInput& out, Instant now, const Observer& reported = {});
 
   std::optional<Instant> byte_at() const { return byte_at_; }
   receivers::Counters counters() const { return receiver_.counters(); }
   world::ReceiverTraffic traffic() const;
-  // One JSON object: the link, what became of it and of its bytes.
+  // One JSON object: the link, its counters and those of its bytes.
   std::string json() const;
 
  private:
@@ -60,7 +60,7 @@ class ReceiverPort {
   std::optional<Instant> byte_at_;
 };
 
-// Ports of all units, of the kinds that the car file names.
+// Ports of all units, with the kinds of receiver that the car file names.
 Result<std::vector<ReceiverPort>, Problem> open_receivers(const ReceiverLinks& links,
                                                           const world::Receivers& params);
 

@@ -1,7 +1,7 @@
-// Bus and receivers of the car process: CAN socket, ports of the receivers. read() before the step,
-// write() after it. The radio is radio.hpp's.
-//   in     Arguments; what the car file says of the receivers
-//   out    what arrived since the last read; counters
+// I/O of the car process: CAN socket and ports of the receivers. read() is called before the step,
+// write() after it. The radio is in radio.hpp.
+//   in     Arguments; the receivers of the car file
+//   out    what arrived since the last read(); counters
 //   errors open(): Problem that names the interface or the link; afterwards counters only
 //   cost   no allocation after open()
 // SPDX-License-Identifier: Apache-2.0
@@ -35,26 +35,26 @@ class Rim {
     std::span<const can::ReceivedFrame> can;  // valid until the next read()
     world::SensorInput sensors;
     world::LinkObservation link;
-    std::array<std::optional<Instant>, world::kGnssUnits> gnss_byte_at;  // newest, if any
+    std::array<std::optional<Instant>, world::kGnssUnits> gnss_byte_at;  // newest byte, if any
   };
-  // The box is told every byte of the receivers.
+  // Every byte of the receivers is recorded in `box`.
   Received read(BlackBox& box);
-  // Frames of this tick, in order of urgency. What cannot go out in time is dropped and counted; on
-  // a listen-only interface that is all of it.
+  // Sends the frames of this tick, in order of urgency. Frames that cannot be sent in time are
+  // dropped and counted; on a listen-only interface these are all.
   void write(std::span<const can::Frame> frames, Instant now);
-  // Asks for a restart of the controller; carried out beside the loop.
+  // Requests a restart of the controller, which is executed outside the loop.
   void restart_bus() { watch_->restart(); }
 
   const transport::CanSocketCounters& can() const { return can_.counters(); }
   std::span<const ReceiverPort> receivers() const { return receivers_; }
   const TransmitCounters& transmit() const { return slots_.counters(); }
-  // Frames that did not go out in time: a command is never sent late.
+  // Frames that were not sent in time: a command is never sent late.
   std::uint64_t tx_drops() const { return slots_.counters().dropped() + silenced_; }
   void poll_drops() { can_.poll_drops(); }
   const BusReport& bus() { return watch_->newest(); }
-  // Why the kernel refused what the car wanted of the bus; once, when it first did.
+  // Reason for which the kernel refused a request to the bus; returned once, at the first refusal.
   const char* fresh_refusal();
-  // The interface only listens: nothing is ever sent, and the car must not be armed.
+  // The interface is listen-only: nothing is ever sent, and the car must not be armed.
   bool listen_only() { return bus().interface.listen_only; }
 
  private:
@@ -68,10 +68,10 @@ class Rim {
   LinkObserver observer_;
   world::LinkObservation link_;
   bool refusal_reported_ = false;
-  std::uint64_t emptied_ = 0;  // how often the kernel's queue has been, as of the last look
+  std::uint64_t emptied_ = 0;  // flushes of the kernel's queue at the last look
   std::vector<ReceiverPort> receivers_;
   std::vector<can::ReceivedFrame> frames_;
-  std::uint64_t silenced_ = 0;  // frames not sent because the interface only listens
+  std::uint64_t silenced_ = 0;  // frames not sent on a listen-only interface
 };
 
 }  // namespace pitwall::io

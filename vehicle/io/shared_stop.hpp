@@ -23,7 +23,7 @@
 
 namespace pitwall::io {
 
-// The path of the file that a name means.
+// Path of the file for a name.
 std::string shared_stop_path(std::string_view name);
 
 class SharedStop {
@@ -35,7 +35,7 @@ class SharedStop {
 
   void write(const guardian::CarRecord& record);
   void write(const guardian::Status& status);
-  // Nothing whole yet: false, and the value stays as it is.
+  // Returns false, and leaves the value unchanged, if there is no whole copy yet.
   bool read(guardian::CarRecord& record) const;
   bool read(guardian::Status& status) const;
 

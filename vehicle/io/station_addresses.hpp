@@ -1,10 +1,10 @@
-// Addresses at which the car looks for its base station, by radio path: what --radio says.
-//   in     one text for each path, "ADDRESS:PORT[,ADDRESS:PORT...]", the preferred address first,
-//          then those of spare base stations
+// Addresses of the base stations by radio path, from --radio.
+//   in     one text per path, "ADDRESS:PORT[,ADDRESS:PORT...]", the preferred address first, then
+//          those of standby base stations
 //   out    the addresses in that order
 //   errors Problem with --radio and the address or list as place: no path or too many, no IPv4
-//          address, no port, too many of one path, one that is named twice, and loopback beside
-//          other addresses of a path: one socket does not reach both
+//          address, no port, too many addresses of one path, an address given twice, loopback
+//          together with other addresses of a path (one socket does not reach both)
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -22,7 +22,7 @@ using StationAddresses = std::vector<transport::UdpAddress>;
 Result<std::vector<StationAddresses>, Problem> parse_station_addresses(
     std::span<const std::string> paths);
 
-// Of this machine.
+// Whether the address is on the loopback interface.
 bool is_loopback(transport::UdpAddress address);
 
 }  // namespace pitwall::io

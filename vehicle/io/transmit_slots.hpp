@@ -1,20 +1,20 @@
-// The way out to the bus: one slot per identifier, the latest value wins, nothing old is ever sent
-// because there was a queue. Pure: what the kernel still holds, and now, come in.
+// Transmit buffer for the CAN bus: one slot per identifier, the latest value wins, and no old frame
+// is sent after waiting in a queue. Pure: the fill of the kernel queue and the time are inputs.
 //
 //   tick k    look: kernel empty   offer -> due: all of it -> kernel takes it
 //   tick k+1  look: not empty yet  offer -> due: nothing
 //   tick k+2  look: not empty yet  offer -> the new values replace those of k+1; due: nothing
 //   tick k+3  look: kernel empty   offer -> due: the newest values only
 //
-//   in     frames of a tick in the order of their urgency (brake first); what the kernel holds
-//   out    frames to give to the kernel now, in that order; then those that an earlier tick left
+//   in     frames of a tick in order of urgency (brake first); the fill of the kernel queue
+//   out    frames to give to the kernel now, in that order; then those left from earlier ticks
 //   invariants
-//          at most one tick's frames are in the kernel, so what waits there is never older than the
-//          stall; a frame that was not given to it within `age_max` is dropped and counted; never
-//          two frames of one identifier
-//   errors none: every frame is sent, replaced, stale or without room, and counted as such
+//          the kernel holds the frames of at most one tick, so a frame that waits there is never
+//          older than the stall; a frame that was not given to it within `age_max` is dropped and
+//          counted; never two frames of one identifier
+//   errors none: every frame is counted as sent, replaced, stale or without room
 //   source kernel queues of CAN interfaces are FIFOs of 10 frames and more; a drive-by-wire that
-//          obeys the commands of a second ago after a stall is worse than one that hears nothing
+//          executes commands of a second ago after a stall is worse than one that receives none
 //   cost   O(frames x slots), no allocation
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
@@ -29,24 +29,25 @@
 namespace pitwall::io {
 
 struct TransmitParams {
-  Duration age_max = milliseconds(20);  // two ticks: a command that old has had its successor
+  Duration age_max = milliseconds(20);  // two ticks: by then a newer command exists
 };
 
 struct TransmitCounters {
   std::uint64_t offered = 0, taken = 0;
-  std::uint64_t replaced = 0;   // by a newer value, before they could be sent
+  std::uint64_t replaced = 0;   // replaced by a newer value before they could be sent
   std::uint64_t stale = 0;      // older than age_max without a newer value
   std::uint64_t no_room = 0;    // more identifiers than slots
-  std::uint64_t not_taken = 0;  // attempts: frames that the kernel refused (ENOBUFS and the like)
+  std::uint64_t not_taken = 0;  // attempts that the kernel refused (ENOBUFS etc.)
 
   // Frames that could not be sent in time.
   std::uint64_t dropped() const { return replaced + stale + no_room; }
 };
 
-// What the kernel has of ours.
+// Fill of the kernel queue with our frames.
 struct KernelQueue {
-  std::uint32_t bytes = 0;  // 0: everything has left
-  bool flushed = false;  // frames may have been thrown away since the last look: less means nothing
+  std::uint32_t bytes = 0;  // 0: all frames were sent
+  // Frames may have been discarded since the last look: a smaller fill then shows no progress.
+  bool flushed = false;
 };
 
 class TransmitSlots {
@@ -55,18 +56,19 @@ class TransmitSlots {
 
   explicit TransmitSlots(const TransmitParams& params = {}) : params_(params) {}
 
-  // Once a tick, before the others.
+  // To be called once per tick, before the other functions.
   void look(const KernelQueue& queue, Instant now);
-  // Of one tick, in order of urgency.
+  // Frames of one tick, in order of urgency.
   void offer(std::span<const can::Frame> frames, Instant now);
-  // Frames to give to the kernel; valid until the next call. Nothing while it holds older ones.
+  // Frames to give to the kernel; valid until the next call. Empty while it holds older ones.
   std::span<const can::Frame> due(Instant now);
-  // The kernel took that many of due(), from the front. To be called after each due().
+  // The kernel accepted the first `count` frames of due(). To be called after each due().
   void taken(std::size_t count, Instant now);
 
-  // How long frames have waited without any of them leaving; zero: nothing waits, or it moves.
+  // Time for which frames have waited without any being sent; zero if none waits or frames are
+  // being sent.
   Duration stalled(Instant now) const;
-  // What the kernel holds has become stale and does not move: it must not go out any more.
+  // The frames in the kernel are stale and are not being sent: they must be discarded.
   bool should_flush(Instant now) const;
   const TransmitCounters& counters() const { return counters_; }
 
@@ -75,10 +77,10 @@ class TransmitSlots {
 
   TransmitParams params_;
   FixedVector<can::Frame, kSlots> frames_;
-  FixedVector<Instant, kSlots> since_;  // of each frame: when it was offered
-  std::size_t tried_ = 0;               // of frames_, by the last due()
-  std::uint32_t bytes_ = 0;             // in the kernel at the last look
-  bool given_ = false;                  // something since the last look
+  FixedVector<Instant, kSlots> since_;  // offer time of each frame
+  std::size_t tried_ = 0;               // number of frames returned by the last due()
+  std::uint32_t bytes_ = 0;             // fill at the last look
+  bool given_ = false;                  // frames were given since the last look
   bool stuck_ = false;
   Instant given_at_{}, moved_at_{};
   TransmitCounters counters_;

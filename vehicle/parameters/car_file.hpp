@@ -1,7 +1,7 @@
-// A car as a person writes it (vehicle/config/cars/*.yaml) to pipeline::CarParams. Strict: every
-// key
-// is known, every number in its legal range; what may be left out has the default of its module.
+// Reader of car files (vehicle/config/cars/*.yaml) into pipeline::CarParams. It is strict: every
+// key is known and every number in its legal range; an optional key has the default of its module.
 //   in     text of the file, its name for messages
+//   out    CarFile
 //   errors Problem with file:line:column
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
@@ -14,10 +14,10 @@
 
 namespace pitwall::parameters {
 
-// One file of the format, for one database. A car that speaks another is another file.
+// Content of one file, for one CAN database.
 struct CarFile {
   std::string name;
-  std::string database;  // revision that the car must speak, "av21"
+  std::string database;  // revision of the database on the car's bus, "av21"
   pipeline::CarParams params;
 };
 

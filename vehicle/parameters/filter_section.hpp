@@ -1,8 +1,8 @@
-// Sections of the car file about localization's filter and its checks, read by their own tables of
-// ranges.
+// Readers of the car-file sections about the filter and the checks of localization, by their tables
+// of ranges.
 //   in     the mapping of the section
 //   out    parameters, each within its legal range
-//   errors the file's: place and reason, thrown as by every section
+//   errors as in every section: thrown, with place and reason
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -12,9 +12,9 @@
 namespace pitwall::parameters {
 
 localization::FilterParams read_filter(yaml::StrictMap map);
-// May be left out, whole or in parts: the default is the module's.
+// Optional as a whole or in parts; the defaults are those of the module.
 localization::CheckParams read_checks(yaml::StrictMap& section);
-// Likewise: which unit each channel prefers, "both", "unit_0" or "unit_1".
+// Also optional: the preferred unit of each channel, "both", "unit_0" or "unit_1".
 localization::Priorities read_priorities(yaml::StrictMap& section);
 
 }  // namespace pitwall::parameters

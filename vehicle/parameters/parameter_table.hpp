@@ -1,5 +1,5 @@
-// Table of the car file's numbers for people: key, default and legal range, from the same rows that
-// read and check the file. What depends on other numbers or is a list is not in it.
+// Table of the numbers of a car file for the reader: key, default and legal range, from the same
+// rows that read and check the file. Numbers that depend on others, and lists, are not in it.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

@@ -1,5 +1,5 @@
-// The rows of a parameter struct's table, read from a section of the car file.
-//   errors a missing number and one outside its range, at their line
+// Reader of the rows of a range table from a section of the car file.
+//   errors a missing number, or one outside its range, with its line
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

@@ -1,8 +1,8 @@
-// Sections of the car file about a stop and what it stands on: tyres and brakes, its path, the law
-// that steers while the car drives.
+// Readers of the car-file sections about a stop and what it depends on: tyres and brakes, the stop
+// path, the lateral control law for driving.
 //   in     the mapping of the section
 //   out    parameters, each within its legal range
-//   errors the file's: place and reason, thrown as by every section
+//   errors as in every section: thrown, with place and reason
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

@@ -1,8 +1,8 @@
-// Reader of track files (vehicle/config/tracks/*.yaml): degrees in the file, radians outside.
+// Reader of track files (vehicle/config/tracks/*.yaml): degrees in the file, radians in the result.
 //   in     the text of the file and its name, for messages
 //   out    the description that world::TrackMap::build() takes
-//   errors a missing, unknown, repeated or out-of-range key, with "file:line:column"; whether the
-//          table is a track at all is for build() to say
+//   errors a missing, unknown, repeated or out-of-range key, with "file:line:column"; build()
+//          checks whether the table describes a track
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

@@ -1,4 +1,4 @@
-// The whole state of the car's computer as one value: copying it is a snapshot, a rewind, a replay.
+// Complete state of the car's computer as one value: a copy is a snapshot, for rewind and replay.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -26,12 +26,12 @@
 
 namespace pitwall::pipeline {
 
-// What planning said last, kept between its ticks.
+// Last result of planning, kept between its ticks.
 struct Plan {
   planning::Output output;
-  world::RaceControl made_with;    // to be acknowledged: acted on, not merely received
-  Instant at{};                    // of the last attempt
-  std::optional<Instant> good_at;  // of the last that gave a trajectory
+  world::RaceControl made_with;    // flags to acknowledge as acted on
+  Instant at{};                    // last attempt
+  std::optional<Instant> good_at;  // last attempt that gave trajectories
   bool ever = false;
 };
 
@@ -43,18 +43,18 @@ struct Car {
   localization::State localization;
   Plan plan;
   control::State control;
-  steering::Learned learned;  // of the car's steering
+  steering::Learned learned;  // learned steering correction
   safety::WatchdogState watchdog;
   safety::BusGuardState bus_guard;
   OperatorOrders orders;
   safety::LinkLossState link_loss;
   safety::SupervisorState supervisor;
   safety::GateState gate;
-  safety::Follow follow = safety::Follow::kNone;  // decided by the last tick
+  safety::Follow follow = safety::Follow::kNone;  // decided in the last tick
   bool gate_refused = false;                      // in the last tick
-  double station_m = kUnset;                      // of the last tick: where to search from
-  double bank_rad = 0.0;                          // there
-  localization::Surroundings surroundings;        // likewise
+  double station_m = kUnset;                      // in the last tick: start of the search
+  double bank_rad = 0.0;                          // banking at station_m
+  localization::Surroundings surroundings;        // road at the last position
   std::uint64_t ticks = 0;
 };
 static_assert(std::is_trivially_copyable_v<Car>, "snapshot == memcpy == replay == rewind");

@@ -1,10 +1,10 @@
-// Mapper of changes in a tick to events for the pit wall: mode, arming, flags, laps, and every
-// fault when it begins and when it ends. Values may be overwritten on the radio; an event arrives.
+// Mapper of changes in a tick to events for the pit wall: mode, arming, flags, laps, and the begin
+// and end of every fault. Values may be overwritten on the radio; events are delivered.
 //   in     Outputs of this tick, the car's fault log; one call per tick
 //   out    events in the order: faults, mode, arming, flags, lap (laps as race control counts them)
 //   invariants
-//          each change once, and the end only of a fault whose beginning was told; of a first tick
-//          only what differs from a car that was switched on
+//          each change once, and the end only of a fault whose begin was reported; the first tick
+//          reports the differences from a car that was just switched on
 //   errors faults that the log has dropped, and events without room, are counted in `missed`
 //   cost   no allocation
 // SPDX-License-Identifier: Apache-2.0
@@ -34,14 +34,14 @@ class EventTap {
   void look_at_flags(const world::RaceControl& race, Instant now);
 
   TickEvents events_;
-  std::uint64_t faults_ = 0;   // of the log, told
-  safety::CauseSet reported_;  // begun, and not over yet
+  std::uint64_t faults_ = 0;   // entries of the log that were reported
+  safety::CauseSet reported_;  // reported faults that have not ended
   world::Mode mode_ = world::Mode::kDisarmed;
   safety::Arming arming_ = safety::Arming::kNotAsked;
   world::TrackFlag track_ = world::TrackFlag::kNone;
   world::VehicleFlag vehicle_ = world::VehicleFlag::kNone;
   std::uint8_t laps_ = 0;
-  std::optional<Instant> lap_at_;  // when that many were told
+  std::optional<Instant> lap_at_;  // time of the last lap event
   std::uint64_t missed_ = 0;
 };
 

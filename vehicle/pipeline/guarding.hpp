@@ -1,10 +1,10 @@
-// The car's side of its guardian: what the guardian needs of the car's parameters, what the car
-// tells it in every tick, and what the car makes of the guardian's word.
+// Car's side of the interface to its guardian: the guardian's parameters from those of the car, the
+// record of every tick, and the view of the guardian's status.
 //   in     Setup, Car and Outputs of a tick; the guardian's Status
 //   out    guardian::Params, guardian::CarRecord, GuardianView
 //   invariants
-//          a stop trajectory goes into the record only if it passes stop_check; else the one before
-//          stays there, with its age
+//          a stop trajectory enters the record only if it passes stop_check; otherwise the previous
+//          one stays there, with its age
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -20,31 +20,31 @@ namespace pitwall::pipeline {
 
 guardian::Params guardian_params(const CarParams& params);
 
-// What the guardian is told, kept between the ticks.
+// The record for the guardian, kept between the ticks.
 struct Reported {
   guardian::CarRecord record;
   guardian::StopVerdict verdict = guardian::StopVerdict::kEmpty;  // of the newest plan
-  Instant judged{};                                               // when that plan was made
+  Instant judged{};                                               // time of that plan
   std::uint64_t refused = 0;                                      // plans that were not published
 };
 
 struct Run {
   std::uint64_t id = 0;
-  bool reset = false;   // the operator's, or this process was started without being armed
-  bool barred = false;  // from arming: ended_armed() of the record that it found
+  bool reset = false;   // by the operator, or this process was started without --arm
+  bool barred = false;  // barred from arming: ended_armed() of the found record
 };
 
-// Brings the record up to this tick.
+// Updates the record to this tick and counts refused plans.
 void publish(const Setup& setup, const Car& car, const Outputs& out, const Run& run, Instant now,
              Reported& reported);
 
-// What the car heeds of the guardian's word; `status` may be of any age.
+// View of a status of any age: only a fresh status of this run takes effect.
 GuardianView view_of(const guardian::Status& status, std::uint64_t run, Instant now);
 
-// The run of this record was armed and did not end in order, or a run before it and nobody has
-// looked since: the car must not be armed again by a mere restart.
+// True if the run of this record was armed and did not end normally, or if an earlier run did so
+// and no operator has intervened since: a restart alone must not arm the car again.
 bool ended_armed(const guardian::CarRecord& record);
-// The last word of a process that ends in order: whether the car may be left.
+// Marks the record of a process that ends normally: whether the car stands and may be left.
 void finish(Reported& reported);
 
 }  // namespace pitwall::pipeline

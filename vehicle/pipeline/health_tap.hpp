@@ -1,7 +1,7 @@
-// Telemetry of the car's health: localization, watchdogs, sensors, receivers, computer, faults,
-// bus, radio.
+// Telemetry mapper for the health of the car: localization, watchdogs, sensors, receivers,
+// computer, faults, bus, radio.
 //   in     as telemetry_tap.hpp
-//   out    values and times of sampling of the groups kLocalization, kStreams, kSensors, kGnss0,
+//   out    values and sampling times of the groups kLocalization, kStreams, kSensors, kGnss0,
 //          kGnss1, kReceivers, kComputer, kFaults, kBus and kRadio
 // SPDX-License-Identifier: Apache-2.0
 #pragma once

@@ -1,8 +1,8 @@
-// All monitors of the car as one set: what they see in this tick.
+// Union of the findings of all monitors of the car in one tick.
 //   in     the outputs of the modules
 //   out    a set of monitors
 //   invariants
-//          a monitor belongs to the modules that world/monitor.hpp names beside it
+//          each monitor is reported by the modules that world/monitor.hpp names for it
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

@@ -1,15 +1,15 @@
-// Orders of the operator that hold: the commands of the radio beside the switches at the car, as
-// one set of requests for this tick, and what became of each command.
+// Operator commands with lasting effect: combines the commands of the radio with the switches at
+// the car into the requests of this tick, and answers each command.
 //   in     commands of this tick, switches, the mode before and after the supervisor
-//   out    requests, speed limit and track flag that hold; answers
+//   out    requests, speed limit and track flag in effect; answers
 //   invariants
-//          "applied" is said when the car did it: an arm command that finds a fault in the way is
-//          refused and does not lie in wait; nothing is applied after its expiry
-//          of two flags the one that allows less holds, of two speed limits the lower
-//          arming by command is an act of its own, as a switch that is released and closed again;
-//          a switch that is closed afterwards has the last word again
-//          what leaves the car without any position or without any sense of its motion is not
-//          excluded while it moves; a stop is acknowledged only where the car stands
+//          "applied" is answered after the car did it: an arm command that a fault bars is refused
+//          and does not wait; nothing is applied after its expiry
+//          the more restrictive of two flags and the lower of two speed limits are in effect
+//          an arm command acts like a switch that is opened and closed again; a switch that is
+//          closed afterwards takes precedence again
+//          an exclusion that leaves the car without a position or without a motion sensor is
+//          refused while the car moves; a stop is acknowledged only at standstill
 //   units  m/s
 //   cost   no allocation; O(commands)
 // SPDX-License-Identifier: Apache-2.0
@@ -37,12 +37,13 @@ using Answers = FixedVector<world::AnsweredCommand, 2 * world::kOperatorCommands
 struct OperatorOrders {
   std::optional<bool> arm;  // unset: the switch decides
   bool switch_was = false;
-  std::optional<world::OperatorCommand> arming, reset;  // to be answered when the car has decided
-  std::optional<bool> arm_before;                       // what `arm` was before `arming`
-  bool close_next = false;                              // `arming` is let go now, given next tick
+  std::optional<world::OperatorCommand> arming,
+      reset;                       // answered by conclude()
+  std::optional<bool> arm_before;  // value of `arm` before `arming`
+  bool close_next = false;         // the request is withdrawn in this tick, set in the next
   double speed_limit_mps = kUnset;
-  world::SensorUse use;                             // until another set is ordered
-  world::TrackFlag flag = world::TrackFlag::kNone;  // kNone: no opinion
+  world::SensorUse use;                             // until another set is commanded
+  world::TrackFlag flag = world::TrackFlag::kNone;  // kNone: no flag from the base
 };
 static_assert(std::is_trivially_copyable_v<OperatorOrders>);
 
@@ -52,24 +53,24 @@ struct OrderInputs {
   std::span<const world::OperatorCommand> commands;
   bool may_arm = true;
   world::Mode mode = world::Mode::kDisarmed;  // before this tick
-  bool stands = true;                         // likewise
+  bool stands = true;                         // before this tick
   Instant now{};
 };
 
-// Before the supervisor: what it shall hear.
+// To be called before the supervisor: applies the commands and returns the requests for it.
 safety::OperatorRequests execute(OperatorOrders& orders, const OrderInputs& inputs,
                                  Answers& answers);
 
-// After it: what it made of that. `resettable`: there was something that a reset ends, besides
-// Mode::kHalted.
+// To be called after the supervisor: answers the pending commands. `resettable`: there was
+// something besides Mode::kHalted that a reset ends.
 void conclude(OperatorOrders& orders, world::Mode before, const safety::SupervisorOutput& chosen,
               bool resettable, Instant now, Answers& answers);
 
-// Whether what is left gives the car a position and a sense of its motion.
+// Whether the remaining sensors give a position and a motion measurement.
 bool enough_to_drive(world::SensorUse use);
-// NaN means none.
+// The lower limit; NaN means no limit.
 double lower_limit_mps(double a_mps, double b_mps);
-// Race control as the car acts on it: the base's flag can only make it stricter.
+// Race control as the car acts on it: the flag of the base can only make it more restrictive.
 world::RaceControl stricter(const world::RaceControl& received, world::TrackFlag of_base);
 
 }  // namespace pitwall::pipeline

@@ -1,14 +1,14 @@
-// Between the car's end of the radio and the pipeline: what the operator says goes into the tick,
-// what became of it and what happened goes back. The same in the car and in the bench.
+// Adapter between the car's endpoint of the radio and the pipeline: operator inputs and commands go
+// into the tick, answers and events go back. Car and bench use the same one.
 //   in     the endpoint; Inputs before the step, Outputs after it; the car file as text
-//   out    Inputs: wishes, commands, when the base was alive, whether the car may be armed.
-//          Endpoint: fate of each command, standstill, place, events (also of attacks and key
-//          errors that the car's end of the radio sees), the path that the car means
-//          to drive (each kPathPeriod) and, when asked for, its parameters
+//   out    Inputs: operator inputs, commands, when the base was alive, whether the car may be
+//          armed. Endpoint: result of each command, standstill, position, events (also of attacks
+//          and key errors that the endpoint detects), the path that the car plans to drive (each
+//          kPathPeriod) and, on request, its parameters
 //   invariants
-//          a command is decided once: by the pipeline, or here where the pipeline has no part in it
-//          (end of the run: at standstill only; parameters). Ends that do not agree on the safety
-//          schema do not arm
+//          each command is decided once: by the pipeline, or here if the pipeline is not concerned
+//          (end of the run, at standstill only; parameters). The car does not arm if the two ends
+//          disagree on the safety schema
 //   cost   no allocation
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
@@ -37,16 +37,16 @@ class RadioAdapter {
   // `parameters` is not copied.
   explicit RadioAdapter(std::string_view parameters = {}) : parameters_(parameters) {}
 
-  // Before the step. The commands lie here until the next call.
+  // To be called before the step. The commands stay valid until the next call.
   void fill(telemetry::CarEndpoint& radio, Inputs& in);
-  // After it.
+  // To be called after the step.
   void take(telemetry::CarEndpoint& radio, const Setup& setup, const Car& car, const Outputs& out,
             Instant now);
 
-  // What telemetry shows of the radio; its statistics anew each kFiguresPeriod.
+  // Writes the radio figures for telemetry; the statistics are updated each kFiguresPeriod.
   void show(const telemetry::CarEndpoint& radio, RimCounters& figures, Instant now);
 
-  // Attacks and key errors that began or were over in the newest take().
+  // Attacks and key errors that began or ended in the newest take().
   std::span<const telemetry::ThreatChange> threats() const { return threats_.span(); }
 
   bool end_asked() const { return end_asked_; }  // the operator ended the run
@@ -64,7 +64,7 @@ class RadioAdapter {
   bool stands_ = false, end_asked_ = false;
   std::uint64_t events_refused_ = 0;
   std::optional<Instant> path_at_, counted_at_;
-  RimCounters counted_;  // those of the radio
+  RimCounters counted_;  // radio figures at counted_at_
   telemetry::PathBuffer path_{};
 };
 

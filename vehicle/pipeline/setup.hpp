@@ -1,5 +1,5 @@
-// Everything that is decided before the first tick: the parameters of every module, checked, and
-// what is derived from them once (track, line, gains, tangent plane). Read-only afterwards.
+// Set-up of the pipeline before the first tick: the checked parameters of every module, and the
+// values derived from them once (track, line, gains, tangent plane). Read-only afterwards.
 //   in     CarParams and a TrackDescription, both from files
 //   out    Setup
 //   errors Problem whose place names the parameter or the row
@@ -35,17 +35,17 @@ struct Rates {
   Duration planning = milliseconds(50);  // 20 Hz
 };
 
-// What this end may put on one path of the radio, IP and UDP overhead counted.
+// Transmit budget of the car on one radio path, including IP and UDP overhead.
 struct RadioPathParams {
   double bytes_per_s = 32'000.0;        // 256 kbit/s; [8000, 1250000]
   double packets_per_s = 100.0;         // [10, 1000]
-  double safety_bytes_per_s = 4'400.0;  // of bytes_per_s, for safety alone; [1000, bytes_per_s)
+  double safety_bytes_per_s = 4'400.0;  // reserved for safety; [1000, bytes_per_s)
 };
 inline constexpr std::size_t kRadioPathsMax = 2;
 
 struct RadioParams {
-  FixedVector<RadioPathParams, kRadioPathsMax> paths;  // empty: as RadioPathParams, for each
-  bool signed_only = false;  // where a venue forbids encryption; both ends must agree
+  FixedVector<RadioPathParams, kRadioPathsMax> paths;  // empty: defaults for each path
+  bool signed_only = false;  // for venues that forbid encryption; both ends must agree
   safety::LinkLossParams ladder;
 };
 
@@ -55,7 +55,7 @@ struct CarParams {
   gateway::IdentityParams identity;
   gateway::HandshakeParams handshake;
   gateway::OutboundParams outbound;
-  world::Receivers receivers;  // not of the step: of whoever hears them
+  world::Receivers receivers;  // not used by step(), but by the receivers' ports
   localization::Params localization;
   planning::Params planning;
   control::Params control;
@@ -72,7 +72,7 @@ struct Setup {
   localization::Datum datum;
   planning::Line line;
   control::LateralGains gains;
-  steering::AngleLimits angles{};  // of the frame gate, at the road wheel
+  steering::AngleLimits angles{};  // limits of the frame gate, at the road wheel
 };
 
 Result<Setup, Problem> prepare(const CarParams& params, const world::TrackDescription& track);

@@ -1,12 +1,11 @@
-// The whole car on one screen: decode -> localize -> plan -> control -> supervise -> encode ->
-// gate.
-// One function for the car, the live bench, lockstep and the tests.
-//   in     Setup (read-only), what arrived since the last tick, what the operator asks, now
-//   out    frames for the bus, and everything that telemetry and logs show; Car is updated in place
+// Tick of the whole car: decode -> localize -> plan -> control -> supervise -> encode -> gate. One
+// function for the car, the live bench, lockstep and the tests.
+//   in     Setup (read-only), what arrived since the last tick, the operator's requests, the time
+//   out    frames for the bus, and all values for telemetry and logs; Car is updated in place
 //   rate   100 Hz (Setup::params.rates.tick); planning inside at its own rate
 //   errors none: bad input is counted by the module that refuses it
-//   cost   no allocation, no lock, no throw; below 100 us, and below 1.2 ms where it plans or
-//          puts late measurements in their place
+//   cost   no allocation, no lock, no throw; below 100 us, and below 1.2 ms in a tick that plans or
+//          inserts late measurements
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -28,12 +27,12 @@
 
 namespace pitwall::pipeline {
 
-// What the car heeds of its guardian (guarding.hpp makes it of the guardian's Status). While the
-// guardian drives the car is quiet; what the guardian said last is what it goes on from.
+// View of the guardian (made from its Status in guarding.hpp). While the guardian drives, the car
+// sends nothing; afterwards it continues from the guardian's last frames.
 struct GuardianView {
-  bool drives = false;                  // now, and it lives
-  bool stopped = false;                 // it stopped this run: the car stands until a reset
-  Instant drove_from{}, drove_until{};  // the last time
+  bool drives = false;                  // drives now, with a fresh status
+  bool stopped = false;                 // it stopped this run: no driving until a reset
+  Instant drove_from{}, drove_until{};  // last takeover
   guardian::CommandCounters counters;
   world::ActuatorCommand command;
 };
@@ -47,17 +46,17 @@ struct Inputs {
   double operator_speed_limit_mps = kUnset;            // unset: none
   world::OperatorInputs operator_inputs{};             // by radio
   std::span<const world::OperatorCommand> commands{};  // at most kOperatorCommandsMax
-  bool may_arm = true;                                 // false: listens only
-  // Newest byte of each receiver, where the rim knows it; else any sample of the unit counts.
+  bool may_arm = true;                                 // false: listen-only bus or wrong schema
+  // Newest byte of each receiver; nullopt: any sample of the unit counts.
   std::array<std::optional<Instant>, world::kGnssUnits> gnss_byte_at{};
-  world::LinkObservation link{};      // of the CAN interface, by the rim
+  world::LinkObservation link{};      // of the CAN interface
   std::optional<Instant> radio_at{};  // newest authentic packet of the base station
   GuardianView guardian{};
-  world::ComputerHealth computer{};  // where the rim knows it
-  bool last_run_armed = false;       // the process before this one ended while it was armed
+  world::ComputerHealth computer{};  // unset if not measured
+  bool last_run_armed = false;       // the previous process ended while armed
 };
 
-// How the car stands to the trajectory that it follows, whoever drives.
+// Deviation from the trajectory that is followed, whether control or a stop drives.
 struct Tracking {
   double cross_track_m = kUnset, heading_error_rad = kUnset;  // left positive
   double target_speed_mps = kUnset;
@@ -67,23 +66,23 @@ struct Outputs {
   gateway::InboundOutput received;
   world::EgoState ego;
   FixedVector<localization::Verdict, localization::kVerdictsMax> located;
-  localization::Estimate estimate;                                     // what ego is made of
+  localization::Estimate estimate;                                     // source of `ego`
   std::array<localization::UnitSet, localization::kSources> in_use{};  // channels and units
   world::Curvilinear place;  // on the track; unset before the first position
-  control::Output steered;   // empty in a stop: control is not asked
+  control::Output steered;   // empty in a stop: control is not used
   Tracking tracking;
   safety::WatchdogOutput watchdog;
   safety::BusGuardOutput bus_guard;
   safety::SupervisorOutput chosen;
   world::CtState ct_state = world::CtState::kDefault;
   safety::GateOutput passed;
-  bool quiet = false;                 // the guardian drives: nothing was said
-  safety::OperatorRequests requests;  // switches and radio together, as they were heeded
+  bool quiet = false;                 // the guardian drives: nothing was sent
+  safety::OperatorRequests requests;  // switches and radio combined, as applied
   safety::LinkLossOutput radio;
-  world::RaceControl race_control;  // acted on: what was heard, or stricter by the base's flag
-  double speed_limit_mps = kUnset;  // of operator and radio ladder; unset: none
-  Answers answers;                  // to commands of this tick and of the one before
-  world::MonitorSet seen{};         // all monitors of the car: monitoring.hpp
+  world::RaceControl race_control;  // acted on: as received, or stricter by the base's flag
+  double speed_limit_mps = kUnset;  // of operator and link-loss policy; unset: no limit
+  Answers answers;                  // to commands of this and the previous tick
+  world::MonitorSet seen{};         // all monitors: monitoring.hpp
 };
 
 Outputs step(const Setup& setup, Car& car, const Inputs& in);

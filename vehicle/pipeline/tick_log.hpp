@@ -1,9 +1,9 @@
-// Telemetry over more than one tick: the last message of each receiver, and lap times.
+// Values for telemetry over more than one tick: the last message of each receiver, and lap times.
 //   in     Inputs and Outputs of every tick, length of the track
 //   out    the newest sample of each kind and unit; the last lap
 //   invariants
-//          a lap is timed from one crossing of station zero to the next, forward; a car that jumps
-//          or goes back across it begins anew
+//          a lap is timed from one forward crossing of station zero to the next; a car that jumps
+//          or goes back across it starts a new measurement
 //   units  SI; instants of the car's clock
 //   cost   O(samples), no allocation
 // SPDX-License-Identifier: Apache-2.0

@@ -1,5 +1,5 @@
-// Counters of a receiver's messages, by what became of them: every message that is not used has its
-// counter.
+// Counters of a receiver's bytes and messages by result: every message that is not used is counted
+// with its reason.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -14,22 +14,22 @@
 namespace pitwall::receivers {
 
 struct Counters {
-  // Of the byte stream.
+  // Byte stream.
   std::uint64_t bytes = 0, frames = 0;
-  std::uint64_t garbage_bytes = 0;  // in no frame
-  std::uint64_t resyncs = 0;        // times that garbage began
+  std::uint64_t garbage_bytes = 0;  // not part of a frame
+  std::uint64_t resyncs = 0;        // number of gaps with garbage
   std::uint64_t bad_checksum = 0;
-  std::uint64_t bad_frame = 0;  // a header that the format does not know, or nobody asked for
-  // Of whole frames.
+  std::uint64_t bad_frame = 0;  // an unknown header, or one that was not requested
+  // Whole frames.
   std::uint64_t unused = 0;        // known messages that the car does not need
-  gnss::Refusals refused;          // by the decoder, by reason
-  std::uint64_t time_unknown = 0;  // the receiver does not know the time yet
-  std::uint64_t out_of_range = 0;  // no place on earth, no speed of a car
-  std::uint64_t imu_error = 0;     // flagged by the IMU itself, or a type without scale
-  std::array<std::uint64_t, kStreams> samples{};    // given on, by stream
-  std::uint64_t health = 0;                         // what the receiver said of itself
-  std::array<std::uint64_t, kStampFlaws> stamps{};  // of samples given on, by flaw
-  std::uint64_t clock_steps = 0;                    // of the receiver's time, believed
+  gnss::Refusals refused;          // by the decoder, per reason
+  std::uint64_t time_unknown = 0;  // the receiver has no time yet
+  std::uint64_t out_of_range = 0;  // impossible position or speed
+  std::uint64_t imu_error = 0;     // flagged by the IMU, or an IMU type of unknown scale
+  std::array<std::uint64_t, kStreams> samples{};    // passed on, per stream
+  std::uint64_t health = 0;                         // status messages of the receiver
+  std::array<std::uint64_t, kStampFlaws> stamps{};  // of passed-on samples, per flaw
+  std::uint64_t clock_steps = 0;                    // accepted steps of the receiver's time
 };
 
 inline Counters with_stream(Counters counters, const gnss::StreamCounters& stream) {
@@ -42,7 +42,7 @@ inline Counters with_stream(Counters counters, const gnss::StreamCounters& strea
   return counters;
 }
 
-// What the pit wall is told of it; what was lost on the way here only the rim knows.
+// Counters for telemetry. The receiver's port adds what was lost before it.
 inline world::ReceiverTraffic traffic_of(const Counters& c) {
   return {.bytes = c.bytes,
           .logs = c.frames,

@@ -1,4 +1,4 @@
-// Mounting of an inertial unit in the car: which of its enclosure's axes points where.
+// Mounting of an IMU in the car: the directions of the axes of its enclosure.
 //   in     vectors in the axes of the enclosure
 //   out    vectors in Body (ISO 8855: x forward, y left, z up)
 // SPDX-License-Identifier: Apache-2.0
@@ -13,7 +13,7 @@ namespace pitwall::receivers {
 
 enum class Axis : std::uint8_t { kPlusX, kMinusX, kPlusY, kMinusY, kPlusZ, kMinusZ };
 
-// Enclosure axis along body forward, left and up.
+// Axes of the enclosure that point forward, left and up.
 struct Mounting {
   Axis forward = Axis::kPlusX, left = Axis::kPlusY, up = Axis::kPlusZ;
 };

@@ -1,16 +1,16 @@
-// One NovAtel OEM7 receiver's bytes to the samples that the car thinks in.
-//   in     bytes with the time they arrived, from any transport, cut anyhow
-//   out    world::SensorInput: positions, velocities, headings, IMU samples, attitudes, each at the
-//          time of validity on the car's clock (gps_clock.hpp); what the receiver says of itself
+// Decoder of one NovAtel OEM7 receiver: bytes to samples in the units and frames of the car.
+//   in     bytes with the time of their arrival, from any transport, in pieces of any size
+//   out    world::SensorInput: positions, velocities, headings, IMU samples, attitudes, each at its
+//          time of validity on the car's clock (gps_clock.hpp); the status of the receiver
 //   frames positions WGS 84, height above the ellipsoid; IMU in Body (x forward, y left, z up) by
-//          the mounting. The receiver's own attitude is that of its vehicle frame, which its own
-//          configuration (SETINSROTATION) lays into the car
+//          the mounting. The receiver's own attitude is that of its vehicle frame, which its
+//          configuration (SETINSROTATION) defines in the car
 //   units  SI and radians
-//   errors counters per kind; a message is used whole or not at all
+//   errors counters per kind; a message is used as a whole or not at all
 //   source OEM7 Commands and Logs Reference Manual. The specific force comes from RAWIMUX and
-//          RAWIMUSX: the CORRIMU logs have gravity removed by the receiver's own attitude, which a
-//          bank of 20 degrees makes the larger part of the signal, so they are counted as unused.
-//          BESTVEL says nothing of its own accuracy.
+//          RAWIMUSX. In the CORRIMU logs gravity is removed with the receiver's own attitude, and
+//          on a bank of 20 degrees it is the larger part of the signal, so they are counted as
+//          unused. BESTVEL has no accuracy.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -49,7 +49,8 @@ class NovatelOem7 {
   void use(const gnss::Time& m, const Arrived& a);
   void use(const gnss::InsPvaX& m, const Arrived& a);
   void use(const gnss::InsAttX& m, const Arrived& a);
-  // HEADING2 and DUALANTENNAHEADING, RAWIMUX and RAWIMUSX, INSPVA and INSPVAS say the same.
+  // HEADING2 and DUALANTENNAHEADING, RAWIMUX and RAWIMUSX, INSPVA and INSPVAS have the same
+  // content.
   template <class Heading>
   void use_heading(const Heading& m, const Arrived& a);
   template <class RawImu>
@@ -70,7 +71,7 @@ class NovatelOem7 {
   Mounting mounting_;
   gnss::NovatelStream stream_;
   SampleWriter writer_;
-  world::ReceiverHealth health_;  // as it said last
+  world::ReceiverHealth health_;  // last reported
   double utc_offset_s_ = kUnset;
 };
 

@@ -1,4 +1,4 @@
-// Plausibility limits of receiver values, which hold whatever a checksum says.
+// Plausibility limits of receiver values, applied even if the checksum is right.
 //   in     finite numbers (the decoders refuse others)
 // SPDX-License-Identifier: Apache-2.0
 #pragma once

@@ -1,9 +1,9 @@
-// The last step of every kind of receiver: a sample gets its unit, its time on the car's clock and
-// its place in the list, and is counted.
+// Output stage of every receiver decoder: sets unit and time (on the car's clock) of a sample,
+// appends it to its list and counts it.
 //   in     stream, GPS time of validity, arrival, the sample without `unit` and `at`
-//   out    appended to SensorInput; one that finds its list full counts in `overflows`
+//   out    appended to SensorInput; a sample whose list is full counts in `overflows`
 //   invariants
-//          no sample is refused for its stamp: who locates the car shall see what is wrong with it
+//          no sample is refused for its stamp: localization checks the stamps
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -28,7 +28,8 @@ class SampleWriter {
     append(sample, list, out);
   }
 
-  // At its arrival: what a receiver says of itself holds whatever time it believes it is.
+  // The receiver status is stamped with its arrival, because it is valid even if the receiver's
+  // time is wrong.
   void write(Instant arrival, world::ReceiverHealth health, world::SensorInput& out) {
     ++counters_.health;
     health.at = arrival;

@@ -1,16 +1,16 @@
-// One VectorNav VN-310's bytes to the samples that the car thinks in.
-//   in     bytes with the time they arrived, from any transport, cut anyhow; of the outputs that
-//          vectornav_outputs.hpp names
+// Decoder of one VectorNav VN-310: bytes to samples in the units and frames of the car.
+//   in     bytes with the time of their arrival, from any transport, in pieces of any size; of the
+//          outputs that vectornav_outputs.hpp names
 //   out    world::SensorInput: positions and velocities of its first GNSS receiver, headings, IMU
-//          samples, attitudes, each at the time of validity on the car's clock (gps_clock.hpp);
-//          what it says of itself, once a second and when it changes
+//          samples, attitudes, each at its time of validity on the car's clock (gps_clock.hpp); its
+//          status, once a second and at each change
 //   frames positions WGS 84, height above the ellipsoid; IMU in Body (x forward, y left, z up) by
-//          the mounting, attitude by the sensor's own reference frame rotation. The heading is the
-//          car's, not that of its antennas: the car file has baseline_yaw_deg 0 for such a unit
+//          the mounting, attitude by the sensor's own reference frame rotation. The heading is that
+//          of the car, not of the antennas: the car file has baseline_yaw_deg 0 for such a unit
 //   units  SI and radians
 //   invariants
-//          a heading is given once a second, and only while the compass of the two antennas works:
-//          the inertial solution between remembers it, and would be believed again and again
+//          a heading is output once a second, and only while the dual-antenna compass works: the
+//          inertial solution holds it in between, so more samples would repeat the same measurement
 //   errors counters per kind
 //   source VectorNav binary output protocol (protocol/gnss/vectornav_message.hpp); VN-310 user
 //          manual, InsStatus
@@ -41,7 +41,7 @@ class VectorNav {
   Counters counters() const;
 
  private:
-  static constexpr Duration kEvery = seconds(1);  // a heading; what it says of itself
+  static constexpr Duration kEvery = seconds(1);  // period of headings and of the status
 
   void use_imu(const gnss::VectorNavMessage& m, Instant arrival, world::SensorInput& out);
   void use_fix(const gnss::VectorNavMessage& m, Instant arrival, world::SensorInput& out);
@@ -57,7 +57,7 @@ class VectorNav {
   Mounting mounting_;
   gnss::VectorNavStream stream_;
   SampleWriter writer_;
-  // As it said last.
+  // Last reported.
   std::uint16_t ins_status_ = 0;
   bool time_valid_ = true;
   world::ReceiverHealth reported_;

@@ -1,6 +1,6 @@
-// The three output messages that the car's VectorNav is told to send. What has another header is
-// not believed: a CRC-16 alone lets too much through.
-//   rates  as wanted; the car expects the IMU at 100 Hz or more, the others at 10 Hz or more
+// The three output messages that the car's VectorNav is configured to send. A message with another
+// header is refused: a CRC-16 alone misses too many errors.
+//   rates  as configured; the car expects the IMU at 100 Hz or more, the others at 10 Hz or more
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -23,7 +23,7 @@ namespace vn = gnss::vectornav;
 inline constexpr gnss::VectorNavOutput kVectorNavImu = detail::output_of(
     {detail::vn::kCommonTimeGps, detail::vn::kCommonAngularRate, detail::vn::kCommonAccel});
 
-// What the first GNSS receiver has at an epoch.
+// Fix of the first GNSS receiver at an epoch.
 inline constexpr gnss::VectorNavOutput kVectorNavFix = detail::output_of(
     {detail::vn::kGnssTow, detail::vn::kGnssWeek, detail::vn::kGnssSatellites, detail::vn::kGnssFix,
      detail::vn::kGnssPosition, detail::vn::kGnssVelocity, detail::vn::kGnssPositionUncertainty,
@@ -36,7 +36,7 @@ inline constexpr gnss::VectorNavOutput kVectorNavIns =
 
 inline constexpr std::array kVectorNavOutputs{kVectorNavImu, kVectorNavFix, kVectorNavIns};
 
-// Of ins_status: the heading of the two antennas is there.
+// Bit of ins_status: the heading of the two antennas is available.
 inline constexpr std::uint16_t kVectorNavCompass = 0x0200;
 
 }  // namespace pitwall::receivers

@@ -1,7 +1,7 @@
-// Every reason for which the car stops, coasts or complains, as one table: what is done about it
-// and how soon, counted from the fault to the tick in which the mode changes, with the limits of
-// the default parameters.
-//   source paper: the five rules of its system executive are marked so; the rest is ours
+// Table of the causes for which the car stops, coasts or raises a message: the reaction to each,
+// and its deadline from the fault to the tick in which the mode changes, with the limits of the
+// default parameters.
+//   source paper: the five rules of its system executive are marked; the rest is ours
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -13,10 +13,10 @@
 
 namespace pitwall::safety {
 
-// In the order of precedence: of several in one tick the first listed is "the cause".
+// In order of precedence: of several in one tick the first listed is "the cause".
 enum class Cause : std::uint8_t {
   kNone,
-  // emergency: brake as hard as grip allows
+  // emergency stop: brake as hard as grip allows
   kOperatorEmergency,
   kPurpleFlag,
   kBusDead,
@@ -56,12 +56,12 @@ enum class Cause : std::uint8_t {
   kComputerLate,
   kComputerMemory,
   kComputerHot,
-  // coast: what may pass
+  // coast: faults that may clear by themselves
   kOversteer,
   kPositionPassing,
   kPlanLate,
   kControlLate,
-  // told, and nothing else
+  // message only
   kFlagsDisagree,
   kTicksMissed,
   kProcessorBusy,
@@ -71,13 +71,14 @@ enum class Cause : std::uint8_t {
 };
 inline constexpr std::size_t kCauses = 49;
 
-// Rising: each does more than the one before.
+// In rising order of severity.
 enum class Reaction : std::uint8_t { kNone, kTell, kCoast, kControlledStop, kEmergencyStop };
 
 enum class Arms : std::uint8_t {
-  kAnyway,  // may be absent in the garage: bars driving only
+  kAnyway,  // bars driving only: may hold in the garage
   kBars,
-  kVoids  // bars, and disarms a car that has not moved yet: it must not set off when it is gone
+  // Bars arming, and disarms a car in standby, so that it does not start when the cause clears.
+  kVoids
 };
 
 struct CauseRow {
@@ -96,7 +97,7 @@ inline constexpr std::array<CauseRow, kCauses> kCauseTable = [] {
                  kControlledStop = Reaction::kControlledStop,
                  kEmergencyStop = Reaction::kEmergencyStop;
   constexpr auto ms = [](std::int64_t n) { return milliseconds(n); };
-  // Of the drive-by-wire's own words: diagnostic_report comes every 100 ms, misc_report every
+  // Causes that the drive-by-wire reports: diagnostic_report comes every 100 ms, misc_report every
   // second.
   constexpr Duration kReported = ms(120), kReportedSlowly = ms(1'020), kTick = ms(20);
   // clang-format off
@@ -182,7 +183,7 @@ static_assert(every_cause([](const CauseRow& row, std::size_t) {
               }),
               "what would brake hard bars arming");
 
-// A set of causes: what holds in one tick.
+// Set of causes, usually those that hold in one tick.
 class CauseSet {
  public:
   constexpr void add(Cause cause) { bits_ |= bit(cause); }
@@ -190,13 +191,13 @@ class CauseSet {
   constexpr bool empty() const { return bits_ == 0; }
   constexpr std::uint64_t bits() const { return bits_; }
   constexpr CauseSet without(CauseSet other) const { return CauseSet{bits_ & ~other.bits_}; }
-  // The first in the order of precedence; kNone of an empty set.
+  // First cause in order of precedence; kNone for an empty set.
   constexpr Cause first() const {
     for (std::size_t i = 1; i < kCauses; ++i)
       if (has(static_cast<Cause>(i))) return static_cast<Cause>(i);
     return Cause::kNone;
   }
-  // Those whose reaction is this one, or more.
+  // Causes with this reaction or a more severe one.
   constexpr CauseSet at_least(Reaction reaction) const {
     CauseSet out;
     for (const CauseRow& row : kCauseTable)

@@ -1,16 +1,17 @@
-// The car's own clock beside the time that the receivers say: has one of them stepped, does one run
-// too fast or too slow? While it drives that is reported, and nothing else: nothing that
-// drives looks at a calendar. While it stands it does not arm: its recordings and its link would
-// carry stamps that nobody can put in order.
-//   in     when a receiver said what (GPS time), now
-//   out    a step, until it has been shown for `show`; the skew, while it is too large
-//   method difference = arrival - GPS time, to which transport can only add. A step against the
-//          smallest of the last windows is believed at once where it is below it (delay cannot
-//          shrink so far), and where it is above after three messages that agree and did not come
-//          at once (a car that slept hears old messages all together, each a little less late). The
-//          skew is the slope of the smallest differences of whole windows, over the last nine
-//   units  seconds; ppm, positive where the car's clock is fast; for skew of the unit that is worse
-//   errors a unit that says nothing has no say; a leap second shows as a step of the UTC offset
+// Clock monitor: compares the car's clock with the GPS time of the receivers, and detects steps and
+// skew. While the car drives they are only reported, because no driving function uses the calendar
+// time. At standstill they prevent arming: recordings and link would carry wrong time stamps.
+//   in     receiver times (GPS time and time of arrival), the time
+//   out    a step, for `show` after it was detected; the skew, while it is too large
+//   method difference = arrival - GPS time; transport delay can only increase it. It is compared
+//          with the smallest difference of the running and of the last window. A decrease of more
+//          than step_s is accepted as a step at once, because delay cannot decrease so much. An
+//          increase is accepted after kClockAgreeing messages in agreement that did not arrive
+//          together (after a suspension the car receives old messages in one burst, each a little
+//          less late). The skew is the slope of the smallest differences of the last nine windows
+//   units  seconds; ppm, positive if the car's clock is fast; the skew of the worse unit is
+//          reported
+//   errors a unit that sends no time is ignored; a leap second appears as a step of the UTC offset
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -26,7 +27,7 @@
 namespace pitwall::safety {
 
 struct ClockParams {
-  double step_s = 0.1;  // less is delay
+  double step_s = 0.1;  // smaller changes count as delay
   double skew_max_ppm = 60.0;
   Duration show = seconds(1);  // [0.1, 60] s
 };
@@ -40,13 +41,13 @@ inline constexpr Duration kClockWindow = seconds(4);
 inline constexpr std::size_t kClockWindows = 9;
 inline constexpr std::uint8_t kClockAgreeing = 3;
 
-// Of one receiver. Differences are kept against the first one: they stay small.
+// State of one receiver. Differences are relative to the first one, so that they stay small.
 struct ClockUnit {
   bool started = false;
-  std::int64_t origin_ns = 0;                      // of the first difference
-  std::array<double, kClockWindows> smallest_s{};  // of whole windows, oldest first
-  std::uint8_t windows = 0;                        // of them
-  double current_s = kUnset;                       // smallest of the running window
+  std::int64_t origin_ns = 0;                      // the first difference
+  std::array<double, kClockWindows> smallest_s{};  // of complete windows, oldest first
+  std::uint8_t windows = 0;                        // number of complete windows
+  double current_s = kUnset;                       // smallest in the running window
   Instant window_began{};
   double suspect_s = kUnset;
   Instant suspect_at{};
@@ -56,7 +57,7 @@ struct ClockUnit {
 
 struct ClockState {
   std::array<ClockUnit, world::kGnssUnits> units{};
-  double step_s = kUnset;  // the newest that was believed
+  double step_s = kUnset;  // the last accepted step
   Instant stepped_at{};
   std::uint32_t steps = 0;
 };

@@ -1,12 +1,14 @@
-// Whose command goes to the actuators in a tick, and in which shape: the part of the supervisor
-// that comes after its decision.
-//   in     the mode that was decided, control's command while the car drives, the last stop, the
-//          joystick's word
-//   out    a command and its source; then slowed by the joystick and within the slews
+// Selection of the actuator command of a tick: the part of the supervisor that follows its mode
+// decision.
+//   in     the mode, control's command while the car drives, the stop trajectory, the joystick
+//          inputs
+//   out    a command and its source; then with the joystick's throttle cap and brake, and slew
+//          limits
 //   invariants
-//          a change of source is no jump; in a stop the throttle never rises; coasting has none;
-//          with the brake touched the throttle yields; in a controlled stop the brake stays within
-//          the grip of the tyres at the speed, in every stop the steering within the gate's limit
+//          a change of source causes no jump; in a stop the throttle never rises; while coasting it
+//          is zero; it is zero while the brake is above kBrakeTouched_kpa
+//          in a controlled stop the brake stays within the grip of the tyres at the speed; in a
+//          stop and while coasting the steering stays within the limit of the frame gate
 //   errors none
 // SPDX-License-Identifier: Apache-2.0
 #pragma once

@@ -1,11 +1,11 @@
-// Is the car's own computer up to it? Ticks that did not come when they were due, and what the rim
-// knows of processor, memory and temperature.
-//   in     now, once per tick; world::ComputerHealth
-//   out    what is wrong; `gap` is the time since the tick before
+// Health monitor of the car's computer: late ticks, processor load, memory and temperature.
+//   in     the time, once per tick; world::ComputerHealth
+//   out    ComputerVerdict; `gap` is the time since the previous tick
 //   invariants
-//          one sleep is told and forgiven; a computer that does not run for more than `idle_share`
-//          of the time for long uses up a budget of `late_max` and stops the car. What the rim does
-//          not know is not judged
+//          a late tick adds its gap to a sum of lost time, which decays by `idle_share` of the
+//          elapsed time. Above `late_max` the verdict is `late`, which stops the car. So one short
+//          pause is only reported; a long one, or many, stop the car
+//          a value that is not available is not checked
 //   units  seconds, shares, MiB, degrees Celsius
 //   errors none
 // SPDX-License-Identifier: Apache-2.0
@@ -22,8 +22,8 @@
 namespace pitwall::safety {
 
 struct ComputerParams {
-  double idle_share = 0.5;       // time lost that is forgiven
-  double late_max_s = 0.5;       // beyond it, summed up
+  double idle_share = 0.5;       // share of time that may be lost
+  double late_max_s = 0.5;       // limit of the sum of lost time
   double processor_warn = 0.97;  // share
   double memory_max_mib = 30e3;
   double temperature_max_c = 95;
@@ -38,8 +38,8 @@ inline constexpr auto kComputerRanges = std::to_array<world::NamedRange<Computer
 });
 
 struct ComputerState {
-  Instant at{};         // of the last tick
-  double late_s = 0.0;  // lost and not forgiven yet
+  Instant at{};         // last tick
+  double late_s = 0.0;  // sum of lost time
 };
 static_assert(std::is_trivially_copyable_v<ComputerState>);
 

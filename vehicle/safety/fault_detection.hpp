@@ -1,19 +1,20 @@
-// Fault detection: every cause that holds in this tick, each with the number that crossed its
-// limit. Pure; latches nothing but the instants that "too long" needs.
+// Fault detection: every cause that holds in this tick, each with the value that exceeded its
+// limit. A pure function whose state holds only what durations and counts need.
 //   in     signals, bus health, flags, ego state, watchdog rows, verdicts of planning and control,
-//          what the actuators were told, the computer's health
-//   out    a set of causes; causes.hpp says what is done about each, mode_table what follows
+//          last commands to the actuators, the computer's health
+//   out    set of causes; causes.hpp gives the reaction to each, mode_table.hpp the mode that
+//          follows
 //   invariants
-//          what a monitor finds that is switched off is not found
+//          a monitor that is switched off has no findings
 //   errors none
 //
-// The dead bus. The drive-by-wire sends four messages every 10 ms or faster and never pauses. When
-// nothing of it was heard for bus_dead (0.07 s), the bus is dead: no single message can tell, and
-// none need be waited for. With ticks of 10 ms and telemetry at 50 Hz the base knows 0.1 s after
-// the last frame. Nobody says what the actuators do, but they may still hear: the car brakes as in
-// any emergency. A stop from top speed takes less than bus_dead_disarm (20 s: 80 m/s at 4 m/s^2,
-// which the safe stop demands without a plan); a bus dead for so long means that nobody obeys, and
-// the car disarms by itself. Moving again needs a bus, and arming anew
+// Dead bus. The drive-by-wire sends four messages every 10 ms or faster, without pauses. When no
+// message from it arrives for bus_dead (0.07 s), the bus is dead; one lost message is not enough.
+// With ticks of 10 ms and telemetry at 50 Hz the base reports it 0.1 s after the last frame. There
+// is no feedback from the actuators, but they may still receive commands: the car brakes as in any
+// emergency. A stop from top speed takes less than bus_dead_disarm (20 s: 80 m/s at 4 m/s^2, which
+// the safe stop demands without a plan). If the bus is dead for longer, no actuator follows
+// commands, and the car disarms by itself. To move again it needs a live bus and a new arm request
 //   false alarms: seven frames of each of four messages in a row would have to be lost
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
@@ -41,31 +42,32 @@
 
 namespace pitwall::safety {
 
-// Of the actuators as localization and the drive-by-wire know them: the lags of [T] and [O] of the
-// plant's sources, 0.1 s of steering, 0.1 s of brake, 0.05 s of throttle, and the way on the bus.
+// Limits for the actuators, from the lags in [T] and [O] of the plant's sources (steering 0.1 s,
+// brake 0.1 s, throttle 0.05 s) plus the delay on the bus.
 struct ActuatorParams {
   FollowLimits steering{.settle_s = 0.2, .tolerance = 0.05};                // rad at the motor
   FollowLimits brake{.settle_s = 0.25, .tolerance = 200.0, .share = 0.05};  // kPa
   FollowLimits throttle{.settle_s = 0.15, .tolerance = 0.06};               // 0 .. 1
-  double moving_mps = 3.0;  // below, the drive-by-wire may hold the car itself; [1, 20]
+  // Below it the drive-by-wire may hold the car itself; [1, 20].
+  double moving_mps = 3.0;
 };
 
 struct FaultParams {
   Duration dead_reckoning_max = milliseconds(1500);
   Duration dead_reckoning_coast = milliseconds(300);  // [0.05 s, dead_reckoning_max)
-  Duration bus_dead = milliseconds(70);               // nothing of the drive-by-wire; [0.03, 0.1] s
-  Duration bus_dead_disarm = seconds(20);             // thereafter
-  double position_sigma_max_m = 1.0;                  // of the fused position
-  double gnss_sigma_max_m = 0.5;                      // of both units' own
-  std::uint8_t control_failures = 3;                  // ticks in a row; [1, 20]
-  std::uint8_t refused_ticks = 3;  // ticks in a row with a refused frame; [1, 20]
-  bool radio_loss_stops = true;    // base station lost for the watchdog's limit
+  Duration bus_dead = milliseconds(70);    // no message of the drive-by-wire; [0.03, 0.1] s
+  Duration bus_dead_disarm = seconds(20);  // after the bus is dead
+  double position_sigma_max_m = 1.0;       // fused position
+  double gnss_sigma_max_m = 0.5;           // as the receivers report it
+  std::uint8_t control_failures = 3;       // consecutive ticks; [1, 20]
+  std::uint8_t refused_ticks = 3;          // consecutive ticks; [1, 20]
+  bool radio_loss_stops = true;            // when the watchdog row "radio" is bad
   bool race_control_required = true;
   ActuatorParams following;
   OversteerParams oversteer;
   ClockParams clock;
   ComputerParams computer;
-  world::MonitorSet off{};  // of the bench alone: no car file sets it
+  world::MonitorSet off{};  // set by the bench only, not by a car file
 };
 
 inline constexpr auto kFaultRanges = std::to_array<world::NamedRange<FaultParams>>({
@@ -79,8 +81,8 @@ inline constexpr auto kFaultTimes = std::to_array<world::NamedTime<FaultParams>>
     {"bus_dead_disarm_s", &FaultParams::bus_dead_disarm, 5.0, 60.0},
 });
 
-// What the operator asks, as levels. `stop` and `emergency_stop` act while they are held and their
-// effect stays by the modes; `reset` acts on its rising edge.
+// Requests of the operator, as levels. `stop` and `emergency_stop` act while they are set, and the
+// mode keeps their effect; `reset` acts on its rising edge.
 struct OperatorRequests {
   bool arm = false, reset = false, stop = false, emergency_stop = false;
 };
@@ -95,26 +97,26 @@ struct FaultInputs {
   bool radio_stop = false;    // LinkLossOutput
   bool own_id_seen = false;   // gateway::InboundOutput
   bool bus_failed = false;    // BusGuardOutput
-  bool control_ok = false;    // control gave a command this tick
+  bool control_ok = false;    // control gave a command in this tick
   bool gate_refused = false;  // the gate refused a frame of the previous tick
   bool driving = false;       // control is expected to give commands
-  bool moves = false;         // a mode in which the car may roll: driving, coasting, stopping
-  bool radio_fades = false;   // a rung of the radio's ladder has gone
-  bool engine_off = false;    // we told the drive-by-wire to shut down
-  const world::SensorInput* sensors = nullptr;  // of this tick; none: no clock is watched
+  bool moves = false;         // mode in which the car may roll: driving, coasting, stopping
+  bool radio_fades = false;   // link-loss policy is beyond its first step
+  bool engine_off = false;    // the drive-by-wire is commanded to shut down
+  const world::SensorInput* sensors = nullptr;  // null: clocks are not monitored
   world::ComputerHealth computer{};
-  // What the actuators were told last; unset while nothing was.
+  // Last command to the actuators; unset before the first.
   world::ActuatorCommand reported{};
   double steering_ratio = 19.5;
-  double speed_mps = kUnset;  // by the wheels
+  double speed_mps = kUnset;  // from the wheels
 };
 
 struct FaultState {
-  bool positioned = false;  // ego was good once
-  Instant last_good{};      // ego state last good
+  bool positioned = false;  // ego state has been good
+  Instant last_good{};      // time of the last good ego state
   std::uint8_t control_failed_ticks = 0, gate_refused_ticks = 0;
   bool bus_dead = false;
-  Instant bus_dead_since{};  // when it was noticed
+  Instant bus_dead_since{};  // time of detection
   FollowState steering, brake_front, brake_rear, throttle;
   OversteerState oversteer;
   ClockState clock;
@@ -123,18 +125,17 @@ struct FaultState {
 
 struct FaultOutput {
   CauseSet causes;
-  std::array<double, kCauses> values{};  // per cause that holds
+  std::array<double, kCauses> values{};  // of each cause that holds
   bool drive_by_wire_gone = false;       // the bus has been dead for bus_dead_disarm
-  world::MonitorSet seen{};              // monitors that see something wrong now
+  world::MonitorSet seen{};              // monitors with a finding in this tick
 };
 
 FaultOutput detect(const FaultParams& params, FaultState& state, const FaultInputs& inputs,
                    Instant now);
 
-// The car's speed by its wheels: the mean of the two middle ones of four, so that one wheel that
-// locks, spins or lies has no say. Unset if older than `limit` or a wheel is not a number.
-inline constexpr Duration kWheelAgeMax =
-    milliseconds(250);  // for the speed that the car is judged by
+// Speed from the wheels: mean of the two middle ones of four, so that one wheel that locks, spins
+// or has a wrong sensor has no effect. Unset if older than `limit` or if a wheel is not a number.
+inline constexpr Duration kWheelAgeMax = milliseconds(250);  // for supervision
 double wheel_speed_mps(const world::VehicleSignals& signals, Instant now, Duration limit);
 
 }  // namespace pitwall::safety

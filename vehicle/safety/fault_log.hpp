@@ -1,7 +1,7 @@
-// The log of the causes that occurred: a ring of (instant, cause, value) that also keeps the first
-// since the last reset.
-//   out    a value; copying it is a snapshot
-//   errors an entry that falls out of the ring stays counted in total
+// Log of the causes that occurred: a ring buffer of (instant, cause, value) that also keeps the
+// first stopping cause since the last reset.
+//   out    a value type; a copy is a snapshot
+//   errors an entry that is overwritten stays counted in `total`
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -19,24 +19,24 @@ namespace pitwall::safety {
 struct FaultEntry {
   Instant at{};
   Cause cause = Cause::kNone;
-  double value = kUnset;  // age in s, sigma in m, count: what crossed its limit
+  double value = kUnset;  // that exceeded its limit: age in s, sigma in m, count
 };
 
-inline constexpr std::size_t kFaultEntries = 64;  // a run that has more has one cause worth reading
+inline constexpr std::size_t kFaultEntries = 64;  // in a longer run only the first entries matter
 
 struct FaultLog {
   std::array<FaultEntry, kFaultEntries> ring{};
-  std::uint64_t total = 0;  // ever recorded; the newest is ring[(total - 1) % kFaultEntries]
-  FaultEntry first{};  // that stopped the car since the last reset; cause kNone if there is none
+  std::uint64_t total = 0;  // newest: ring[(total - 1) % kFaultEntries]
+  FaultEntry first{};       // stopping cause since the last reset; kNone if none
 
   constexpr std::size_t size() const {
     return total < kFaultEntries ? static_cast<std::size_t>(total) : kFaultEntries;
   }
-  // 0 is the oldest kept; i < size().
+  // Entry 0 is the oldest one kept; i < size().
   constexpr const FaultEntry& entry(std::size_t i) const {
     return ring[static_cast<std::size_t>((total - size() + i) % kFaultEntries)];
   }
-  // `stops`: the car was to move, so the fault is a candidate for the first cause.
+  // `stops`: the cause stops a car that moves or is about to, so it may become the first cause.
   constexpr void record(const FaultEntry& fault, bool stops) {
     ring[static_cast<std::size_t>(total % kFaultEntries)] = fault;
     ++total;

@@ -1,18 +1,19 @@
-// Does an actuator do as it was told? What it does must lie between two bounds that bracket every
-// actuator of the kind: the upper jumps up with the command and comes down no faster than a lag of
-// `settle`, the lower the other way round. An actuator with delay d and lag T stays between them
-// but for a moment as long as settle > d + T; the moment is what `persist` is for.
+// Command-following monitor of one actuator. The feedback must lie between two bounds that enclose
+// every actuator of the kind: the upper bound follows a rising command at once and a falling one
+// with the lag `settle`; the lower bound does the opposite. An actuator with delay d and lag T
+// stays within them if settle > d + T, except for a short moment, which `persist` covers.
 //
 //   command   ____/~~~~~~~~\____      upper   ____/~~~~~~~~\..     lower   ____..-~~~~~\____
 //
-//   in     what was told until now, what is heard
-//   out    how far outside the bounds it has been for longer than `persist`; 0: it follows
+//   in     the last command, the feedback
+//   out    excess over the bounds once it has lasted for `persist`; 0 while the actuator follows
 //   invariants
 //          an actuator that sticks, is slow, is biased or leaks by more than the tolerance leaves
-//          the bounds within settle * ln(command / tolerance); nothing is judged by a feedback that
-//          is old, nor for a moment after a pause of the car's own
-//   units  as of the actuator
-//   errors a feedback that is not a number is outside
+//          the bounds within settle * ln(command / tolerance)
+//          nothing is reported on stale feedback, or for `persist` after a pause of the car's own
+//          process
+//   units  those of the actuator
+//   errors feedback that is not a number counts as outside
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -25,16 +26,16 @@
 namespace pitwall::safety {
 
 struct FollowLimits {
-  double settle_s = 0.2;   // above delay + lag of the actuator and its way on the bus
-  double tolerance = 0.0;  // beside the bounds
-  double share = 0.0;      // of the larger bound, in addition
+  double settle_s = 0.2;   // above delay + lag of the actuator and the bus
+  double tolerance = 0.0;  // outside the bounds
+  double share = 0.0;      // of the larger bound, added to the tolerance
   Duration persist = milliseconds(100);
 };
 
 struct FollowState {
   double low = kUnset, high = kUnset;
-  Instant at{};      // of the last tick
-  Instant within{};  // last within the bounds
+  Instant at{};      // last tick
+  Instant within{};  // last time within the bounds
 };
 static_assert(std::is_trivially_copyable_v<FollowState>);
 

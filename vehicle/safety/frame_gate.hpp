@@ -1,28 +1,29 @@
-// The last word on what goes on the CAN bus. Judges the frames themselves, decoded again, with its
-// own limits and its own memory; knows nothing of control or planning. Default deny. Refuses, never
-// repairs: a refused frame is counted by reason and refused_now is a fault event for the supervisor
-// on the next tick; a silent bus is a state that the drive-by-wire survives.
+// Frame gate: the last check before frames go to the CAN bus. It decodes the frames again and
+// checks them against its own limits and its own state, independent of control and planning. Frames
+// are denied by default. The gate refuses and never repairs: a refused frame is counted by reason,
+// and refused_now is a fault for the supervisor in the next tick. The drive-by-wire survives a
+// silent bus.
 //   in     the frames proposed for this tick, the mode, whether the car is armed, its speed, the
 //          instant of the command behind the frames
 //   out    the frames that pass, in their order; one verdict per frame
 //   units  as in the CAN database: degrees at the motor, %, kPa, gears
 //   errors frames beyond kMaxFrames are refused as kTooMany
 //
-// The engine goes off at standstill only: a ct_report with state 11 passes while the car stands or
-// is not armed, one with 12 in an emergency stop too, and in a controlled stop whose throttle does
-// not close.
+// The engine may be shut down at standstill or while disarmed. While the car moves, a ct_report
+// with state 12 passes in an emergency stop, and in a controlled stop whose throttle does not
+// close; one with state 11 does not pass.
 //
-// Disarmed, only these pass: 1404 ct_report, 1405 ct_report_2, 1406 dash_switches_cmd, 1450
-// ct_vehicle_acc_feedback. Brake frames are judged before the others, wherever they stand: where
-// throttle and brake contradict each other it is the throttle that is refused.
+// While disarmed only these pass: 1404 ct_report, 1405 ct_report_2, 1406 dash_switches_cmd, 1450
+// ct_vehicle_acc_feedback. Brake frames are checked before the others, at any position: if throttle
+// and brake contradict each other, the throttle is refused.
 //
 //   armed and      throttle    brake                              steering
 //   Driving        may rise    up to brake_max                    table
-//   Coast          none        up to stop_brake, or less than was share of the table
-//   ControlledStop may fall    up to stop_brake, or less than was share of the table
+//   Coast          zero        up to stop_brake, or falling       stop_steer_share of the table
+//   ControlledStop may fall    up to stop_brake, or falling       stop_steer_share of the table
 //   EmergencyStop  may fall    up to brake_max                    table
-//   Standby,       none        up to brake_max, not less than     table, hardly moves
-//   Halted                     hold_least once it is there
+//   Standby,       zero        up to brake_max; at least          table, slew limited to
+//   Halted                     hold_least, or not falling         hold_steer_slew
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -52,18 +53,18 @@ enum class Verdict : std::uint8_t {
   kPass,
   kTooMany,         // more than kMaxFrames in one tick
   kUnknownId,       // not in the database
-  kWrongDirection,  // in the database, but not ours to send
+  kWrongDirection,  // in the database, but sent by another node
   kNotClassic,      // remote, FD or extended
   kWrongLength,
   kNotArmed,      // an actuator frame while disarmed
-  kStale,         // the command behind it is older than the limit, or from the future
+  kStale,         // its command is older than the limit, or from the future
   kTooOften,      // more than kMaxPerWindow in any kRateWindow
-  kStuckCounter,  // equals the last one that passed
+  kStuckCounter,  // same counter as in the last frame that passed
   kOutOfRange,
-  kTooFast,            // slew since any frame that passed, in real time
-  kGearStep,           // more than one gear, or sooner than the least time between shifts
+  kTooFast,            // slew relative to the frames that passed, in real time
+  kGearStep,           // more than one gear, or before shift_least has passed
   kThrottleForbidden,  // throttle in a mode that does not drive
-  kThrottleRises,      // in a stop
+  kThrottleRises,      // throttle rises in a stop
   kThrottleWithBrake,  // both above their thresholds
   kBrakeReleased,      // at standstill
   kEngineOff           // while the car moves
@@ -92,19 +93,19 @@ constexpr const char* text_of(Verdict verdict) {
   return kTexts[static_cast<std::size_t>(verdict)];
 }
 
-// Largest motor angle at a speed; linear between rows, constant outside.
+// Largest motor angle at a speed: linear between rows, constant outside.
 struct SteerRow {
   double speed_mps, motor_deg;
 };
 
-// Largest pressure at a speed, likewise.
+// Largest brake pressure at a speed: linear between rows, constant outside.
 struct StopBrakeRow {
   double speed_mps, kpa;
 };
 
 struct GateParams {
-  // About 1.5 times the steady-state angle for 28 m/s^2 plus 10 degrees. Speeds rise, angles do
-  // not; angles within [5, 300].
+  // About 1.5 times the steady-state angle for 28 m/s^2 plus 10 degrees. Speeds rise, angles do not
+  // rise; angles within [5, 300].
   std::array<SteerRow, kSteerRows> steer{{{0.0, 240.0},
                                           {15.0, 240.0},
                                           {20.0, 230.0},
@@ -116,10 +117,10 @@ struct GateParams {
                                           {70.0, 40.0},
                                           {80.0, 33.0}}};
   double steer_slew_deg_per_s = 720.0;      // the motor's own limit
-  double stop_steer_share = 0.85;           // of the table, in a stop
+  double stop_steer_share = 0.85;           // of the table, in Coast and ControlledStop
   double hold_steer_slew_deg_per_s = 60.0;  // at standstill; [1, steer_slew]
-  // What the front tyres can take on a straight before they lock: 1.05 x 350 kPa per m/s^2 x 0.65
-  // x 1.3 (g + downforce). Speeds and pressures rise; an unknown speed counts as none.
+  // Pressure at which the front tyres lock on a straight: 1.05 x 350 kPa per m/s^2 x 0.65 x 1.3 (g
+  // + downforce). Speeds and pressures rise; an unknown speed counts as zero.
   std::array<StopBrakeRow, kStopBrakeRows> stop_brake{
       {{0.0, 3050.0}, {20.0, 3210.0}, {40.0, 3700.0}, {60.0, 4510.0}, {80.0, 5640.0}}};
   double hold_least_kpa = 300.0;
@@ -127,12 +128,12 @@ struct GateParams {
   double brake_rise_kpa_per_s = 30000.0;
   double brake_fall_kpa_per_s = 60000.0;
   double throttle_max_percent = 100.0;
-  double throttle_rise_percent_per_s = 400.0;  // falling is free
-  double both_throttle_percent = 2.0;          // above this with ...
-  double both_brake_kpa = 100.0;               // ... above this is a contradiction
-  double standing_mps = 1.0;                   // gear 0 only below
+  double throttle_rise_percent_per_s = 400.0;  // no limit on falling
+  double both_throttle_percent = 2.0;          // refused above this together with a brake
+  double both_brake_kpa = 100.0;               // above this
+  double standing_mps = 1.0;                   // gear 0 passes only below
   std::uint8_t gear_max = 6;                   // [1, 8]
-  Duration shift_least = milliseconds(100);    // between gears
+  Duration shift_least = milliseconds(100);    // minimum time between shifts
   Duration command_age_max = milliseconds(50);
 };
 
@@ -158,22 +159,22 @@ inline constexpr auto kGateTimes = std::to_array<world::NamedTime<GateParams>>({
 
 struct GateContext {
   world::Mode mode = world::Mode::kDisarmed;
-  bool armed = false;         // mode is not disarmed, and the operator's arm request stands
-  double speed_mps = kUnset;  // by the wheels; unset is judged as the highest speed
-  Instant command_at{};       // when the command behind the actuator frames was computed
+  bool armed = false;         // mode is not disarmed, and the arm request is set
+  double speed_mps = kUnset;  // from the wheels; see the limit functions for unset
+  Instant command_at{};       // when the command of the frames was computed
   Instant now{};
   bool engine_off = false;  // the throttle does not close in a stop
 };
 
-// Instants of the last frames of one id that passed.
+// Times of the last frames of one identifier that passed.
 struct PassWindow {
   std::array<Instant, kMaxPerWindow> at{};
   std::uint64_t count = 0;
 };
 
-// The most that the frames so far let a value be. It grows with time, and a frame that passes
-// lowers it to its own value at most: no two frames that passed differ by more than the slew times
-// the time between them and one rounding step, however many passed in between.
+// Upper bound of a value from the frames that passed. It rises with the slew limit, and a frame
+// that passes lowers it to at most its own value: two frames that passed differ by at most the slew
+// times the time between them plus one rounding step, however many passed in between.
 struct Ceiling {
   double value = std::numeric_limits<double>::infinity();
   Instant at{};
@@ -181,10 +182,10 @@ struct Ceiling {
 
 struct GearChange {
   double gear = kUnset;
-  Instant at{};  // of the last change
+  Instant at{};  // time of the last change
 };
 
-// What the actuators were last told. Forgotten while disarmed, when the pedal counts as released.
+// Last values sent to the actuators. Cleared while disarmed, when the throttle counts as released.
 struct GateMemory {
   Ceiling steer_deg, steer_negated_deg, brake_kpa, brake_negated_kpa, throttle_percent;
   double last_brake_kpa{}, last_throttle_percent{};
@@ -195,7 +196,7 @@ struct GateState {
   std::array<PassWindow, kGatedMessages> windows{};
   std::array<std::uint8_t, kGatedMessages> counters{};  // of the last frame that passed
   GateMemory memory;
-  std::array<std::uint64_t, kVerdicts> verdicts{};  // frames by verdict since the start
+  std::array<std::uint64_t, kVerdicts> verdicts{};  // frame count per verdict since the start
 };
 static_assert(std::is_trivially_copyable_v<GateState>);
 
@@ -215,8 +216,8 @@ struct GateOutput {
 GateOutput gate(const GateParams& params, GateState& state, const GateContext& context,
                 std::span<const can::Frame> proposed);
 
-// The limits of the tables at a speed; where it is not a number, that of the last row for steering
-// and that of the first for the brake.
+// Limits of the tables at a speed. A speed that is not a number gives the last row for steering and
+// the first row for the brake.
 double steer_limit_deg(const GateParams& params, double speed_mps);
 double stop_brake_limit_kpa(const GateParams& params, double speed_mps);
 

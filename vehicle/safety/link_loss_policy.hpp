@@ -1,18 +1,20 @@
-// Link-loss policy: the reactions to a silent base station, in steps. Ages decide: of the newest
-// authentic packet (watchdog row "radio") and of the joystick's newest sample.
+// Link-loss policy: stepwise reactions to a silent base station. They depend on the age of the
+// newest authentic packet (watchdog row "radio") and on the age of the newest joystick sample.
 //
 //   age of the link    0 s .. joystick_dropped .. override_gone .. no_comm ....... stop (watchdog)
 //   rung               full | joystick dropped | override gone   | no-comm        | controlled stop
-//   joystick           its word | hands back, evenly | none      | none           | none
+//   joystick           full | fades out        | none            | none           | none
 //   speed                                                          capped, or stop
 //
-//   in     the link's watchdog row, the joystick's newest sample if there is one, now
-//   out    the rung, what is left of the joystick, a speed limit, whether the car must stop
+//   in     watchdog row of the link, the newest joystick sample if there is one, the time
+//   out    the rung, the remaining joystick inputs, a speed limit, whether the car must stop
 //   invariants
-//          nothing here makes the car faster than without a radio; a sample that comes back after
-//          it was dropped acts at once, one that stays away is handed back evenly, never in a step
+//          the result is never faster than without a radio. A joystick sample that arrives after
+//          the joystick was dropped acts at once; without new samples the joystick fades out
+//          linearly, never in a step
 //   units  SI; throttle cap and brake 0 .. 1
-//   source limits: false trips by hour and fade are in the research page on the radio, table 4.3
+//   source limits: the rates of false trips per hour and by fade are in the research page on the
+//          radio, table 4.3
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -31,15 +33,15 @@ struct LinkLossParams {
   Duration joystick_dropped = milliseconds(200);  // [0.05 s, override_gone)
   Duration override_gone = milliseconds(500);     // (joystick_dropped, no_comm)
   Duration no_comm = seconds(1);    // (override_gone, the watchdog's limit of "radio")
-  bool no_comm_drives = true;       // else the car stops at no_comm already
+  bool no_comm_drives = true;       // false: the car stops at no_comm
   double no_comm_speed_mps = 60.0;  // [1, 120]
 };
 
 enum class RadioRung : std::uint8_t { kFull, kJoystickDropped, kOverrideGone, kNoComm, kStop };
 
 struct LinkLossState {
-  std::optional<world::Joystick> joystick;  // the newest that was heeded
-  double speed_limit_mps = kUnset;          // of the last tick
+  std::optional<world::Joystick> joystick;  // the newest that was applied
+  double speed_limit_mps = kUnset;          // in the last tick
 };
 static_assert(std::is_trivially_copyable_v<LinkLossState>);
 
@@ -47,7 +49,7 @@ struct LinkLossOutput {
   RadioRung rung = RadioRung::kFull;
   bool stop = false;
   double throttle_cap = 1.0, brake = 0.0;
-  double speed_limit_mps = kUnset;  // unset: none
+  double speed_limit_mps = kUnset;  // unset: no limit
 };
 
 LinkLossOutput descend(const LinkLossParams& params, LinkLossState& state, const StreamRow& link,

@@ -1,6 +1,6 @@
 // Mode table: the next mode for every mode and event. The table is the whole decision; its
-// properties are proved when it is compiled. Several events may hold in one tick: the first in the
-// order of Event that leads to another mode wins.
+// properties are checked at compile time. If several events hold in one tick, the first in the
+// order of Event that leads to another mode decides.
 //   source design.md, "Commands to actuators"
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
@@ -13,18 +13,18 @@
 
 namespace pitwall::safety {
 
-// In the order of priority.
+// In order of priority.
 enum class Event : std::uint8_t {
   kDriveByWireGone,  // the drive-by-wire has been silent for longer than any stop takes
   kEmergency,        // a cause of Reaction::kEmergencyStop holds
-  kStop,             // a cause of Reaction::kControlledStop holds, or one of kCoast has lasted
+  kStop,             // a cause of kControlledStop holds, or coasting has lasted too long
   kCoast,            // a cause of Reaction::kCoast holds
-  kStandstill,       // the car has stood for the dwell
-  kDisarm,           // the arm request is withdrawn
+  kStandstill,       // the car has stood for standstill_dwell
+  kDisarm,           // the arm request is withdrawn or voided
   kReset,            // rising edge of the operator's reset, and no emergency cause holds
-  kPassed,           // no cause of Reaction::kCoast has held for the dwell
-  kArm,              // arm requested, and no cause holds that bars arming
-  kGo                // everything that driving needs is there, and no cause holds
+  kPassed,           // no cause of Reaction::kCoast for coast_dwell
+  kArm,              // arm requested, and no cause bars arming
+  kGo                // all conditions of driving hold, and no cause that stops or coasts
 };
 inline constexpr std::size_t kEvents = 10;
 using Events = std::array<bool, kEvents>;
@@ -35,7 +35,7 @@ using Row = std::array<world::Mode, kEvents>;
 inline constexpr auto kCtrlStop = kControlledStop, kEmergency = kEmergencyStop;
 // clang-format off
 inline constexpr std::array<Row, world::kModes> kNext{{
-  //                   NobodyObeys Emergency   Stop       Coast       Standstill
+  //                   DbwGone     Emergency   Stop       Coast       Standstill
   //                   Disarm      Reset       Passed     Arm         Go
   /* Disarmed       */ {{kDisarmed, kDisarmed,  kDisarmed,  kDisarmed,  kDisarmed,
                          kDisarmed, kDisarmed,  kDisarmed,  kStandby,   kDisarmed}},
@@ -75,7 +75,7 @@ constexpr bool follows_the_drive(world::Mode mode) {
   return mode == world::Mode::kDriving || mode == world::Mode::kCoast;
 }
 
-// Properties, over every cell.
+// Checks a property of every cell.
 template <class Property>
 consteval bool every_cell(Property holds) {
   for (std::size_t m = 0; m < world::kModes; ++m)

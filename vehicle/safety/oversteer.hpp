@@ -1,13 +1,13 @@
-// Does the rear of the car step out? Two signs, each over two ticks in a row: both rear wheels turn
-// faster (or, braked, slower) than the road passes by, as the front wheels and localization have
-// it; or the car turns faster than its front wheels are steered, or the other way.
-//   in     wheel speeds, angle of the road wheels as measured, speed and yaw rate of localization
-//   out    by how much the worse sign exceeds its limit, 1 at the limit; 0: no over-steer
+// Oversteer detection from two indicators, each over two consecutive ticks: both rear wheels are
+// faster (or, braking, slower) than the front wheels and the speed of localization; or the car yaws
+// faster than its front wheels are steered, or against them.
+//   in     wheel speeds, measured angle of the road wheels, speed and yaw rate of localization
+//   out    the larger indicator relative to its limit (above 1); 0 if there is no oversteer
 //   invariants
-//          one wheel that lies, spins, locks or has left the ground over a bump has no say, nor has
-//          a launch: below speed_min nothing is judged
+//          one wheel that has a wrong sensor, spins, locks or leaves the ground over a bump has no
+//          effect, nor has a launch: below speed_min nothing is detected
 //   model  the steady-state bicycle of steering/learned_steering.hpp, on a level road
-//   errors what is not known is not judged
+//   errors unknown inputs give no detection
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -40,11 +40,11 @@ inline constexpr auto kOversteerRanges = std::to_array<world::NamedRange<Overste
 struct OversteerInputs {
   world::PerWheel wheel_mps;
   double road_wheel_rad = kUnset;
-  double speed_mps = kUnset, yaw_rate_rad_per_s = kUnset;  // by localization
+  double speed_mps = kUnset, yaw_rate_rad_per_s = kUnset;  // from localization
 };
 
 struct OversteerState {
-  std::uint8_t ticks = 0;  // in a row
+  std::uint8_t ticks = 0;  // consecutive ticks above the limit
 };
 static_assert(std::is_trivially_copyable_v<OversteerState>);
 
@@ -53,7 +53,7 @@ inline constexpr std::uint8_t kOversteerTicks = 2;
 double oversteer(const OversteerParams& params, OversteerState& state,
                  const OversteerInputs& inputs);
 
-// The signs of one tick, each 1 at its limit.
+// Indicators of one tick, each 1 at its limit.
 double rear_slip(const OversteerParams& params, const OversteerInputs& inputs);
 double yaw_excess(const OversteerParams& params, const OversteerInputs& inputs);
 

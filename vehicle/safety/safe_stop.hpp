@@ -1,13 +1,16 @@
-// The stop of last resort: follows the last stop trajectory without planning or control. While the
-// car knows where it is, with feedback (stop_following.hpp). Without, open loop in space: the
-// steering angle that was good last, changed by what the curvature of the trajectory changes along
-// the distance travelled; the brake along the planned deceleration, ramped, and kept within the
-// grip (stop_brake.hpp). Throttle 0, the gear is held, at standstill the brake is held.
-//   in     the last stop trajectory, the last good command, the car's speed by its wheels (unset:
-//          dead reckoning with the deceleration that the pressure gives), where it is, its tyres
-//   out    a command every tick
+// Safe stop: follows the last stop trajectory without planning or control. While the position is
+// known it uses feedback (stop_following.hpp). Otherwise it runs open loop over the distance
+// travelled: the steering is the feed-forward of the trajectory plus the offset of the last good
+// angle, which decays over steer_settle_s; the brake follows the planned deceleration, ramped and
+// within the grip (stop_brake.hpp); the throttle is zero. The gear is held; at standstill the brake
+// is held.
+//   in     the last stop trajectory, the last good command, the speed from the wheels (unset: dead
+//          reckoning with the deceleration that the brake pressure gives), the ego state, tyre
+//          temperature
+//   out    a command in every tick
 //   frames road-wheel angle and curvature left positive; bank positive where the left side is lower
-//   errors a trajectory without points: the steering angle is held and decel_without_plan is used
+//   errors for a trajectory without points the steering angle is held and decel_without_plan is
+//          used
 //   source steady-state bicycle of steering/path_steering.hpp
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
@@ -26,27 +29,27 @@ namespace pitwall::safety {
 
 struct SafeStopState {
   bool active = false;
-  Instant last{};                 // of the previous tick
-  double travelled_m = 0.0;       // along the trajectory, since its first point
+  Instant last{};                 // previous tick
+  double travelled_m = 0.0;       // along the trajectory, from its first point
   double speed_mps = 0.0;         // measured or dead reckoned
-  double steer_offset_rad = 0.0;  // last good angle minus feed-forward, at the start
-  double learned_rad = 0.0;       // what feedback had found before it ended
+  double steer_offset_rad = 0.0;  // at the start: last good angle minus feed-forward
+  double learned_rad = 0.0;       // trim and observer of the feedback when it ended
   double brake_kpa = 0.0;
   Instant begun{};
-  bool located = false;      // in the last tick
+  bool located = false;      // position known in the last tick
   FollowingState following;  // while located
 };
 static_assert(std::is_trivially_copyable_v<SafeStopState>);
 
 struct SafeStopInputs {
-  const world::Trajectory& stop;            // the last one
-  const world::ActuatorCommand& last_good;  // what the car did last: steering, brake, gear
-  double speed_mps = kUnset;                // by the wheels
+  const world::Trajectory& stop;            // the newest
+  const world::ActuatorCommand& last_good;  // steering, brake, gear
+  double speed_mps = kUnset;                // from the wheels
   StopKind kind = StopKind::kControlled;
-  world::EgoState ego{};   // without a valid one: open loop
-  double tyre_c = kUnset;  // the coldest; unset counts as cold
+  world::EgoState ego{};   // if not valid: open loop
+  double tyre_c = kUnset;  // coldest tyre; unset counts as cold
   steering::Learned learned{};
-  double steered_rad = kUnset;  // of a motor that does not follow: what it did
+  double steered_rad = kUnset;  // measured angle if the motor does not follow; else unset
 };
 
 // The first call with an inactive state begins the stop; reset by assigning SafeStopState{}.

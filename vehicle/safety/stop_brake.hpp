@@ -1,14 +1,14 @@
-// The brake of the stop of last resort: as much pressure as a deceleration needs, ramped, and kept
-// below what the tyres have left beside the lateral force (a hard stop on a banked turn spins the
-// car). Knows nothing of paths.
+// Brake control of the safe stop: the pressure for a deceleration, ramped and limited to the grip
+// that the lateral force leaves (a hard stop on a banked turn spins the car). It needs no path.
 //   in     speed, curvature and banking of the road, temperature of the coldest tyre
 //   out    grip, pressure
 //   frames lateral positive left; bank positive where the left side is lower
 //   invariants
-//          friction circle a_x^2 + a_y^2 <= (mu N / m)^2, N / m and a_y of steering/road_load.hpp,
-//          mu by the temperature of the tyres, of it the share that may be used; braking has
-//          brake_share of what the corner leaves, because the front axle locks before the rear one.
-//          Air, rolling and engine slow the car as well, and the brake needs not
+//          friction circle a_x^2 + a_y^2 <= (share mu N / m)^2, with N / m and a_y of
+//          steering/road_load.hpp, mu by the tyre temperature, and the usable share of the grip.
+//          Braking may use brake_share of what the corner leaves, because the front axle locks
+//          before the rear one. The deceleration by air drag, rolling resistance and engine is
+//          subtracted from the demand
 //   source Rajamani, Vehicle Dynamics and Control, 2nd ed., sec. 4.1
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
@@ -30,25 +30,25 @@ struct SafeStopParams {
   double emergency_ramp_kpa_per_s = 12000.0;  // [brake_ramp, 30000]
   double brake_max_kpa = 5500.0;
   double hold_kpa = 1500.0;              // at standstill
-  double decel_min_mps2 = 2.0;           // least of an open loop, and where the plan stands
+  double decel_min_mps2 = 2.0;           // minimum in open loop, and where the plan has stopped
   double decel_max_mps2 = 8.0;           // controlled stop; [decel_min, 15]
   double decel_without_plan_mps2 = 4.0;  // [decel_min, decel_max]
   double emergency_decel_mps2 = 14.0;    // [decel_max, 25]
-  double friction = 1.0;                 // that a stop reckons with, tyres warm: low on purpose
-  double brake_share = 0.65;             // of the grip, when the front axle locks
+  double friction = 1.0;                 // assumed in a stop with warm tyres; low on purpose
+  double brake_share = 0.65;             // of the grip at which the front axle locks
   double downforce_per_m = 0.0013;       // lift / mass per v^2
-  double grip_share = 0.7;               // of the grip left beside the lateral force; (0, 1]
+  double grip_share = 0.7;               // usable share of the total grip; (0, 1]
   double emergency_grip_share = 0.9;     // [grip_share, 1]
-  double steer_settle_s = 0.8;           // the offset from the feed-forward decays
-  double strayed_bandwidth_share = 0.5;  // of the steering's, where the motor does not follow
+  double steer_settle_s = 0.8;           // decay time of the offset from the feed-forward
+  double strayed_bandwidth_share = 0.5;  // if the motor does not follow
   double standstill_mps = 0.3;
-  double speed_share_per_s = 0.8;     // of the error of the speed, as deceleration
-  double brake_preview_s = 0.15;      // what the brakes take
-  double throttle_fall_per_s = 1.2;   // the throttle closes
+  double speed_share_per_s = 0.8;     // deceleration per speed error
+  double brake_preview_s = 0.15;      // delay of the brakes
+  double throttle_fall_per_s = 1.2;   // closing rate of the throttle
   double hold_ramp_kpa_per_s = 1500;  // at standstill
   double drag_per_m = 0.0;            // drag / (mass v^2)
   double coast_mps2 = 0.0;            // rolling and engine, throttle closed
-  world::TyreGrip tyres;              // of the temperature; as planning has it
+  world::TyreGrip tyres;              // grip by temperature; same as in planning
 };
 
 inline constexpr auto kSafeStopRanges = std::to_array<world::NamedRange<SafeStopParams>>({
@@ -74,19 +74,19 @@ inline constexpr auto kSafeStopRanges = std::to_array<world::NamedRange<SafeStop
 
 enum class StopKind : std::uint8_t { kControlled, kEmergency };
 
-// The grip of the tyres as an acceleration in the plane of the road, and the lateral part in use.
+// Grip of the tyres as an acceleration in the plane of the road, and the lateral part in use.
 struct Grip {
   double total_mps2 = kUnset, lateral_mps2 = kUnset;
   double free_mps2 = 0.0;  // deceleration without the brake
 };
-// tyre_c: of the coldest tyre; unset counts as cold.
+// tyre_c: coldest tyre; unset counts as cold.
 Grip grip_at(const SafeStopParams& params, double speed_mps, double curvature_per_m,
              double bank_rad, double tyre_c = kUnset);
 
-// The pressure for a deceleration by the brake, within grip and maximum.
+// Pressure for a deceleration by the brake alone, limited by the grip and the maximum.
 double brake_for(const SafeStopParams& params, StopKind kind, double decel_mps2, const Grip& grip);
 
-// The brake alone: the next pressure towards a deceleration, within ramp, grip and maximum; none
+// Next pressure towards a total deceleration, limited by ramp, grip and maximum. The target is zero
 // where the corner leaves no grip.
 struct BrakeDemand {
   double decel_mps2 = kUnset;
@@ -95,7 +95,7 @@ struct BrakeDemand {
 };
 double brake_towards(const SafeStopParams& params, StopKind kind, const BrakeDemand& demand);
 
-// At standstill: the next pressure towards the one that holds the car, within the ramp.
+// Next pressure towards the one that holds the car at standstill, within the ramp.
 double hold_towards(const SafeStopParams& params, StopKind kind, double last_kpa, double dt_s);
 
 }  // namespace pitwall::safety

@@ -1,33 +1,33 @@
-// The system executive: which mode the car is in, why, which trajectory to follow and whose command
-// goes to the actuators. Planning keeps a stop trajectory ready at every tick; in a stop the car is
-// driven along it by safe_stop, and control is not asked.
-//   in     signals received, position, what was learned of the steering, the watchdog's rows, the
-//          verdicts of this tick's control and of the previous tick's gate, the operator's requests
-//   out    mode, cause (the first that stopped the car since the last reset), command, what to
-//          follow in the next tick
+// Supervisor (system executive): mode of the car, cause, trajectory to follow, and command to the
+// actuators. Planning provides a new stop trajectory in every tick; in a stop safe_stop drives the
+// car along it, and control is not used.
+//   in     received signals, ego state, learned correction of the steering, watchdog rows, verdicts
+//          of control in this tick and of the gate in the previous tick, the operator's requests
+//   out    mode, cause (the first that stopped the car since the last reset), command, trajectory
+//          to follow in the next tick
 //   units  SI
-//   joystick it can lower the throttle and raise the brake of whatever was chosen, within the grip
+//   joystick it can lower the throttle and raise the brake of the chosen command, within the grip
 //          of the tyres and before the slew limits; it never steers
 //   errors none: every fault is a Cause with a value and an entry in the fault log
-//   coast  what may pass (Reaction::kCoast) takes the throttle away in the tick in which it is
-//          seen; the line is held and the brake is free. coast_dwell after the last sign of it the
-//          car drives on; where it lasts for coast_max the car stops
-//   arming a request arms once. While a fault bars it, it waits; it is refused, and spent, when the
-//          wheels turn (a process that begins while the car moves must not take it over) or when it
-//          has been held since the start of a process whose predecessor ended while armed. A spent
-//          request counts for nothing: it must be withdrawn and given anew, as after every stop,
-//          after a base station lost at standstill and after a dead bus
-//   brake  a stop whose steering strays, or that has neither position nor inertial unit, brakes as
-//          an emergency does: where the path cannot be held, what is left is to be slower
-//   engine off at standstill only, but for one case: a throttle that stays open in a stop, at any
-//          speed. The drive-by-wire is then told to shut down as in an emergency (CT 12): the
-//          engine is off, the gear is out, steering and brake still follow commands
+//   coast  a cause of Reaction::kCoast sets the throttle to zero in the tick in which it is
+//          detected; the car holds its line without brake. coast_dwell after the cause last held
+//          the car drives on; after coast_max of coasting it stops
+//   arming an arm request arms once. While a fault bars arming, the request waits. It is refused,
+//          and spent, if the wheels turn (a process that starts while the car moves must not take
+//          it over) or if it has been held since the start of a process whose predecessor ended
+//          while armed. A spent request has no effect: it must be withdrawn and set again, as after
+//          every stop, after a base station lost at standstill and after a dead bus
+//   brake  a stop brakes as an emergency does if its steering does not follow, or if it has neither
+//          position nor inertial unit: when the path cannot be held, less speed is safer
+//   engine shut down at standstill only, with one exception: a throttle that stays open in a stop,
+//          at any speed. The drive-by-wire then gets the shut-down of an emergency (CT 12): the
+//          engine is off and the gear disengaged; steering and brake still follow commands
 //   source mission, row 4 (system executive); mode_table.hpp for the transitions
 //
 //           fault                   stands for 0.5 s           reset
 //   Driving -----> ControlledStop -------------------> Halted ------> Disarmed
-//    ^  ^ \ may pass      | emergency                     ^              | arm, released and given
-//    |  |  v     lasts    v                               |              v anew after a stop
+//    ^  ^ \ kCoast        | emergency                     ^              | arm (after a stop a
+//    |  |  v     lasts    v                               |              v new request)
 //    |  Coast --------> a stop; EmergencyStop ------------+           Standby
 //    | go
 //   Standby
@@ -58,19 +58,20 @@ struct SupervisorParams {
   FaultParams faults;
   SafeStopParams safe_stop;
   double steering_ratio = 19.5;  // as in gateway::OutboundParams
-  GateParams gate;               // what a stop's own commands have to pass
+  GateParams gate;               // limits for the commands of a stop
   Duration standstill_dwell = milliseconds(500);
   double standstill_mps = 0.3;
-  // Slew of the chosen command, so that a change of its source is no jump; below the gate's limits.
+  // Slew limits of the chosen command, so that a change of source causes no jump; below the limits
+  // of the gate.
   double steer_slew_rad_per_s = 0.5;  // at the road wheel
   double throttle_rise_per_s = 2.0;   // fraction per second
   double brake_fall_kpa_per_s = 30000.0;
-  Duration shift_least = milliseconds(150);  // one gear at a time; [0.1, 2] s
+  Duration shift_least = milliseconds(150);  // minimum time between shifts; [0.1, 2] s
   double brake_rise_kpa_per_s = 15000.0;
-  bool go_needs_driving_state = true;  // drive-by-wire must say "driving" first
+  bool go_needs_driving_state = true;  // drive-by-wire must report "driving" first
   Duration coast_dwell = milliseconds(500);
   Duration coast_max = milliseconds(1500);  // above coast_dwell
-  double coast_brakes_below_mps = 5.0;      // where the brake stays free no longer
+  double coast_brakes_below_mps = 5.0;      // below it coasting keeps control's brake
 };
 
 inline FollowingParams following_of(const SupervisorParams& p) {
@@ -93,7 +94,7 @@ inline constexpr auto kSupervisorTimes = std::to_array<world::NamedTime<Supervis
 });
 
 enum class Follow : std::uint8_t { kNone, kDrive, kStop };
-// What becomes of the operator's wish to be armed.
+// State of the operator's arm request.
 enum class Arming : std::uint8_t {
   kNotAsked,
   kArmed,
@@ -115,15 +116,15 @@ struct SupervisorInputs {
   const world::EgoState& ego;
   const WatchdogOutput& watchdog;
   const world::Trajectory& stop;          // the newest stop trajectory, may be empty
-  const world::ActuatorCommand& control;  // of this tick; read only if control_ok, while it drives
+  const world::ActuatorCommand& control;  // of this tick; read only if control_ok, while driving
   bool control_ok = false;
   bool drive_available = false;  // planning has a drive trajectory
   bool own_id_seen = false;      // gateway::InboundOutput
   bool bus_failed = false;       // BusGuardOutput
   bool gate_refused = false;     // GateOutput::refused_now of the previous tick
   OperatorRequests operator_requests;
-  bool last_run_armed = false;  // the run of this process before ended while armed
-  LinkLossOutput radio{};       // what is left of the joystick; whether the link's age stops
+  bool last_run_armed = false;  // the previous run of this process ended while armed
+  LinkLossOutput radio{};       // link-loss policy: joystick inputs, stop
   const world::SensorInput* sensors = nullptr;  // of this tick
   world::ComputerHealth computer{};
   steering::Learned learned{};
@@ -134,18 +135,19 @@ struct SupervisorState {
   Instant mode_since{};
   FaultState faults;
   FaultLog log;
-  CauseSet causes;       // of the previous tick: its rising edges are logged
+  CauseSet causes;       // of the previous tick, to log rising edges
   FaultEntry coasts;     // why the car coasts
-  Instant coast_last{};  // when a reason for it held last
+  Instant coast_last{};  // when a cause of kCoast held last
   SafeStopState safe_stop;
   bool reset_was = false;
   bool standing = false;
   Instant standing_since{};
-  bool engine_off = false;  // until the car is armed again
-  // Likewise, in a stop: its steering strayed; it had neither a position nor an inertial unit.
+  bool engine_off = false;  // stays set until the car is armed again
+  // Set in a stop, until the car is armed again: the steering did not follow; neither position nor
+  // inertial unit was available.
   bool steering_strayed = false, was_blind = false;
   bool arm_used = false;      // an arm request arms once; cleared when it is withdrawn
-  bool arm_released = false;  // no request was held at least once since the start
+  bool arm_released = false;  // the request was absent at least once since the start
   Arming arming = Arming::kNotAsked;
   world::ActuatorCommand last;  // the last command that was chosen
   bool last_known = false;
@@ -158,17 +160,17 @@ struct SupervisorOutput {
   world::Mode mode = world::Mode::kDisarmed;
   bool mode_changed = false;
   Cause cause = Cause::kNone;      // first since the last reset or arming; text_of(cause)
-  CauseSet causes;                 // all that hold now
-  Follow follow = Follow::kNone;   // what planning and control shall follow in the next tick
+  CauseSet causes;                 // all that hold in this tick
+  Follow follow = Follow::kNone;   // trajectory for the next tick
   world::ActuatorCommand command;  // unset while disarmed
   CommandSource source = CommandSource::kNone;
   Arming arming = Arming::kNotAsked;
   bool actuate = false;       // armed: outbound sends actuator frames and the gate lets them pass
-  double speed_mps = kUnset;  // by the wheels
+  double speed_mps = kUnset;  // from the wheels
   bool standstill = false;
   bool engine_off = false;   // the throttle does not close in a stop
   bool limited = false;      // the slew limits changed the command
-  world::MonitorSet seen{};  // monitors that see something wrong now
+  world::MonitorSet seen{};  // monitors with a finding in this tick
 };
 
 SupervisorOutput supervise(const SupervisorParams& params, SupervisorState& state,

@@ -1,16 +1,16 @@
-// Is everything still alive and on time? One row per stream: how old its newest is; and of the last
-// second how many came, the longest gap between two, and the longest delay from true to heard. Each
-// figure is good, warning or bad by the row's limits; the row is as good as the worst of them, but
-// a gap alone, which is over, is never worse than a warning. Time in which the car's process itself
-// did not run is taken off the age, up to kPardonMax: whoever slept cannot say who else was silent,
-// and hears in its next ticks who lives.
-//   in     the samples of this tick, the signals and flags heard so far, the instants of the
+// Watchdog of the input streams: one row per stream with the age of its newest sample, and over the
+// last second its rate, its longest gap and its longest delay from measurement to arrival. Each
+// figure is good, warning or bad by the limits of the row; the row takes the worst of them, but a
+// gap alone, which is over, is at most a warning. Time in which the car's own process did not run
+// is subtracted from the ages, up to kPardonMax, because the silence may be its own; the next ticks
+// show which streams are alive.
+//   in     the samples of this tick, the signals and flags received so far, the instants of the
 //          planner and of the radio; the sensors that the operator has excluded
-//   out    one row per stream: good, warning, bad, never heard, or not watched; for each receiver
-//          what it says of its own accuracy
+//   out    one row per stream: good, warning, bad, never received, or not watched; for each
+//          receiver its own estimate of its accuracy
 //   invariants
-//          a rate and a delay are judged from a whole second on; of several of a signal within one
-//          tick the newest counts; a sensor that is excluded is not watched
+//          rate and delay are judged only over a whole second; of several values of a signal within
+//          one tick the newest counts; an excluded sensor is not watched
 //   units  Hz, s, m
 //   errors none
 // SPDX-License-Identifier: Apache-2.0
@@ -35,7 +35,7 @@ enum class Stream : std::uint8_t {
   kGnss0Link,
   kGnss1Link,  // any byte of the receiver
   kGnss0Position,
-  kGnss1Position,  // a position message, whatever it says
+  kGnss1Position,  // a position message of any content
   kGnss0Solution,
   kGnss1Solution,  // a position with a computed solution of any quality
   kGnss0Velocity,
@@ -59,12 +59,12 @@ inline constexpr std::size_t kStreams = 22;
 
 enum class Health : std::uint8_t { kUnwatched, kNever, kGood, kWarning, kBad };
 
-// Bounds of one figure; zero: it is not judged.
+// Bounds of one figure; zero disables it.
 struct DurationLimit {
   Duration warning{}, bad{};
 };
 struct RateLimit {
-  double warning_hz = 0.0, bad_hz = 0.0;  // fewer are a warning, are bad; bad < warning
+  double warning_hz = 0.0, bad_hz = 0.0;  // lower rates are a warning or bad; bad_hz < warning_hz
 };
 
 struct StreamLimit {
@@ -75,7 +75,7 @@ struct StreamLimit {
   Duration bad;      // older than this is bad; [20 ms, 60 s]
   RateLimit rate{};
   DurationLimit latency{};
-  DurationLimit gap{};  // zero: as of the age
+  DurationLimit gap{};  // zero: the limits of the age
 };
 
 inline constexpr std::array<StreamLimit, kStreams> kStreamLimits = [] {
@@ -110,7 +110,7 @@ inline constexpr std::array<StreamLimit, kStreams> kStreamLimits = [] {
 struct WatchdogParams {
   std::array<StreamLimit, kStreams> limits = kStreamLimits;
 
-  world::MonitorSet off{};  // of the bench alone: no car file sets it
+  world::MonitorSet off{};  // set by the bench only, not by a car file
 
   constexpr StreamLimit& operator[](Stream s) { return limits[static_cast<std::size_t>(s)]; }
 };
@@ -118,21 +118,22 @@ struct WatchdogParams {
 inline constexpr Duration kOverslept = milliseconds(25);  // two ticks missed
 inline constexpr Duration kPardonMax = milliseconds(250);
 
-// What came lately, in slots of a tenth of a second; one more than are shown: the running one.
+// Recent samples in slots of a tenth of a second. One slot more than the output covers: the running
+// one.
 inline constexpr Duration kFigureSlot = milliseconds(100);
 inline constexpr std::size_t kFigureSlots = 11;
 struct StreamHistory {
   std::array<std::uint16_t, kFigureSlots> samples{};
   std::array<Duration, kFigureSlots> gap{}, latency{};
-  Instant began{};  // the first that was heard
+  Instant began{};  // time of the first sample
 };
 
 struct WatchdogState {
   std::array<Instant, kStreams> last{};
   std::array<bool, kStreams> ever{};
-  std::array<Duration, kStreams> pardoned{};  // since it was last heard; [0, kPardonMax]
+  std::array<Duration, kStreams> pardoned{};  // since its last sample; [0, kPardonMax]
   std::array<StreamHistory, kStreams> history{};
-  // Of the last three positions of each unit, as it says itself.
+  // Reported standard deviations of the last three positions of each receiver.
   std::array<std::array<double, 3>, world::kGnssUnits> sigmas_m{};
   std::array<std::uint32_t, world::kGnssUnits> positions{};
   Instant watched_at{};  // the last tick
@@ -143,27 +144,28 @@ struct WatchdogInputs {
   const world::SensorInput& sensors;
   const world::VehicleSignals& signals;
   const world::RaceControl& race_control;
-  // From the receivers' ports where the rim knows them; else any sample of the unit counts.
+  // Newest byte at the port of each receiver; nullopt: any sample of the unit counts as link.
   std::array<std::optional<Instant>, world::kGnssUnits> gnss_byte_at{};
   std::optional<Instant> planner_at;  // when the newest trajectory was planned
-  std::optional<Instant> radio_at;    // the base station was alive then
+  std::optional<Instant> radio_at;    // newest sign of life of the base station
   world::SensorUse use{};
 };
 
 struct StreamRow {
   Stream stream = Stream::kGnss0Link;
   Health health = Health::kUnwatched;
-  Duration age{};  // since the last; zero where never
-  // Of the last whole second; unset and zero before there was one.
+  Duration age{};  // since the last sample; zero if never received
+  // Over the last whole second; unset and zero before the first one.
   double rate_hz = kUnset;
   Duration gap{}, latency{};
 };
 
 struct WatchdogOutput {
   std::array<StreamRow, kStreams> rows{};
-  // The best of its last three positions; unset before. One that is no number counts as infinite.
+  // Best of the last three positions; unset before the first. A value that is not a number counts
+  // as infinite.
   std::array<double, world::kGnssUnits> sigma_m{kUnset, kUnset};
-  world::MonitorSet seen{};  // monitors that see something wrong now
+  world::MonitorSet seen{};  // monitors with a finding in this tick
 
   constexpr const StreamRow& operator[](Stream s) const {
     return rows[static_cast<std::size_t>(s)];

@@ -1,14 +1,14 @@
-// What the frame gate lets the wheels do, and the speed at which a car can still turn with it: one
-// table, known to planning, control and the stop. The gate has its own reading of the frames.
-//   in     the largest angle by speed; the car's bicycle with what was learned; a road
-//   out    the angle at a speed, linear between the rows and constant outside; the fastest speed at
-//          which the steady-state angle of the road stays within a share of it
+// Steering angle limit by speed, and the highest speed at which a car can follow a curve within it.
+// Planning, control and the stop share this table; the frame gate has its own.
+//   in     the largest angle by speed; the car's bicycle model with the learned correction; a road
+//   out    the angle at a speed, linear between the rows and constant outside; the highest speed at
+//          which the steady-state angle for the road stays within a share of it
 //   invariants
-//          speeds of the rows rise, angles do not
-//          with the doubt D of learned_steering.hpp, k and a of road_load.hpp as of a left turn,
+//          speeds of the rows rise, angles do not rise
+//          with the doubt D of learned_steering.hpp, k and a of road_load.hpp, as for a left turn,
 //            L k + K a + d' + D(a) <= share * angle_max(v)
-//            D(a) v^2 <= stray: what is not known costs no more than a distance from the line
-//   errors none: a road that no speed can follow has the speed zero
+//            D(a) v^2 <= stray: the uncertainty costs at most a distance from the line
+//   errors none: for a road that no speed can follow the result is zero
 //   cost   O(rows), no allocation
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
@@ -34,10 +34,10 @@ struct AngleBudget {
   const LearningParams& learning;
   const Learned& learned;
   double share = 1.0;
-  double stray_m_rad_per_s2 = kUnset;  // path_steering.hpp
+  double stray_m_rad_per_s2 = kUnset;  // stray_m_rad_per_s2() of path_steering.hpp
 };
 
-// At most most_mps.
+// Highest speed for a curve, at most most_mps.
 double fastest_mps(const AngleBudget& budget, double curvature_per_m, double bank_rad,
                    double most_mps);
 

@@ -1,10 +1,10 @@
-// What a banked road asks of the tyres of a car that drives along it, over the car's mass: one
-// envelope for planning, the stops and the steering.
+// Lateral demand and normal load of a car on a banked road, per mass: one model for planning, the
+// stops and the steering.
 //   frames accelerations in the plane of the road, lateral positive left; curvature of the plan
 //          view; bank positive where the left side is lower
 //   invariants
-//          v^2 kappa is level: cos(bank) of it lies in the plane of the road, sin(bank) presses on
-//          the road
+//          the centripetal acceleration v^2 kappa is horizontal: its component cos(bank) lies in
+//          the plane of the road, its component sin(bank) presses on the road
 //            lateral demand  a = v^2 kappa cos(bank) - g sin(bank)
 //            normal load     n = g cos(bank) + v^2 kappa sin(bank) + downforce v^2
 //   errors none
@@ -18,14 +18,14 @@
 
 namespace pitwall::steering {
 
-// A place on the road at a speed. Who asks for one place at many speeds hands the bank's functions
-// on.
+// Point of the road and a speed. For one point at many speeds a caller copies cos_bank and
+// sin_bank.
 struct RoadLoad {
   double speed_mps = kUnset, curvature_per_m = kUnset, bank_rad = kUnset;
   double cos_bank = std::cos(bank_rad), sin_bank = std::sin(bank_rad);
 };
 
-// Curvature as the car turns about its own vertical.
+// Curvature in the plane of the road (yaw about the vertical axis of the body).
 inline double turn_per_m(const RoadLoad& at) { return at.curvature_per_m * at.cos_bank; }
 
 inline double lateral_demand_mps2(const RoadLoad& at) {

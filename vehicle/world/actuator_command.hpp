@@ -1,4 +1,4 @@
-// Actuator command: the output of control, chosen by safety, encoded by gateway/outbound.
+// Actuator command: output of control, selected by safety, encoded by gateway/outbound.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

@@ -1,7 +1,7 @@
-// Health of the car's CAN bus: whether every expected message is alive and whole, which frames were
-// lost, whether this is the bus that the database describes, and the state of the controller.
+// Health of the car's CAN bus: liveness and integrity of every expected message, lost frames,
+// whether the bus fits the database, and the state of the controller.
 //   out    filled by gateway/inbound (messages, refusals, losses), gateway/bus_identity (identity)
-//          and the rim (link)
+//          and vehicle/io (link)
 //   units  Instant and Duration of the car's monotonic clock
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
@@ -21,10 +21,10 @@ struct MessageHealth {
   Liveness liveness = Liveness::kNever;
   std::uint8_t debt = 0;     // leaky bucket over counters and checksums: +1 bad, -1 good
   std::uint32_t lost = 0;    // frames missing since the start, by counter or by period
-  std::uint32_t late = 0;    // frames that were reported missing and came after all
-  std::uint32_t bad = 0;     // frames refused since the start, whatever for
+  std::uint32_t late = 0;    // frames reported missing that arrived later
+  std::uint32_t bad = 0;     // frames refused since the start, for any reason
   Duration mean_interval{};  // smoothed time between frames; zero until the second frame
-  Instant last{};            // newest frame that was applied
+  Instant last{};            // newest applied frame
 };
 
 struct FrameRefusals {
@@ -38,27 +38,27 @@ struct FrameRefusals {
   }
 };
 
-// Does the traffic fit the database that this program was built with?
+// Whether the traffic fits the database of this build.
 enum class IdentityVerdict : std::uint8_t { kListening, kRight, kWrong };
 enum class IdentityDifference : std::uint8_t {
   kNone,
-  kUnknownId,    // heard, but the database has no such message
-  kWrongLength,  // of a known message
+  kUnknownId,    // received, but not in the database
+  kWrongLength,  // wrong length of a known message
   kWrongFormat,  // remote, FD or extended
-  kNotReceived,  // required, but silent for the whole time of listening
-  kWrongPeriod   // heard, but far too often or too seldom
+  kNotReceived,  // required, but not received while listening
+  kWrongPeriod   // received, but much too often or too rarely
 };
 
 struct BusIdentity {
   IdentityVerdict verdict = IdentityVerdict::kListening;
   IdentityDifference difference = IdentityDifference::kNone;
-  std::uint32_t id = 0;        // of the first message that differs; 0: none
+  std::uint32_t id = 0;        // first message that differs; 0 if none
   double expected = 0.0;       // bytes or seconds, by the kind of difference
-  double received = 0.0;       // likewise
+  double received = 0.0;       // in the same unit
   std::uint64_t database = 0;  // fingerprint of the database
 };
 
-// What the rim sees of the interface and the controller behind it.
+// Observed state of the interface and of its controller.
 enum class ControllerState : std::uint8_t { kUnknown, kActive, kWarning, kPassive, kBusOff, kDown };
 
 struct LinkObservation {
@@ -68,17 +68,18 @@ struct LinkObservation {
   std::uint64_t error_frames = 0;
   std::uint64_t tx_drops = 0;  // frames that could not be sent in time
   std::uint64_t restarts = 0;  // of the controller, since the start
-  Duration tx_stalled{};       // how long the interface has taken nothing; zero: it does
-  double load = 0.0;  // share of the bit rate that the frames heard take at least, by the gateway
+  Duration tx_stalled{};       // time without a sent frame while frames wait; else zero
+  // Lower bound of the share of the bit rate, from the received frames; set by the gateway.
+  double load = 0.0;
 };
 
-// Frames that did not come, oldest first; a ring would hide which. Of one tick.
+// Missing frames of one tick, oldest first; a list, because a ring would overwrite some.
 enum class LossDetector : std::uint8_t { kCounter, kPeriod, kSocketQueue, kInterface };
 struct LossReport {
-  std::uint32_t id = 0;  // 0: the detector cannot tell
+  std::uint32_t id = 0;  // 0 if the detector does not know it
   LossDetector detector = LossDetector::kCounter;
   std::uint32_t frames = 0;
-  Instant due{};  // when the first of them should have come; of the queue: unknown, zero
+  Instant due{};  // due time of the first one; zero if unknown (queue)
   Instant noticed{};
 };
 
@@ -87,7 +88,7 @@ struct BusHealth {
   std::uint64_t frames_lost = 0;  // since the start, by counter or period
   FrameRefusals refused;
   FixedVector<MessageHealth, 64> messages;
-  FixedVector<LossReport, 64> losses;  // noticed in this tick; what does not fit is counted
+  FixedVector<LossReport, 64> losses;  // detected in this tick; the rest is counted
   std::uint64_t losses_unlisted = 0;
   Instant last_frame{};
   BusIdentity identity;

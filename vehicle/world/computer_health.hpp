@@ -1,5 +1,5 @@
-// Health of the car's computer; unset where it is not known.
-//   units  share of all processors over the last second, 0 .. 1; MiB in use, caches left out;
+// Health of the car's computer; unset if not known.
+//   units  share of all processors over the last second, 0 .. 1; MiB in use, without caches;
 //          degrees Celsius of the hottest zone
 // SPDX-License-Identifier: Apache-2.0
 #pragma once

@@ -21,8 +21,8 @@ struct EgoState {
   double yaw_rate_rad_per_s = kUnset;            // about body z
   double ax_mps2 = kUnset, ay_mps2 = kUnset;     // specific force, body
   double z_m = kUnset;                           // Map; unset by a planar filter
-  double roll_rad = kUnset, pitch_rad = kUnset;  // ISO 8855: on a banking that falls to the left
-                                                 // the roll is minus the banking
+  double roll_rad = kUnset, pitch_rad = kUnset;  // ISO 8855: on a positive banking (left side
+                                                 // lower) the roll is minus the banking
   double position_sigma_m = kUnset;              // larger semi-axis, one sigma
   double yaw_sigma_rad = kUnset;
 };

@@ -1,6 +1,6 @@
-// Legal ranges of parameters: one table per parameter struct, which the car file, the check at
-// start-up and the tests read.
-//   out    the first parameter that is outside (NaN is outside), or nothing
+// Legal ranges of parameters: one table per parameter struct, for the car file, the check at
+// start-up and the tests.
+//   out    Problem of the first parameter outside its range (NaN is outside), or nullopt
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -16,7 +16,7 @@
 
 namespace pitwall::world {
 
-// A row of such a table: the key of the car file, and where the number is kept.
+// Row of a table: key in the car file, and member of the struct.
 template <class Params>
 struct NamedRange {
   const char* name;
@@ -24,7 +24,7 @@ struct NamedRange {
   double least, most;
 };
 
-// Likewise of a time; the range is in seconds.
+// The same for a duration; the range is in seconds.
 template <class Params>
 struct NamedTime {
   const char* name;
@@ -32,7 +32,7 @@ struct NamedTime {
   double least_s, most_s;
 };
 
-// Of what several modules are told about the car's geometry.
+// Range of a geometry parameter that several modules share.
 struct Range {
   double least, most;
 };

@@ -1,5 +1,5 @@
-// Mode of the car, as safety/supervisor decides it; the CT state for the drive-by-wire is derived
-// from it in gateway/handshake.
+// Mode of the car, set by safety/supervisor. gateway/handshake derives the CT state for the
+// drive-by-wire from it.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -8,13 +8,13 @@
 namespace pitwall::world {
 
 enum class Mode : std::uint8_t {
-  kDisarmed,        // no actuator frame leaves the car
+  kDisarmed,        // no actuator frame is sent
   kStandby,         // armed: holds the brake at standstill, engine may start
   kDriving,         // follows the drive trajectory
   kControlledStop,  // follows the stop trajectory
   kEmergencyStop,   // brakes as hard as grip allows, holds the line
-  kHalted,          // latched at standstill after a stop; left by an explicit reset only
-  kCoast            // follows the drive trajectory without throttle: what may pass is waited for
+  kHalted,          // latched at standstill after a stop; left by a reset or a dead bus only
+  kCoast            // follows the drive trajectory without throttle, until a fault clears
 };
 inline constexpr std::size_t kModes = 7;
 

@@ -1,8 +1,9 @@
-// Every monitor of the car, as one list: who looks for what. Each module reports in a MonitorSet
-// which of its monitors see something wrong in this tick; the bench grades how fast, and can switch
-// a monitor off to prove that it is needed. No car file can.
+// List of all monitors of the car, by module and fault. Each module reports in a MonitorSet which
+// of its monitors have a finding in this tick. The bench measures their detection times, and can
+// disable a monitor to show that it is needed; a car file cannot.
 //   invariants
-//          a monitor that is off sees nothing, and what it would have refused or stopped passes
+//          a disabled monitor has no findings, and the input that it would refuse or stop for
+//          passes
 //   source fault catalogue of the bench, F01 to F36
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
@@ -20,9 +21,9 @@ enum class Monitor : std::uint8_t {
   kCounter,       // repeated, stuck or jumped counter (F06, F08, F09)
   kChecksum,      // F10
   kFrameShape,    // length, identifier, format (F11)
-  kOwnId,         // another node sends what is ours (F12)
+  kOwnId,         // another node sends our identifiers (F12)
   kDecodedRange,  // not finite, out of range, impossible slew (F07, F17, F18)
-  kFrozenSignal,  // a live counter over a value that must move and does not (F16)
+  kFrozenSignal,  // constant value with a live counter (F16)
   // safety/bus_guard
   kBusLoad,          // babbling node (F13)
   kControllerState,  // warning, passive, bus-off (F14)
@@ -30,20 +31,20 @@ enum class Monitor : std::uint8_t {
   // localization
   kStreamAge,       // a receiver, an IMU or the wheels are late (F19, F24, F25)
   kSolution,        // status, variance, differential age (F19, F20)
-  kInnovation,      // a step against the car's own motion (F21, F23)
-  kStamp,           // frozen, running back, from the future (F22)
+  kInnovation,      // a step that contradicts the car's motion (F21, F23)
+  kStamp,           // time stamp frozen, decreasing or in the future (F22)
   kUnitAgreement,   // the two units contradict each other (F21, F23, F24)
-  kWheelAgreement,  // one wheel against the others and the car (F25)
+  kWheelAgreement,  // one wheel contradicts the others and the motion (F25)
   // safety
   kRadioLink,        // F29, F30
-  kFlagAgreement,    // flag codes that are unknown or contradict (F30)
+  kFlagAgreement,    // unknown or contradictory flag codes (F30)
   kRaceControl,      // heartbeat (F31)
   kSteeringFollows,  // command against feedback (F32)
   kBrakeFollows,     // F33
   kThrottleFollows,  // F34
   kClock,            // F35
-  kTiming,           // own ticks, computer (F36)
-  kOversteer,        // rear against front wheels against the receivers
+  kTiming,           // ticks and load of the computer (F36)
+  kOversteer,        // rear wheels, front wheels and receivers disagree
   kModule            // planning or control failed or late
 };
 inline constexpr std::size_t kMonitors = 26;

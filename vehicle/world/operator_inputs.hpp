@@ -1,9 +1,9 @@
-// Inputs of the operator by radio: what holds now (stop, joystick) and what is to be done once
-// (commands), and the car's answer to each command.
-//   in     the rim: by radio, by a switch, by a test. An input that was withdrawn is absent
+// Inputs of the operator by radio: levels (stop, joystick), commands to be executed once, and the
+// car's answer to each command.
+//   in     from the radio, a switch or a test. A withdrawn input is absent
 //   invariants
-//          a joystick makes the car slower and never steers it; whoever applies a command compares
-//          its expiry first, and answers every command in the tick in which it came, or in the next
+//          a joystick can only slow the car and never steers it. A command is applied only before
+//          its expiry, and answered in the tick of its arrival or in the next one
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -20,36 +20,36 @@ enum class StopRequest : std::uint8_t { kNone, kControlled, kEmergency };
 
 struct Joystick {
   double throttle_cap = 1.0, brake = 0.0;  // 0 .. 1; 1 is the hardest controlled stop
-  Instant at{};                            // of the sample, never later than the truth
+  Instant at{};                            // time of the sample, never later than the true one
 };
 
 struct OperatorInputs {
-  StopRequest stop = StopRequest::kNone;  // of the latch: it holds until it is released there
+  StopRequest stop = StopRequest::kNone;  // of the stop latch; set until the latch is released
   std::optional<Joystick> joystick;
 };
 
 enum class OperatorCommandKind : std::uint8_t {
   kArm,         // 0 disarm, 1 arm
-  kReset,       // 1: a stop that has ended is acknowledged
+  kReset,       // 1: acknowledges a stop that has ended
   kSpeedLimit,  // m/s
   kRaceLine,
   kRole,
-  kTrackFlag,        // a TrackFlag; kNone: the base has no opinion
+  kTrackFlag,        // a TrackFlag; kNone: no flag from the base
   kSensorsExcluded,  // bits of world::Excludable
   kEndRun,
   kSendParameters
 };
 
 struct OperatorCommand {
-  std::uint32_t id = 0;  // to be named in the answer
+  std::uint32_t id = 0;  // for the answer
   OperatorCommandKind kind = OperatorCommandKind::kArm;
   double argument = kUnset;
-  Instant expires{};  // not applied after
+  Instant expires{};  // not applied later
 };
 
 enum class CommandAnswer : std::uint8_t {
   kApplied,
-  kRefused,  // not in the present state
+  kRefused,  // not possible in the present state
   kUnsupported,
   kExpired
 };

@@ -1,6 +1,6 @@
-// Demands of race control, in one typed form whichever encoding the track uses (MyLaps or Marelli;
-// value 1 is red in one and green in the other). A value that no table knows is kUnknown and is
-// treated as kRed: never "keep racing".
+// Demands of race control in one typed form for both encodings of the tracks (MyLaps or Marelli;
+// value 1 is red in one and green in the other). A value that is not in a table is kUnknown and is
+// treated as kRed, never as permission to race.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -43,14 +43,14 @@ struct RaceControl {
   TrackFlag track = TrackFlag::kNone;
   VehicleFlag vehicle = VehicleFlag::kNone;
   double round_target_speed_mps = kUnset;
-  std::uint8_t raw_track = 0, raw_vehicle = 0, raw_sector = 0;  // to echo in the acknowledgement
+  std::uint8_t raw_track = 0, raw_vehicle = 0, raw_sector = 0;  // for the acknowledgement
   FlagEncoding encoding = FlagEncoding::kMyLaps;
   bool ever_received = false;
-  Instant last_heartbeat_change{};  // liveness is a change of the heartbeat, not mere reception
+  Instant last_heartbeat_change{};  // sign of life; reception alone is none
   std::uint8_t lap_count = 0;
-  // The same of the encoding that is not authoritative, which is acknowledged too.
+  // The same of the other encoding, which is acknowledged too.
   std::uint8_t other_raw_track = 0, other_raw_vehicle = 0, other_raw_sector = 0;
-  bool conflict = false;  // both encodings are heard and mean different things
+  bool conflict = false;  // both encodings are received and contradict each other
 };
 
 }  // namespace pitwall::world

@@ -21,8 +21,8 @@ constexpr std::string_view name_of(ReceiverKind kind) {
 
 struct ReceiverParams {
   ReceiverKind kind = ReceiverKind::kNovatelOem7;
-  // Of its quickest message, which is the IMU's, from measurement to arrival: known of the
-  // receiver, and not to be seen in what it sends. 0..0.05 s
+  // Delay of its fastest message, that of the IMU, from measurement to arrival. It is known for the
+  // receiver and cannot be derived from its data. 0..0.05 s
   Duration least_delay = milliseconds(2);
 };
 

@@ -1,5 +1,5 @@
-// Counts of one receiver's bytes and messages since the car's process began, as the pit wall gets
-// them, so that no drop is hidden. The reasons one by one are in the car's summary.
+// Counts of one receiver's bytes and messages since the start of the car process, for telemetry, so
+// that every drop is visible. The counts per reason are in the summary of the car.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -10,10 +10,10 @@ namespace pitwall::world {
 struct ReceiverTraffic {
   std::uint64_t bytes = 0, logs = 0;
   std::uint64_t bad_checksum = 0;
-  std::uint64_t bad_frame = 0;  // a header that the format does not know, or nobody asked for
-  std::uint64_t resyncs = 0;    // times that bytes were in no log
-  std::uint64_t refused = 0;    // whole logs: contents, range, unknown time, faulty IMU
-  std::uint64_t lost = 0;       // datagrams before they were read; times that a stream was lost
+  std::uint64_t bad_frame = 0;  // an unknown header, or one that was not requested
+  std::uint64_t resyncs = 0;    // number of gaps with bytes outside logs
+  std::uint64_t refused = 0;    // whole logs: content, range, unknown time, faulty IMU
+  std::uint64_t lost = 0;       // datagrams lost before the read; losses of a stream
 };
 
 }  // namespace pitwall::world

@@ -1,6 +1,6 @@
-// Samples of the sensors that do not speak CAN, as the receivers report them. Geodetic positions
-// are WGS 84; the frame of rates and accelerations is the car's (ISO 8855: x forward, y left, z
-// up).
+// Samples of the sensors that are not on the CAN bus, as the receivers report them. Geodetic
+// positions are WGS 84; rates and accelerations are in the frame of the car (ISO 8855: x forward, y
+// left, z up).
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -23,7 +23,7 @@ inline constexpr std::uint32_t kPositionNone = 0, kPositionSingle = 16, kPositio
 
 struct GnssPosition {
   std::uint8_t unit = 0;
-  Instant at{};  // when the solution was valid, on the car's clock
+  Instant at{};  // time of validity, on the car's clock
   std::uint32_t solution_status = 1, position_type = kPositionNone;
   double latitude_deg = kUnset, longitude_deg = kUnset, height_m = kUnset;
   double latitude_sigma_m = kUnset, longitude_sigma_m = kUnset, height_sigma_m = kUnset;
@@ -36,9 +36,9 @@ struct GnssVelocity {
   Instant at{};
   std::uint32_t solution_status = 1, velocity_type = kPositionNone;
   double horizontal_mps = kUnset;
-  double track_over_ground_rad = kUnset;  // from true north, clockwise, as BESTVEL has it
+  double track_over_ground_rad = kUnset;  // from true north, clockwise, as in BESTVEL
   double vertical_mps = kUnset;
-  double sigma_mps = kUnset;  // per axis; unset where the receiver does not say
+  double sigma_mps = kUnset;  // per axis; unset if not reported
 };
 
 struct GnssHeading {
@@ -47,11 +47,11 @@ struct GnssHeading {
   std::uint32_t solution_status = 1, position_type = kPositionNone;
   double heading_rad = kUnset;  // of the antenna baseline, from true north, clockwise
   double heading_sigma_rad = kUnset;
-  double baseline_m = kUnset;  // measured; unset where the receiver does not say
+  double baseline_m = kUnset;  // measured; unset if not reported
 };
 
-// The receiver's own inertial solution: what it believes of its attitude, for comparison and for a
-// heading where the antennas have none.
+// Attitude from the receiver's own inertial solution, for comparison and as heading while the
+// antennas give none.
 enum class InsStatus : std::uint8_t { kInactive, kAligning, kHighVariance, kGood, kFree };
 struct InsAttitude {
   std::uint8_t unit = 0;
@@ -62,11 +62,11 @@ struct InsAttitude {
   double roll_sigma_rad = kUnset, pitch_sigma_rad = kUnset, heading_sigma_rad = kUnset;
 };
 
-// What a receiver says of itself.
+// Status that a receiver reports.
 struct ReceiverHealth {
   std::uint8_t unit = 0;
   Instant at{};
-  bool error = false;  // its own error word is not zero
+  bool error = false;  // its error word is not zero
   std::uint32_t error_word = 0, status_word = 0;
   bool time_valid = true;
 };
@@ -78,15 +78,15 @@ struct ImuSample {
   std::array<double, 3> specific_force_mps2{kUnset, kUnset, kUnset};  // x, y, z
 };
 
-// When a receiver said what time it was: its clock beside the car's.
+// Time report of a receiver, with the car's time of its arrival.
 struct ReceiverTime {
   std::uint8_t unit = 0;
-  Instant received{};            // when the bytes arrived, on the car's clock
+  Instant received{};            // arrival of the bytes, on the car's clock
   std::int64_t gps_ns = 0;       // since the GPS epoch; without leap seconds
-  double utc_offset_s = kUnset;  // UTC minus GPS time, where the receiver says it
+  double utc_offset_s = kUnset;  // UTC minus GPS time; unset if not reported
 };
 
-// What arrived since the last step, in order of arrival.
+// Samples since the last step, in order of arrival.
 struct SensorInput {
   FixedVector<GnssPosition, 8> positions;
   FixedVector<GnssVelocity, 8> velocities;
@@ -95,7 +95,7 @@ struct SensorInput {
   FixedVector<InsAttitude, 16> attitudes;
   FixedVector<ReceiverHealth, 8> receivers;
   FixedVector<ReceiverTime, 8> times;
-  std::uint32_t overflows = 0;  // samples that found their list full
+  std::uint32_t overflows = 0;  // samples that did not fit into their list
 };
 
 }  // namespace pitwall::world

@@ -1,4 +1,4 @@
-// Set of the sensors that the operator has excluded: bits, absolute.
+// Set of the sensors that the operator has excluded, as an absolute bit set.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

@@ -1,5 +1,5 @@
-// Signals of the car on the CAN bus, in SI units, each with the instant at which it was received.
-// Filled by gateway/inbound only; a value that was never received is NaN with heard == false.
+// Signals of the car from the CAN bus, in SI units, each with the instant of its reception. Only
+// gateway/inbound fills them; a value that was never received is NaN with received == false.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -75,7 +75,8 @@ struct EngineHealth {
   double transmission_c = kUnset, transmission_pressure_kpa = kUnset;
 };
 
-// CAN diagnostic_report: true is a fault. A fault of the second kind stops the car.
+// CAN diagnostic_report: true is a fault. safety/causes.hpp lists those that stop the car; the
+// warnings and low_engine_speed are only reported.
 struct DriveByWireDiagnostics {
   bool system_warning = false, system_failure = false;
   std::array<bool, 3> brake_warning{}, steer_warning{};

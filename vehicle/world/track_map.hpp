@@ -1,8 +1,8 @@
-// The track as the car knows it: a closed reference line sampled at equal stations, with banking
-// and the distance to the walls, and curvilinear (Frenet) coordinates over it.
+// Map of the track: a closed reference line sampled at equal stations, with banking and the
+// distance to the walls, and curvilinear (Frenet) coordinates along it.
 //   frames Map (local tangent plane at the datum); station s in [0, length), offset n positive to
-//          the left of the direction of travel; curvature positive left; banking positive where
-//          the left side is lower
+//          the left of the direction of travel; curvature positive left; banking positive where the
+//          left side is lower
 //   cost   at(): O(1). project(): O(1) near a hint, O(points) without. No allocation after build.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
@@ -16,15 +16,15 @@
 
 namespace pitwall::world {
 
-// One row of a track file: what holds at a station; linear between rows, closed at the end.
+// One row of a track file: values at a station; linear between rows, closed at the end.
 struct TrackKnot {
   double s_m = kUnset, curvature_per_m = kUnset, bank_rad = kUnset;
   double width_left_m = kUnset, width_right_m = kUnset;  // reference line to wall
 };
 
 struct PitLane {
-  double entry_s_m = kUnset, exit_s_m = kUnset;  // where it leaves and joins the track
-  double offset_m = kUnset;                      // n of its centre line
+  double entry_s_m = kUnset, exit_s_m = kUnset;  // stations of its ends
+  double offset_m = kUnset;                      // offset n of its centre line
   double width_m = kUnset, speed_limit_mps = kUnset;
 };
 
@@ -32,7 +32,7 @@ struct TrackDescription {
   std::string name;
   double length_m = kUnset;
   double datum_latitude_deg = kUnset, datum_longitude_deg = kUnset, datum_height_m = kUnset;
-  double start_x_m = 0.0, start_y_m = 0.0, start_yaw_rad = 0.0;  // of s = 0, in Map
+  double start_x_m = 0.0, start_y_m = 0.0, start_yaw_rad = 0.0;  // at s = 0, in Map
   std::vector<TrackKnot> knots;
   std::optional<PitLane> pit;
   std::string source;  // file, for messages
@@ -44,10 +44,10 @@ struct TrackPoint {
   double width_left_m = kUnset, width_right_m = kUnset;
 };
 
-// The road itself at a place: a surface ruled by the banking, whose reference line is level.
+// Road surface at a position: ruled by the banking, with a level reference line.
 struct RoadPoint {
-  double height_m = kUnset;   // over the datum
-  double bank_rad = kUnset;   // across, positive where the left side is lower
+  double height_m = kUnset;   // above the datum
+  double bank_rad = kUnset;   // lateral, positive where the left side is lower
   double climb_rad = kUnset;  // along the direction of travel, positive uphill
 };
 
@@ -57,11 +57,11 @@ struct Curvilinear {
 
 class TrackMap {
  public:
-  // Integrates the curvature table to a closed line: the residual of position and heading is spread
-  // over the lap by the smallest change of curvature, refused if beyond 2 % of the largest one
-  // (the table then does not describe a closed track). Refused with the place as well:
-  // fewer than 4 knots, stations not increasing, a width that is not positive, crossing walls,
-  // banking beyond 45 degrees, NaN.
+  // Integrates the curvature table to a closed line. The residual of position and heading is spread
+  // over the lap by the smallest change of curvature. Returns a Problem with its place if this
+  // change is beyond 2 % of the largest curvature (the table then describes no closed track), for
+  // fewer than 4 knots, stations that do not increase, a width that is not positive, crossing
+  // walls, banking beyond 45 degrees, and NaN.
   static Result<TrackMap, Problem> build(const TrackDescription& description);
 
   const std::string& name() const { return name_; }
@@ -72,14 +72,14 @@ class TrackMap {
   const std::optional<PitLane>& pit() const { return pit_; }
 
   double wrap_station(double s_m) const;  // to [0, length)
-  // From a to b going forward, in [0, length).
+  // Forward distance between the stations, in [0, length).
   double station_ahead(double from_s_m, double to_s_m) const;
   TrackPoint at(double s_m) const;  // interpolated; s is wrapped
   // Nearest point of the reference line. With a hint the search stays within 50 m of it.
   Curvilinear project(double x_m, double y_m, std::optional<double> hint_s_m = std::nullopt) const;
-  // The point with offset n beside station s.
+  // Point with offset n at station s.
   TrackPoint offset(double s_m, double n_m) const;
-  // z = -n tan(bank(s)); its slope along the track, at offset n.
+  // Surface z = -n tan(bank(s)), and its slope along the track at offset n.
   RoadPoint road(double s_m, double n_m) const;
   std::size_t size() const { return points_.size(); }
   const TrackPoint& point(std::size_t i) const { return points_[i]; }  // i < size()

@@ -25,7 +25,7 @@ struct TrajectoryPoint {
 inline constexpr std::size_t kTrajectoryPoints = 128;
 
 struct Trajectory {
-  Instant at{};  // when it was planned
+  Instant at{};  // time of planning
   FixedVector<TrajectoryPoint, kTrajectoryPoints> points;
 };
 

@@ -1,10 +1,10 @@
-// Grip of a tyre by its temperature, as a share of the friction when warm: cold tyres have less.
-//   in     mean temperature of every tyre, as the car says it; a value that is missing, not a
-//          number or older than kTyreAgeMax is not known
+// Grip of a tyre by its temperature, as a share of the friction of a warm tyre.
+//   in     mean temperature of every tyre from the CAN bus; a value that is missing, not a number
+//          or older than kTyreAgeMax is unknown
 //   out    share of the warm friction, (0, 1], linear between the rows of the table
 //   invariants
-//          the coldest tyre counts, and what is not known counts as cold: the first row. A tyre
-//          that is hotter than the last row has the last row's share: heat is not modelled
+//          the coldest tyre counts, and an unknown temperature counts as cold: the first row. Above
+//          the last row the share is that of the last row: overheating is not modelled
 //   source 29 C against at least 79 C: Saba et al., Fast and Modular Autonomy Software (a spin on
 //          cold tyres); the shares between are estimates
 // SPDX-License-Identifier: Apache-2.0

@@ -1,7 +1,8 @@
-// The loop of the steering law and a linear car on a straight, cut at the command to the wheels,
-// at the tick: the car with the hold of a tick and whole ticks of delay, the law by differences of
-// its own code. What the law keeps of its command (the observer) stays closed within it.
-//   units  SI; out of the car and into the law: distance to the left, course, yaw rate
+// Open and closed loop of the steering control law with a linear car on a straight road, in
+// discrete time. The loop is cut at the steering command. The car has a zero-order hold of one tick
+// and a delay of whole ticks; the control law is linearised by finite differences of its own code.
+// The internal loop of the law over its own command (the observer) stays closed.
+//   units  SI; from the car to the law: distance to the left, course, yaw rate
 //   source Rajamani, Vehicle Dynamics and Control, 2nd ed., eq. 2.31 (single track) and 3.12
 //          (critical speed); Pacejka, Tire and Vehicle Dynamics, 2012, ch. 7 (relaxation)
 // SPDX-License-Identifier: Apache-2.0
@@ -23,16 +24,16 @@
 namespace pitwall::steering::testing {
 
 constexpr double kComputerAndBus_s = 0.02;
-constexpr double kRelaxation_m = 0.5;      // the longest of hil/plant/family
-constexpr double kFrictionOfSlopes = 1.3;  // at which a rear slope is kRearSlope_n_per_rad
+constexpr double kRelaxation_m = 0.5;      // the longest relaxation length of hil/plant/family
+constexpr double kFrictionOfSlopes = 1.3;  // where the rear slope is kRearSlope_n_per_rad
 
 struct LoopCase {
   double speed_mps = 65.0;
-  double understeer = 0.0002;  // rad/(m/s^2), of whole tyres
+  double understeer = 0.0002;  // rad/(m/s^2), with undamaged tyres
   double friction = kFrictionOfSlopes;
-  double front_share = 1.0, rear_share = 1.0;  // what is left of the slopes
-  double delay_s = 0.04, lag_s = 0.06;         // of the actuator
-  bool learned = true;                         // the law knows the understeer of whole tyres
+  double front_share = 1.0, rear_share = 1.0;  // share of the cornering stiffness
+  double delay_s = 0.04, lag_s = 0.06;         // of the steering actuator
+  bool learned = true;                         // the law knows `understeer`
 };
 
 struct Slopes {
@@ -44,7 +45,8 @@ inline Slopes slopes_of(const LoopCase& c) {
   return {c.front_share * front_slope(c.understeer, rear), c.rear_share * rear};
 }
 
-// At which the car itself, its wheel held, ceases to be stable; infinite where it understeers.
+// Critical speed: above it the car with a fixed steering angle is unstable. Infinite for a car that
+// understeers.
 inline double critical_speed_mps(const LoopCase& c) {
   const Slopes slopes = slopes_of(c);
   const double length_m = kFront_m + kRear_m;
@@ -56,8 +58,8 @@ inline double critical_speed_mps(const LoopCase& c) {
 using CarSystem = DiscreteSystem<7, 1, 3>;
 using LawSystem = DiscreteSystem<5, 3, 1>;
 
-// Without its delay. States: angle, slip of the tyres in front and behind as it has built up,
-// lateral speed, yaw rate, yaw, distance.
+// The car without the delay. States: steering angle, built-up slip of the front and of the rear
+// tyres, lateral speed, yaw rate, yaw, distance from the path.
 inline CarSystem car_of(const LoopCase& c) {
   const Slopes slopes = slopes_of(c);
   const double v = c.speed_mps, builds_per_s = v / kRelaxation_m;
@@ -81,8 +83,8 @@ inline std::size_t delay_ticks(const LoopCase& c) {
   return static_cast<std::size_t>(std::lround((c.delay_s + kComputerAndBus_s) / kTick.seconds()));
 }
 
-// One tick of the law as a stop calls it, near a straight. State: d, trim, bump, the command
-// behind its lag, the command.
+// One tick of the law, called as in a stop, near a straight. State: d, trim, bump, the filtered
+// command, the command.
 inline std::array<double, 5> law_tick(const Params& params, const LoopCase& c,
                                       const std::array<double, 5>& x,
                                       const std::array<double, 3>& measured) {
@@ -102,7 +104,8 @@ inline std::array<double, 5> law_tick(const Params& params, const LoopCase& c,
   return {state.unknown_rad, state.trim_rad, state.bump_rad, learned.commanded_rad, angle_rad};
 }
 
-// Exact but for rounding as long as the law is linear that near to zero.
+// Linearisation of the law at zero. Exact except for rounding while the law is linear within
+// `step`.
 inline LawSystem law_of(const Params& params, const LoopCase& c, double step = 1e-4) {
   LawSystem law;
   for (std::size_t i = 0; i < 8; ++i) {
@@ -130,7 +133,7 @@ inline Loop loop_of(const Params& params, const LoopCase& c) {
   return {car_of(c), law_of(params, c), delay_ticks(c)};
 }
 
-// Of the open loop; it comes back to itself where this is -1.
+// Frequency response of the open loop. The closed loop is on the stability limit where this is -1.
 inline std::complex<double> response(const Loop& loop, double rad_per_s) {
   const std::complex<double> z = std::polar(1.0, rad_per_s * kTick.seconds());
   const auto car = response(loop.car, z);
@@ -140,8 +143,8 @@ inline std::complex<double> response(const Loop& loop, double rad_per_s) {
   return sum * std::pow(z, -static_cast<int>(loop.delay_ticks));
 }
 
-// Of the closed loop: the largest modulus of its poles, with another gain and further ticks of
-// delay. States: those of the car, the commands under way, those of the law.
+// Largest modulus of the poles of the closed loop, with an additional gain and additional ticks of
+// delay. States: those of the car, the delayed commands, those of the law.
 inline double spectral_radius(const Loop& loop, double gain = 1.0, std::size_t more_ticks = 0) {
   const std::size_t ticks = loop.delay_ticks + more_ticks, size = 7 + ticks + 5, law = 7 + ticks;
   std::vector<double> m(size * size, 0.0);

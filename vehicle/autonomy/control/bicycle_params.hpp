@@ -1,4 +1,4 @@
-// The single-track car of control: its numbers, as the laws of steering need them.
+// Parameters of the single-track model that the lateral controller is designed from.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

@@ -1,11 +1,11 @@
-// The controller of the car: drive trajectory in, actuator command out. One of two laws steers, by
-// the car's file: the published regulator (lateral.hpp) or the one with feed-forward
-// (feed_forward.hpp). Not asked during a stop.
-//   in     EgoState and Trajectory (Map, Body); what was learned of the car's steering
+// Vehicle controller: drive trajectory in, actuator command out. The car file selects one of two
+// lateral control laws: the published regulator (lateral.hpp) or the one with feed-forward
+// (feed_forward.hpp). A stop does not use this module.
+//   in     EgoState and Trajectory (Map, Body); the learned correction of the steering
 //   out    ActuatorCommand, diagnostics, next state
 //   rate   100 Hz
-//   errors LateralDiagnostics.verdict; a missing trajectory or ego holds the angle and lets go of
-//          throttle and brake at their rates: stopping is the decision of vehicle/safety
+//   errors LateralDiagnostics.verdict. Without a trajectory or an ego state the angle is held, and
+//          throttle and brake are released at their rates: vehicle/safety decides whether to stop
 //   cost   O(trajectory points), no allocation
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
@@ -29,13 +29,13 @@ struct Params {
   BicycleParams bicycle;
   LateralParams lateral;
   LateralLaw drive_law = LateralLaw::kPaperLqr;
-  steering::Params steering;  // of the law with feed-forward
+  steering::Params steering;  // for kFeedForward
   LongitudinalParams longitudinal;
   GearParams gear;
 };
 
 struct State {
-  double road_wheel_rad = 0.0;  // as last commanded
+  double road_wheel_rad = 0.0;  // last command
   LongitudinalState longitudinal;
   GearState gear;
   steering::State steering;
@@ -45,7 +45,7 @@ struct Inputs {
   const world::EgoState& ego;
   const world::Trajectory& trajectory;
   steering::Learned learned{};
-  double angle_max_rad = kUnset;  // what the frame gate lets pass at this speed; unset: all
+  double angle_max_rad = kUnset;  // limit of the frame gate at this speed; unset: none
 };
 
 struct Output {
@@ -55,7 +55,8 @@ struct Output {
   State next;
 };
 
-// Start-up: checks every parameter against its legal range; the place is the parameter's name.
+// At start-up: checks every parameter against its legal range; the place of a Problem is the name
+// of the parameter.
 Result<LateralGains, Problem> prepare(const Params& params);
 
 Output step(const Params& params, const LateralGains& gains, const State& state,

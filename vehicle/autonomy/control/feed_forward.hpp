@@ -14,7 +14,7 @@
 
 namespace pitwall::control {
 
-// The limits are those of lateral.
+// The angle limits are those of `lateral` and `angles`.
 LateralDiagnostics steer_forward(const steering::Params& params, const LateralParams& lateral,
                                  const steering::Learned& learned, steering::State& state,
                                  const Angles& angles, const world::EgoState& ego,

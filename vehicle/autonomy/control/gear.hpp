@@ -1,5 +1,5 @@
-// Gear choice from a table over speed: up at one speed, down at a lower one, a minimum dwell
-// between shifts and never two gears at once.
+// Gear selection by speed with hysteresis: shifts up at one speed and down at a lower one, one gear
+// at a time, with a minimum time between shifts.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -15,10 +15,11 @@ namespace pitwall::control {
 inline constexpr std::size_t kGears = 6;
 
 struct GearParams {
-  // Index i is the shift between gear i+1 and i+2; rising, down_below < up_above (hysteresis).
+  // Index i is the shift between gears i+1 and i+2. Values rise, and down_below < up_above
+  // (hysteresis).
   std::array<double, kGears - 1> up_above_mps{kUnset, kUnset, kUnset, kUnset, kUnset};
   std::array<double, kGears - 1> down_below_mps{kUnset, kUnset, kUnset, kUnset, kUnset};
-  double dwell_s = kUnset;  // least time between shifts
+  double dwell_s = kUnset;  // minimum time between shifts
 };
 
 inline constexpr auto kGearRanges = std::to_array<world::NamedRange<GearParams>>({
@@ -27,11 +28,11 @@ inline constexpr auto kGearRanges = std::to_array<world::NamedRange<GearParams>>
 
 struct GearState {
   std::uint8_t gear = 1;  // 1..kGears
-  Instant changed{};      // at the last shift
+  Instant changed{};      // time of the last shift
   bool ever_changed = false;
 };
 
-// A speed that is not finite holds the gear.
+// The gear is held if the speed is not finite.
 GearState step(const GearParams& params, const GearState& state, double speed_mps, Instant now);
 
 }  // namespace pitwall::control

@@ -1,6 +1,6 @@
-// Longitudinal controller: proportional plus feed-forward on the target speed, one signed command
-// split into throttle or scaled brake pressure, each smoothed by its own rate limits. At standstill
-// with target zero a holding pressure is applied.
+// Longitudinal controller: proportional plus feed-forward on the target speed. One signed command
+// is split into throttle and scaled brake pressure, each with its own rate limits. At standstill
+// with target speed zero a holding pressure is applied.
 //   invariants
 //          c = kp (v* - v) + k_ff v*;  c >= 0: throttle c;  c < 0: brake -c * brake_kpa_per_command
 //   source Saba et al., Fast and Modular Autonomy Software, sec. controls
@@ -19,14 +19,14 @@ struct LongitudinalParams {
   double kp_per_mps = kUnset;           // throttle fraction per m/s
   double feedforward_per_mps = kUnset;  // throttle fraction per m/s
   double brake_kpa_per_command = kUnset;
-  double speed_preview_s = kUnset;  // the target is read this far ahead
+  double speed_preview_s = kUnset;  // look-ahead of the target speed
   double throttle_max = kUnset;
   double throttle_rise_per_s = kUnset;
   double throttle_fall_per_s = kUnset;
   double brake_max_kpa = kUnset;
   double brake_rise_kpa_per_s = kUnset;
   double brake_fall_kpa_per_s = kUnset;
-  double hold_speed_mps = kUnset;  // below it, with target zero, hold the car
+  double hold_speed_mps = kUnset;  // below it, with target zero, the car is held
   double hold_brake_kpa = kUnset;
 };
 
@@ -46,16 +46,16 @@ inline constexpr auto kLongitudinalRanges = std::to_array<world::NamedRange<Long
 });
 
 struct LongitudinalState {
-  double throttle_fraction = 0.0, brake_kpa = 0.0;  // as last commanded
+  double throttle_fraction = 0.0, brake_kpa = 0.0;  // last command
 };
 
 struct LongitudinalOutput {
   double target_speed_mps = kUnset;
   double raw_command = kUnset;  // c, before limits
-  LongitudinalState next;       // also the command
+  LongitudinalState next;       // also this tick's command
 };
 
-// A target or a speed that is not finite lets go of the throttle and the brake at their rates.
+// Throttle and brake are released at their rates if the target or the speed is not finite.
 LongitudinalOutput step(const LongitudinalParams& params, const LongitudinalState& state,
                         double target_speed_mps, double speed_mps, Duration dt);
 

@@ -1,6 +1,8 @@
-// Continuous-time algebraic Riccati equation  0 = Q + A'X + XA - X G X,  G = B inv(R) B'.
+// Solver of the continuous-time algebraic Riccati equation
+//     0 = Q + A'X + XA - X G X,  G = B inv(R) B'
 //   in     A any, G and Q symmetric, all n by n
-//   out    the stabilising X: symmetric, every eigenvalue of A - G X in the open left half plane
+//   out    the stabilising solution X: symmetric, every eigenvalue of A - G X in the open left half
+//          plane
 //   errors RiccatiFailure
 //   cost   O(n^3), allocates: start-up only
 //   source Laub 1979 (ordered Schur form of the Hamiltonian), Kleinman 1968 (Newton refinement),
@@ -29,7 +31,8 @@ struct RiccatiProblem {
 
 Result<Eigen::MatrixXd, RiccatiFailure> solve(const RiccatiProblem& problem);
 
-// Q + A'X + XA - XGX in extended precision, rounded, over the sum of the sizes of its terms.
+// Residual Q + A'X + XA - XGX, computed in extended precision and rounded, divided by the sum of
+// the magnitudes of its terms.
 double relative_residual(const RiccatiProblem& problem, const Eigen::MatrixXd& x);
 
 const char* to_string(RiccatiFailure failure);

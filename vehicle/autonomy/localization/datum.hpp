@@ -1,4 +1,4 @@
-// The tangent plane of the track: WGS 84 to Map (x east, y north, metres, z up).
+// Tangent plane of the track: conversion from WGS 84 to Map (x east, y north, z up, metres).
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -15,10 +15,12 @@ struct MapPoint {
 
 class Datum {
  public:
-  // Refused: latitude beyond 90 degrees, longitude beyond 180, anything not finite.
+  // Returns a Problem for a latitude beyond 90 degrees, a longitude beyond 180, or a value that is
+  // not finite.
   static Result<Datum, Problem> at(double latitude_deg, double longitude_deg, double height_m);
 
-  // Nothing for coordinates that are not on the Earth. An unset height counts as the datum's.
+  // Returns nullopt for coordinates that are not on the Earth. An unset height counts as the height
+  // of the datum.
   std::optional<MapPoint> to_map(double latitude_deg, double longitude_deg, double height_m) const;
 
  private:

@@ -1,5 +1,5 @@
-// Properties of a sample that the check table judges: its form and its solution. Stamps, prediction
-// and the other unit are added by intake.
+// Facts about a sample for the check table: its form and its solution. intake.hpp adds stamps,
+// prediction and the other unit.
 //   in     one sample
 //   out    Evidence with form and solution filled in
 //   units  as in world/sensor_input.hpp
@@ -22,11 +22,10 @@ Evidence evidence_of(const Params& params, const Datum& datum, const world::Gnss
 Evidence evidence_of(const Params& params, const Datum& datum, const world::InsAttitude& a);
 Evidence evidence_of(const Params& params, const Datum& datum, const world::ImuSample& s);
 
-// How good a position of this type (NovAtel OEM7, position type) can be: 0 none, 1 single point,
-// 2 differential or float, 3 fixed.
+// Rank of a position type (NovAtel OEM7): 0 none, 1 single point, 2 differential or float, 3 fixed.
 double rank_of(std::uint32_t position_type);
 
-// The numbers that cannot be the same twice while the car moves.
+// Values of a sample that cannot repeat while the car moves.
 using Content = std::array<double, 3>;
 Content content_of(const world::GnssPosition& p);
 Content content_of(const world::GnssVelocity& v);

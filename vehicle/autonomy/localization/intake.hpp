@@ -1,9 +1,9 @@
-// Intake of samples: the steps from a sample to a verdict that all sources share. Internal to
-// localization.
-//   in     one sample and all that is known beside it (Intake)
-//   out    its verdict, told and tallied; the filter has it if it was accepted
+// Processing of one sample, from the checks to the verdict, as far as all sources share it.
+// Internal to localization.
+//   in     one sample and its context (Intake)
+//   out    its verdict, reported and counted; an accepted sample is in the filter
 //   invariants
-//          an excluded sample touches nothing but its verdict and its tally
+//          an excluded sample changes only its verdict and its counts
 //   cost   O(rows of the check table + window of the filter); no allocation
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
@@ -16,7 +16,7 @@ namespace pitwall::localization {
 
 struct Intake {
   const Params& params;
-  const FilterParams& filter;  // of params, or without gates for the bench
+  const FilterParams& filter;  // of params; without gates if the bench disables them
   const Datum& datum;
   const Surroundings& around;
   world::SensorUse use;
@@ -30,29 +30,30 @@ struct Intake {
   const Tally& tally(Source source, std::size_t unit) const {
     return state.tally[static_cast<std::size_t>(source)][unit];
   }
-  double bank_rad() const;  // zero where the road is not known
+  double bank_rad() const;  // zero if the road is not known
 };
 
 void record_verdict(const Intake& in, Source source, std::uint8_t unit, Instant at, Gate gate,
                     double nis = kUnset);
-// Puts it into the filter and tells what became of it; true if it was taken in.
+// Inserts the measurement into the filter and records the verdict. Returns true if it was accepted.
 bool fuse(const Intake& in, Source source, const Measurement& m);
 
-// How long a stream may be silent.
+// Longest allowed silence of a stream.
 double gap_max_s(const CheckParams& params, Source source);
-// Whether this unit's source was taken in lately.
+// Whether a sample of this source and unit was accepted recently.
 bool in_use(const Intake& in, Source source, std::size_t unit);
-// Whether the other one's was.
+// The same for the other unit.
 bool other_in_use(const Intake& in, Source source, std::size_t unit);
 
-// Stamps, contents and speed: what a stream knows of its sample before it is judged.
+// Adds to the evidence what the stream knows: spacing of stamps, repeated content, speed.
 void complete(const Intake& in, const Stream& stream, const Content& content, Instant at,
               Evidence& evidence);
-// A sample of this stream was refused as a jump: kInnovation sees it at once where it is beyond
-// chance, else with the second one in a row. A gate refuses a good sample about once an hour; two
-// of one stream in a row are no chance.
+// Records that a sample of this stream was refused as a jump. kInnovation reports a jump beyond
+// chance at once, others at the second consecutive one: a gate refuses a good sample about once an
+// hour, so two consecutive ones of one stream are not chance.
 void see_jump(const Intake& in, Stream& stream, bool beyond_chance);
-// Judges, remembers and decides on trust: kAccepted, kProbation or the reason against it.
+// Checks a sample, updates the stream and its trust. Returns kAccepted, kProbation or the reason
+// for the refusal.
 Gate admit(const Intake& in, const Evidence& evidence, std::uint8_t unit, const Content& content,
            Instant at);
 
@@ -63,7 +64,7 @@ void take(const Intake& in, const world::GnssHeading& h);
 void take(const Intake& in, const world::InsAttitude& a);
 void take_wheels(const Intake& in, const world::VehicleSignals& car);
 
-// As the filter takes them.
+// Conversion of a sample into a measurement of the filter.
 Measurement measurement(const Intake& in, const world::GnssPosition& p);
 Measurement measurement(const Intake& in, const world::GnssHeading& h);
 

@@ -1,21 +1,21 @@
-// Executive of localization. It holds every sample of two GNSS units with dual-antenna heading,
-// their IMUs and the wheels against a table of checks, decides which unit and which source may
-// enter, and keeps the filter that fuses them.
+// Localization of the car. It checks every sample of two GNSS units with dual-antenna heading,
+// their IMUs and the wheels with a table of checks, selects the unit and the source, and runs the
+// filter that fuses them.
 //
 //     sample -> form, time, solution, prediction, other unit -> trust -> preference -> filter
 //
-//   in     SensorInput (WGS 84, Body), VehicleSignals, the road at the last estimate, what the
-//          operator has excluded
-//   out    EgoState at `now`, always; a verdict with its reason per sample, tallies by reason, the
-//          monitors that see something wrong; the state goes on in place
-//   rate   100 Hz, whatever arrives
+//   in     SensorInput (WGS 84, Body), VehicleSignals, the road at the last estimate, the sensors
+//          that the operator has excluded
+//   out    EgoState at `now` in every tick; a verdict with its reason per sample, counts by reason,
+//          the monitors with a finding; the state is updated in place
+//   rate   100 Hz, whether or not samples arrive
 //   frames Map: tangent plane of the Datum. Body: origin at the centre of gravity
 //   invariants
 //          a refused or excluded sample changes no estimate; a unit that was refused enters again
-//          only after it was consistent for a while. Exchanging the units, and what the parameters
-//          say of them, exchanges the result
-//   errors no position for a while: kDeadReckoning, then kLost. Before the first position with a
-//          heading: kNever
+//          only after it was consistent for a while. Exchanging the units, with their parameters,
+//          exchanges the result
+//   errors without a position for a while: kDeadReckoning, then kLost. Before the first position
+//          with a heading: kNever
 //   cost   O(samples * window of the filter); no allocation
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
@@ -45,21 +45,21 @@
 
 namespace pitwall::localization {
 
-// The road where the car was last estimated to be; unset where nobody knows yet.
+// Road at the last estimated position; unset if it is not known.
 struct Surroundings {
   Road road;
-  Instant at{};                 // of that estimate
-  steering::Learned learned{};  // of the car's steering
+  Instant at{};                 // time of that estimate
+  steering::Learned learned{};  // learned steering correction
 };
 
-// The rear wheels' account of the car.
+// Wheel speeds, checked and corrected.
 struct WheelState {
   WheelWatch watch;
   WheelScale scale;
   bool received = false;
-  Instant at{};               // of the newest report
-  double speed_mps = kUnset;  // without the error of the wheels' scale
-  double accel_mps2 = 0.0;    // low-passed: the longitudinal force when no IMU says it
+  Instant at{};               // newest report
+  double speed_mps = kUnset;  // with the scale error removed
+  double accel_mps2 = 0.0;    // low-passed; replaces the longitudinal force without an IMU
   Gate verdict = Gate::kUnknown;
   world::MonitorSet seen{};
 };
@@ -74,32 +74,32 @@ struct State {
   ImuWatch imu;
   WheelState wheels;
   std::array<world::ReceiverHealth, world::kGnssUnits> receivers{};
-  world::GnssPosition seed_position;  // latest good ones, to start from
+  world::GnssPosition seed_position;  // latest good samples, for the start
   world::GnssHeading seed_heading;
   world::GnssVelocity seed_velocity;
   bool have_position = false, have_heading = false, have_velocity = false;
-  Instant road_at{};        // of the road that was taken in last
-  Instant stepped_at{};     // the last tick
-  Instant refused_since{};  // positions refused without a break
+  Instant road_at{};        // of the last road measurement
+  Instant stepped_at{};     // last tick
+  Instant refused_since{};  // start of uninterrupted refusals of positions
   bool refusing = false;
   std::uint32_t restarts = 0;
 };
 static_assert(std::is_trivially_copyable_v<State>);
 
-inline constexpr std::size_t kVerdictsMax =
-    80;  // every sample that fits in a SensorInput, + wheels
+// Every sample of a full SensorInput, and the wheels.
+inline constexpr std::size_t kVerdictsMax = 80;
 
-// Which units a channel was fed by lately: bit k is unit k.
+// Units that recently fed a channel: bit k is unit k.
 using UnitSet = std::uint8_t;
 
 struct Output {
   world::EgoState ego;
   FixedVector<Verdict, kVerdictsMax> verdicts;
-  Estimate estimate;  // what ego is made of; unset before the start
+  Estimate estimate;  // source of `ego`; unset before the start
   std::array<UnitSet, kSources> in_use{};
-  double position_age_s = kUnset;  // since the last accepted position was true
+  double position_age_s = kUnset;  // age of the last accepted position
   double imu_age_s = kUnset;
-  world::MonitorSet seen{};  // monitors that see something wrong now
+  world::MonitorSet seen{};  // monitors with a finding in this tick
 };
 
 Output step(const Params& params, const Datum& datum, State& state,

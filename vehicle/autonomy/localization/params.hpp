@@ -1,5 +1,5 @@
-// Parameters of localization: antenna positions, noise of the sensors, limits for giving up. Each
-// number has its legal range in a table.
+// Parameters of localization with their legal ranges: antenna positions, noise of the sensors,
+// limits of validity.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -18,11 +18,11 @@
 namespace pitwall::localization {
 
 struct UnitParams {
-  LeverArm antenna;                  // of the primary antenna, from the centre of gravity: +-5 m
+  LeverArm antenna;                  // primary antenna from the centre of gravity: +-5 m
   double baseline_yaw_rad = kUnset;  // -pi..pi: direction of the antenna baseline in Body, from x
                                      // counter-clockwise
-  double baseline_m = kUnset;        // 0.2..5: between the antennas
-  LeverArm imu{};                    // of the inertial unit, from the centre of gravity: +-5 m
+  double baseline_m = kUnset;        // 0.2..5: distance of the antennas
+  LeverArm imu{};                    // IMU from the centre of gravity: +-5 m
 };
 
 struct Params {
@@ -32,16 +32,16 @@ struct Params {
   Priorities priorities;
   double position_sigma_max_m = kUnset;   // a worse solution is refused
   double heading_sigma_max_rad = kUnset;  // a worse solution is refused
-  // Without any IMU the yaw rate comes from the steering: how the car turns at a steering angle.
+  // Without an IMU the yaw rate is computed from the steering angle with these.
   double steering_ratio = kUnset;  // motor angle : road-wheel angle
   steering::Bicycle bicycle;
-  double imu_timeout_s = kUnset;         // then the other unit's IMU
-  double good_age_max_s = kUnset;        // of the last position for kGood
-  double dead_reckoning_max_s = kUnset;  // then kLost
+  double imu_timeout_s = kUnset;         // after it the IMU of the other unit is used
+  double good_age_max_s = kUnset;        // age of the last position for kGood
+  double dead_reckoning_max_s = kUnset;  // after it the state is kLost
   double good_sigma_max_m = kUnset;
   double lost_sigma_max_m = kUnset;
-  double reset_after_s = kUnset;  // positions refused so long restart the filter
-  world::MonitorSet off{};        // of the bench alone: no car file sets it
+  double reset_after_s = kUnset;  // refusal of all positions for so long restarts the filter
+  world::MonitorSet off{};        // set by the bench only, not by a car file
 };
 
 inline constexpr auto kRanges = std::to_array<world::NamedRange<Params>>({
@@ -55,13 +55,15 @@ inline constexpr auto kRanges = std::to_array<world::NamedRange<Params>>({
     {"reset_after_s", &Params::reset_after_s, 0.5, 10.0},
 });
 
-// A copy of what the gateway is told; no section of localization has it, nor the bicycle.
+// Copied from the parameters of the gateway: neither it nor the bicycle is in a section of
+// localization.
 inline constexpr auto kGeometryRanges = std::to_array<world::NamedRange<Params>>({
     {"steering_ratio", &Params::steering_ratio, world::kSteeringRatio.least,
      world::kSteeringRatio.most},
 });
 
-// Start-up: every parameter against its legal range; the place is the parameter's name.
+// At start-up: checks every parameter against its legal range; the place of a Problem is the name
+// of the parameter.
 Result<Params, Problem> checked(const Params& params);
 
 }  // namespace pitwall::localization

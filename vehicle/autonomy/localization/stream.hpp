@@ -1,4 +1,4 @@
-// State of one stream of samples, source by unit, between ticks.
+// State of one stream of samples (one source of one unit) between ticks.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -16,16 +16,15 @@
 namespace pitwall::localization {
 
 struct Stream {
-  Gate verdict = Gate::kUnknown;  // on its newest sample; kSilent when nothing comes
-  world::MonitorSet seen{};       // with it
+  Gate verdict = Gate::kUnknown;  // of its newest sample; kSilent without samples
+  world::MonitorSet seen{};       // monitors with a finding on that sample
   Trust trust;
   std::uint8_t jumps_in_row = 0;
   StampWatch stamps;
-  Instant stamped_at{};  // when a stamp was used last, on the car's clock
+  Instant stamped_at{};  // time of the last used stamp, on the car's clock
   bool has_content = false;
   Content content{};
-  // Of the newest sample whose form, time and solution were right: what the other unit is held
-  // against.
+  // Of the newest sample with valid form, time and solution, for comparison with the other unit.
   bool comparable = false;
   Instant residual_at{};
   std::array<double, 3> residual{};

@@ -1,11 +1,11 @@
-// History of the filter's predictions, tick by tick: samples that arrive late are compared with the
-// prediction of their own time, which the filter made without them.
+// History of the filter's predictions, one per tick: a late sample is compared with the prediction
+// for its own time, which the filter made without it.
 //   in     one Estimate per tick
-//   out    what an antenna at a lever arm would have measured at an instant of the last kTrailTicks
+//   out    prediction for an antenna at a lever arm at an instant within the last kTrailTicks
 //   frames Map and Body as in measurement.hpp
 //   invariants
-//          nothing is known before the first tick, nor of an instant that is older than the trail;
-//          from the newest tick on the motion goes on as it was, for kAhead at most
+//          nullopt before the first tick and for an instant older than the history; after the
+//          newest tick the motion is extrapolated, for at most kAhead
 //   cost   O(kTrailTicks); no allocation
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
@@ -21,12 +21,13 @@
 
 namespace pitwall::localization {
 
-inline constexpr std::size_t kTrailTicks = 64;  // more than the longest window of the filter
+inline constexpr std::size_t kTrailTicks = 64;  // 0.64 s: above window_s of the car file
 
-// Angles and heights that a planar filter does not know are those of the road.
+// Motion of the car at one instant. Angles and heights that a planar filter does not estimate are
+// those of the road.
 struct Moment {
   Instant at{};
-  double x_m = kUnset, y_m = kUnset, z_m = kUnset;  // of the centre of gravity
+  double x_m = kUnset, y_m = kUnset, z_m = kUnset;  // centre of gravity, Map
   double yaw_rad = kUnset, pitch_rad = 0.0, roll_rad = 0.0;
   std::array<double, 3> velocity_mps{};    // Map
   std::array<double, 3> rate_rad_per_s{};  // Body
@@ -36,10 +37,10 @@ struct Moment {
   struct Vector {
     double x, y, z;
   };
-  Vector arm_m(const LeverArm& arm) const;         // from the centre of gravity to it, Map
+  Vector arm_m(const LeverArm& arm) const;         // lever arm in Map
   Vector antenna_mps(const LeverArm& arm) const;   // Map
-  double azimuth_rad(double direction_rad) const;  // of a direction in the plane of the car, Map
-  double course_rad() const;                       // of the centre of gravity, Map
+  double azimuth_rad(double direction_rad) const;  // Map; of a direction in Body
+  double course_rad() const;                       // of the centre of gravity, in Map
 };
 
 struct Trail {

@@ -1,13 +1,13 @@
-// Limits of tyres and engine on a banked road: the gg diagram of the speed profiles.
+// Limits of tyres and engine on a banked road: the g-g diagram of the speed profiles.
 //   frames accelerations in the plane of the road; lateral positive left
 //   invariants
 //          normal load n and lateral demand a of steering/road_load.hpp
-//          grip                  g_max = friction * n; what a corner leaves of it is
+//          grip                  g_max = friction * n; after the lateral demand remains
 //                                r = sqrt((share g_max)^2 - a^2) / n
-//          braking               the axle whose tyres reach it first limits: with the share b of
-//                                the brakes in front and the load l n + h d of the front axle,
+//          braking               limited by the axle whose tyres reach the limit first: with brake
+//                                share b and load l n + h d of the front axle,
 //                                  b d <= m r (l n + h d),  (1 - b) d <= m r ((1 - l) n - h d),
-//                                m the longitudinal over the lateral friction; and d <= r n
+//                                m = longitudinal / lateral friction; and d <= r n
 //          cold tyres            friction times the share of world/tyre_grip.hpp
 //   source load transfer as in Rajamani, Vehicle Dynamics and Control, 2nd ed., sec. 4.1
 // SPDX-License-Identifier: Apache-2.0
@@ -26,14 +26,14 @@ struct FrictionParams {
   double friction = kUnset;         // tyre friction coefficient, warm
   double downforce_per_m = kUnset;  // downforce / (mass v^2)
   double drag_per_m = kUnset;       // drag / (mass v^2)
-  double accel_max_mps2 = kUnset;   // by traction and gearing
+  double accel_max_mps2 = kUnset;   // limit of traction and gearing
   double power_w_per_kg = kUnset;   // at the wheels
-  double brake_max_mps2 = kUnset;   // by the brakes
-  double brake_front = kUnset;      // share of the brakes in front
-  double load_front = kUnset;       // share of the load in front
-  double load_shift = kUnset;       // height of the centre of gravity over the wheelbase
-  double long_friction = kUnset;    // longitudinal over lateral friction
-  world::TyreGrip tyres;            // of the temperature
+  double brake_max_mps2 = kUnset;   // limit of the brakes
+  double brake_front = kUnset;      // brake share of the front axle
+  double load_front = kUnset;       // load share of the front axle
+  double load_shift = kUnset;       // height of the centre of gravity / wheelbase
+  double long_friction = kUnset;    // longitudinal / lateral friction
+  world::TyreGrip tyres;            // grip by temperature
 };
 
 inline constexpr auto kFrictionRanges = std::to_array<world::NamedRange<FrictionParams>>({
@@ -49,18 +49,18 @@ inline constexpr auto kFrictionRanges = std::to_array<world::NamedRange<Friction
     {"long_friction", &FrictionParams::long_friction, 0.3, 1.5},
 });
 
-// The same car on tyres of that temperature; unset counts as cold.
+// Parameters for tyres of this temperature; unset counts as cold.
 FrictionParams on_tyres(const FrictionParams& car, double tyre_c);
 
 using steering::RoadLoad;
 
 double grip_mps2(const FrictionParams& car, const RoadLoad& at);
-// What remains for braking (>= 0) when the share of the grip (0..1] may be used in all; aerodynamic
-// drag, which costs no grip, comes on top of it. Zero where the corner takes everything.
+// Deceleration available for braking (>= 0) with this total share of the grip (0..1]; aerodynamic
+// drag, which costs no grip, adds to it. Zero if the corner uses all of it.
 double brake_available_mps2(const FrictionParams& car, const RoadLoad& at, double share);
-// Net forward acceleration, drag already subtracted; may be negative at high speed.
+// Net forward acceleration after drag; may be negative at high speed.
 double drive_available_mps2(const FrictionParams& car, const RoadLoad& at, double share);
-// Highest speed at which the corner needs no more than the share of the grip, up to a ceiling.
+// Highest speed at which the corner needs at most this share of the grip, up to a ceiling.
 double corner_speed_mps(const FrictionParams& car, const RoadLoad& at, double share);
 
 }  // namespace pitwall::planning

@@ -1,7 +1,7 @@
-// The racing line: a closed path at a constant offset from the track's reference line, with the
-// highest speed that the tyres carry at every point. Built at start-up, read-only afterwards.
+// Racing line: a closed path at a constant offset from the track's reference line, with the highest
+// speed that the tyres allow at each point. Built at start-up, read-only afterwards.
 //   frames Map; offset positive left; curvature positive left
-//   errors build_line: the line leaves the road, a parameter outside its range
+//   errors build_line: the line leaves the road, a parameter is outside its range
 //   cost   build O(points); at() and project() near a hint O(1), no allocation
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
@@ -20,10 +20,10 @@ namespace pitwall::planning {
 
 struct LineParams {
   double offset_m = kUnset;          // from the track's reference line, within the walls
-  double wall_clearance_m = kUnset;  // least distance of the centre of gravity to a wall
+  double wall_clearance_m = kUnset;  // minimum from the centre of gravity to a wall
   double spacing_m = kUnset;
   double speed_max_mps = kUnset;
-  double grip_share = kUnset;  // share of the friction ellipse that may be planned
+  double grip_share = kUnset;  // usable share of the friction ellipse
   FrictionParams friction;
 };
 
@@ -37,16 +37,16 @@ inline constexpr auto kLineRanges = std::to_array<world::NamedRange<LineParams>>
 
 struct LinePoint {
   double s_m = kUnset;        // along the line
-  double track_s_m = kUnset;  // station of the track's reference line beside it
+  double track_s_m = kUnset;  // station on the track's reference line
   double x_m = kUnset, y_m = kUnset, yaw_rad = kUnset;
-  double cos_yaw = kUnset, sin_yaw = kUnset;  // of the points; unset in what at() returns
+  double cos_yaw = kUnset, sin_yaw = kUnset;  // set in `points`; unset in the result of at()
   double curvature_per_m = kUnset, bank_rad = kUnset;
   double speed_mps = kUnset;                           // limit on warm tyres
   double cold_speed_mps = kUnset;                      // limit on the coldest tyres of the table
   double room_left_m = kUnset, room_right_m = kUnset;  // from the line to the walls
 };
 
-// Between the limit on the coldest tyres (0) and on warm ones (1).
+// Speed limit between that on the coldest tyres (warmth 0) and on warm tyres (1).
 inline double limit_mps(const LinePoint& p, double warmth) {
   return p.cold_speed_mps + warmth * (p.speed_mps - p.cold_speed_mps);
 }
@@ -56,7 +56,7 @@ struct LinePosition {
 };
 
 struct Line {
-  std::vector<LinePoint> points;  // equal steps of s; the last one is a step before the first
+  std::vector<LinePoint> points;  // equal steps of s; the first is one step after the last
   double length_m = 0.0, spacing_m = 0.0;
 
   double wrap(double s_m) const;

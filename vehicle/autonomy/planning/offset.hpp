@@ -1,10 +1,10 @@
-// A lateral offset from the line that changes once along it and is constant before and after: of
-// all changes with neither slope nor bend at their ends the one with the least jerk.
+// Lateral offset from the line with one change from a constant value to another: the minimum-jerk
+// transition with zero slope and zero bend at both ends.
 //   invariants
 //          n = from + (to - from) q(u), q = u^3 (10 - 15 u + 6 u^2), u in [0, 1] along the change
 //   frames offset positive left; slope and bend are its derivatives along the line
 //   cost   O(1)
-//   source quintic of least jerk: Flash and Hogan, J. Neuroscience 5 (1985), eq. 12
+//   source minimum-jerk quintic: Flash and Hogan, J. Neuroscience 5 (1985), eq. 12
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -21,22 +21,22 @@ constexpr Offset operator+(const Offset& a, const Offset& b) {
   return {a.n_m + b.n_m, a.slope + b.slope, a.bend_per_m + b.bend_per_m};
 }
 
-// No length: it is `to` everywhere. A change is no longer than half a lap: what lies further behind
-// than that counts as before it.
+// With length zero the offset is `to` everywhere. A change is at most half a lap long: a station
+// more than half a lap behind counts as before it.
 struct OffsetChange {
   double from_s_m = kUnset, length_m = 0.0;
   double from_m = 0.0, to_m = 0.0;
 };
 
 Offset offset_at(const Line& line, const OffsetChange& change, double s_m);
-// Whether s lies behind the change.
+// Whether s is past the end of the change.
 bool is_over(const Line& line, const OffsetChange& change, double s_m);
 
-// The largest second derivative of a change, where its length is one and its height is one; it lies
-// at u = 0.21 and, with the other sign, at u = 0.79.
+// Largest second derivative of a change of length one and height one; at u = 0.21 and, with the
+// opposite sign, at u = 0.79.
 inline constexpr double kLargestBend = 5.7735026918962573;  // 10 / sqrt(3)
 
-// The place beside a point of the line, and the direction and the curvature of the path there.
+// Position beside a point of the line, with direction and curvature of the path there.
 struct Beside {
   double x_m = kUnset, y_m = kUnset, yaw_rad = kUnset, curvature_per_m = kUnset;
 };

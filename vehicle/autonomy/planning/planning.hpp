@@ -1,20 +1,20 @@
-// The planner: holds the line at the speed that race control and the operator allow, and keeps a
-// stop trajectory ready at every tick.
-//   in     EgoState (Map), RaceControl, operator's limit, the coldest tyre; which trajectory
-//          control has followed since the last step
-//   out    drive and stop trajectory (Map), both from the car's present place and from the same
-//          reference speed; the stop begins where the car is, in the direction and with the
-//          curvature of the drive trajectory, so that a change to it never steps
+// Planner: follows the line at the speed that race control and the operator allow, and provides a
+// stop trajectory in every tick.
+//   in     EgoState (Map), RaceControl, speed limit of the operator, the coldest tyre; the
+//          trajectory that was followed since the last step
+//   out    drive and stop trajectory (Map), both from the present position and the same reference
+//          speed; the stop begins at the car, with the direction and the curvature of the drive
+//          trajectory, so that switching to it causes no step
 //   rate   20 Hz (any rate up to 100 Hz works: the reference speed advances with time)
 //   invariants
-//          speed follows a reference that starts at the present speed, moves with limited jerk and
-//          acceleration, and stays within speed_band_mps of the measured speed. The stop uses
-//          stop_grip_share of the friction ellipse, by the temperature of the tyres, along the path
-//          of stop_plan.hpp; its path is kept from the moment on at which it is followed, and an
-//          emergency stop is the same path with more brake. While the car coasts the drive
-//          trajectory slows as a car does whose throttle is closed. A car far off the line is led
-//          back by a minimum-jerk offset over merge_time_s
-//   errors without a usable ego both trajectories are empty and the reason says so
+//          the speed follows a reference that starts at the present speed, moves with limited jerk
+//          and acceleration, and stays within speed_band_mps of the measured speed
+//          the stop uses stop_grip_share of the friction ellipse, by the temperature of the tyres,
+//          along the path of stop_plan.hpp. Its path is fixed once it is followed; an emergency
+//          stop is the same path with more brake
+//          while the car coasts the drive trajectory slows like a car with closed throttle
+//          a car far off the line returns by a minimum-jerk offset over merge_time_s
+//   errors without a usable ego state both trajectories are empty, with the reason kNoEgo
 //   cost   O(points + horizon steps), below 1 ms; no allocation
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
@@ -38,22 +38,22 @@ namespace pitwall::planning {
 
 struct Params {
   LineParams line;
-  double green_speed_mps = kUnset;    // when race control gives no round speed
+  double green_speed_mps = kUnset;    // if race control gives no round speed
   double caution_speed_mps = kUnset;  // under yellow
   double accel_max_mps2 = kUnset;
   double decel_max_mps2 = kUnset;  // of the drive trajectory
   double jerk_max_mps3 = kUnset;
-  double speed_band_mps = kUnset;  // reference to measured speed
+  double speed_band_mps = kUnset;  // largest distance of the reference from the measured speed
   double stop_decel_max_mps2 = kUnset;
   double stop_jerk_max_mps3 = kUnset;
   double stop_grip_share = kUnset;  // 0.7 is a margin of 30 %
-  double stop_friction = kUnset;    // that a stop reckons with, tyres warm: low on purpose
+  double stop_friction = kUnset;    // assumed in a stop with warm tyres; low on purpose
   StopPathParams stop_path;
   double emergency_decel_max_mps2 = kUnset;  // stop_decel_max_mps2..15
   double emergency_jerk_max_mps3 = kUnset;   // stop_jerk_max_mps3..30
   double emergency_grip_share = kUnset;      // stop_grip_share..0.95
   double point_spacing_m = kUnset;           // of the drive trajectory
-  double steer_share = kUnset;               // of the gate's angles, that a corner may need
+  double steer_share = kUnset;               // usable share of the gate's angle limit in a corner
   double merge_from_m = kUnset;              // deviation from the line that starts a merge
   double merge_time_s = kUnset;
   double merge_least_m = kUnset;  // shortest merge
@@ -76,7 +76,7 @@ inline constexpr auto kRanges = std::to_array<world::NamedRange<Params>>({
     {"merge_least_m", &Params::merge_least_m, 10.0, 200.0},
 });
 
-// Why the target speed is what it is.
+// Source of the target speed.
 enum class Reason : std::uint8_t {
   kUnknown,
   kNoEgo,
@@ -98,7 +98,7 @@ enum class Reason : std::uint8_t {
 enum class Followed : std::uint8_t {
   kNothing,
   kDrive,
-  kCoast,  // the drive trajectory, without driving it on
+  kCoast,  // the drive trajectory with closed throttle
   kStop,
   kEmergency  // the stop trajectory, as short as the grip allows
 };
@@ -106,18 +106,18 @@ enum class Followed : std::uint8_t {
 struct Inputs {
   const world::EgoState& ego;
   const world::RaceControl& race_control;
-  double operator_speed_limit_mps = kUnset;  // unset: none
+  double operator_speed_limit_mps = kUnset;  // unset: no limit
   Followed followed = Followed::kNothing;
-  double tyre_c = kUnset;                           // the coldest; unset counts as cold
-  const steering::AngleBudget* steering = nullptr;  // none: no limit
+  double tyre_c = kUnset;                           // coldest tyre; unset counts as cold
+  const steering::AngleBudget* steering = nullptr;  // null: no limit
 };
 
 struct State {
   bool started = false;
   Instant at{};
-  double line_s_m = kUnset;                     // the car on the line
-  double speed_mps = kUnset, accel_mps2 = 0.0;  // the reference
-  OffsetChange merge;                           // back to the line
+  double line_s_m = kUnset;                     // station of the car
+  double speed_mps = kUnset, accel_mps2 = 0.0;  // reference speed
+  OffsetChange merge;                           // return to the line
   StopPath stop;                                // of the last stop trajectory
 };
 
@@ -125,13 +125,14 @@ struct Output {
   world::Trajectory drive, stop;
   double target_speed_mps = kUnset;
   Reason reason = Reason::kUnknown;
-  double line_s_m = kUnset, track_s_m = kUnset;  // where the car is
+  double line_s_m = kUnset, track_s_m = kUnset;  // stations of the car
   double line_offset_m = kUnset;                 // signed distance to the line, positive left
   double stop_distance_m = kUnset;
   State next;
 };
 
-// Start-up: every parameter against its legal range; the place is the parameter's name.
+// At start-up: checks every parameter against its legal range; the place of a Problem is the name
+// of the parameter.
 Result<Line, Problem> prepare(const Params& params, const world::TrackMap& track);
 
 Output step(const Params& params, const Line& line, const world::TrackMap& track,
@@ -142,7 +143,7 @@ struct SpeedDemand {
   Reason reason = Reason::kUnknown;
 };
 
-// The flag table alone; exposed for tests and displays.
+// The flag table alone, for tests and displays.
 SpeedDemand demanded_speed(const Params& params, const world::RaceControl& race_control,
                            double operator_speed_limit_mps);
 

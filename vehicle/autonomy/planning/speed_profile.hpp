@@ -1,10 +1,10 @@
-// Speeds that a car can follow: a reference that moves to its target with limited acceleration and
-// jerk, and that reference played forward over a path.
+// Speed profiles that a car can follow: a reference that moves to its target with limited
+// acceleration and jerk, and its simulation forward along a path.
 //   invariants
-//          acceleration wanted = +-sqrt(2 j |target - v|) within its limits, reached at rate j: it
-//          lands on the target with acceleration zero and does not overshoot. A stop brakes with
-//          what the corner leaves of the friction ellipse at every place ahead that it reaches
-//          before its jerk could let go of the brake
+//          demanded acceleration = +-sqrt(2 j |target - v|) within its limits, approached at rate
+//          j: it reaches the target with zero acceleration and without overshoot
+//          a stop brakes with what the corner leaves of the friction ellipse at every point ahead
+//          that it reaches before the jerk limit could release the brake
 //   cost   O(kProfileSteps), no allocation
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
@@ -34,32 +34,33 @@ struct SpeedLimits {
 SpeedReference advance(const SpeedReference& reference, const SpeedLimits& limits, double dt_s);
 
 inline constexpr double kProfileStep_s = 0.05;
-inline constexpr std::size_t kProfileSteps = 800;  // 40 s: a stop from top speed takes half of it
+inline constexpr std::size_t kProfileSteps = 800;  // 40 s: twice a stop from top speed
 
-// Speed and acceleration at equal distances from where the car is.
+// Speed and acceleration at equal distances from the car.
 struct SpeedProfile {
   double spacing_m = kUnset;
   std::array<SpeedReference, world::kTrajectoryPoints> at{};
-  double stop_distance_m = kUnset;  // where it first stands; unset if it does not
+  double stop_distance_m = kUnset;  // to standstill; unset if it does not stop
 };
 
 struct DriveLimits {
   double target_mps = kUnset;
-  double warmth = 1.0;  // of the tyres
+  double warmth = 1.0;  // of the tyres: 0 coldest, 1 warm
   double accel_max_mps2 = kUnset, decel_max_mps2 = kUnset, jerk_max_mps3 = kUnset;
-  const steering::AngleBudget* steering = nullptr;  // none: no limit
+  const steering::AngleBudget* steering = nullptr;  // null: no limit
 };
 
-// What friction and the steering allow at a point of the line.
+// Speed that friction and steering allow at a point of the line.
 double limit_mps(const LinePoint& point, const DriveLimits& limits);
 
-// Towards the target, below the line's own limits, which are seen coming.
+// Next reference towards the target, below the limits of the line, with braking ahead of lower
+// ones.
 SpeedReference advance_drive(const Line& line, double s_m, const SpeedReference& from,
                              const DriveLimits& limits, double dt_s);
 SpeedProfile drive_profile(const Line& line, double s_m, const SpeedReference& from,
                            const DriveLimits& limits, double spacing_m);
 
-// The path that a stop takes from where the car is, at equal distances; the last one holds beyond.
+// Path of a stop from the car, at equal distances; beyond its end the last sample holds.
 inline constexpr std::size_t kRoadPoints = 320;
 inline constexpr double kRoadStep_m = 4.0;
 
@@ -70,24 +71,24 @@ struct RoadSample {
 struct RoadAhead {
   std::array<RoadSample, kRoadPoints> at{};
 
-  const RoadSample& sample(double distance_m) const;  // the nearest one
+  const RoadSample& sample(double distance_m) const;  // nearest sample
 };
 
 struct StopLimits {
-  FrictionParams friction;  // of the tyres as they are
+  FrictionParams friction;  // for the present tyre temperature
   double grip_share = kUnset, decel_max_mps2 = kUnset, jerk_max_mps3 = kUnset;
 };
 
-// The deceleration of a car that neither drives nor brakes: air and rolling.
+// Deceleration with neither throttle nor brake: air drag and rolling resistance.
 double coasting_mps2(const FrictionParams& car, double speed_mps);
-// The largest deceleration of a stop at a distance along its road; never less than coasting.
+// Largest deceleration of a stop at a distance along its path; at least that of coasting.
 double stop_decel_mps2(const RoadAhead& road, double distance_m, double speed_mps,
                        const StopLimits& limits);
 
-// To standstill with what the corner leaves of the friction ellipse.
+// Next reference of a stop, with what the corner leaves of the friction ellipse.
 SpeedReference advance_stop(const RoadAhead& road, const SpeedReference& from,
                             const StopLimits& limits, double dt_s);
-// The spacing is chosen so that the points reach `beyond_m` past the place where it stands.
+// Profile of a stop. Its spacing is chosen so that the points reach `beyond_m` past the standstill.
 SpeedProfile stop_profile(const RoadAhead& road, const SpeedReference& from,
                           const StopLimits& limits, double beyond_m);
 

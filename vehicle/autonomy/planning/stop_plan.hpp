@@ -11,7 +11,7 @@
 //          it is complete where the car reaches low_speed. The path keeps clearance_m from the
 //          walls; a car that is nearer already comes no nearer
 //   frames Map; offsets positive left
-//   errors none: where nothing better is possible the path stays beside the line
+//   errors none: if nothing better is possible the path stays parallel to the line
 //   cost   O(kRoadPoints) per tried place and change, below 0.2 ms; no allocation
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
@@ -25,9 +25,9 @@
 namespace pitwall::planning {
 
 struct StopPathParams {
-  double clearance_m = kUnset;    // of the centre of gravity to a wall
-  double low_speed_mps = kUnset;  // low by then
-  double stretch_max = kUnset;    // how much longer than the shortest stop
+  double clearance_m = kUnset;    // from the centre of gravity to a wall
+  double low_speed_mps = kUnset;  // the change to the low side ends at this speed
+  double stretch_max = kUnset;    // longest stop relative to the shortest one
 };
 
 inline constexpr auto kStopPathRanges = std::to_array<world::NamedRange<StopPathParams>>({
@@ -38,9 +38,9 @@ inline constexpr auto kStopPathRanges = std::to_array<world::NamedRange<StopPath
 
 struct StopPath {
   bool chosen = false;
-  OffsetChange merge;        // of the drive trajectory, when the path was chosen
-  double beside_m = 0.0;     // the car beside the drive trajectory then
-  OffsetChange low;          // to the low side
+  OffsetChange merge;        // change of the drive trajectory when the path was chosen
+  double beside_m = 0.0;     // offset of the car from the drive trajectory then
+  OffsetChange low;          // change to the low side
   double decel_share = 1.0;  // of the largest deceleration
 };
 

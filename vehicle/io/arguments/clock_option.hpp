@@ -1,6 +1,7 @@
-// The option --clock of the programs on the car: the wall clock, or the time of a bench.
+// Command-line option --clock of the programs on the car: the wall clock, or the time of a bench.
 //   invariants
-//          only a simulation goes by the time of a bench: a car would stop seeing what passes
+//          the time of a bench is allowed with --simulation only: on a real car it may differ from
+//          real time
 //   errors CLI::ValidationError
 // SPDX-License-Identifier: Apache-2.0
 #pragma once

@@ -1,8 +1,9 @@
-// Link of one receiver to the computer, as a command line writes it.
-//   in     "udp:[ADDRESS:]PORT" (received there; on loopback where no address of this computer is
-//          given), "tcp:ADDRESS:PORT" (called there), "serial:/dev/ttyS0[:BAUD]"; of the two units
+// Link of one receiver to the computer, as written on a command line.
+//   in     "udp:[ADDRESS:]PORT" (local socket; loopback unless an address of this computer is
+//          given), "tcp:ADDRESS:PORT" (connects to it), "serial:/dev/ttyS0[:BAUD]"; with the unit:
 //          "0=..." and "1=..."
-//   errors Problem with what was written
+//   out    the link
+//   errors Problem with the text as place
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -21,9 +22,9 @@
 
 namespace pitwall::io {
 
-inline constexpr int kPortMax = 65'535;  // of a UDP or TCP port
+inline constexpr int kPortMax = 65'535;  // largest UDP or TCP port
 
-// Enough for an IMU at 200 Hz beside everything else.
+// Enough for an IMU at 200 Hz together with all other messages.
 inline constexpr int kDefaultBaud = 460'800;
 
 struct UdpReceiver {
@@ -35,8 +36,8 @@ using ReceiverLinks = std::array<ReceiverLink, world::kGnssUnits>;
 Result<ReceiverLink, Problem> parse_receiver_link(std::string_view text);
 std::string to_string(const ReceiverLink& link);
 
-// The links of all units from the words of --receiver ("UNIT=LINK") and the ports of --gnss; each
-// unit once, and no two alike.
+// Links of all units from the arguments of --receiver ("UNIT=LINK") and the ports of --gnss. Each
+// unit must be given once, and all links must differ.
 Result<ReceiverLinks, Problem> receiver_links(const std::vector<std::string>& words,
                                               const std::vector<std::uint16_t>& udp_ports);
 

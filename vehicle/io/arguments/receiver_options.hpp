@@ -1,5 +1,4 @@
-// The options of a command line that say how the receivers' bytes come in; the same for the car and
-// for its guardian.
+// Command-line options for the links of the receivers, common to the car and its guardian.
 //   errors CLI::ValidationError that names the option
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
@@ -16,13 +15,13 @@ class App;
 
 namespace pitwall::io {
 
-inline constexpr int kExitUsage = 2;  // the command line is wrong
+inline constexpr int kExitUsage = 2;  // wrong command line
 
 class ReceiverOptions {
  public:
   explicit ReceiverOptions(CLI::App& app);
 
-  ReceiverLinks links() const;  // after the words were read
+  ReceiverLinks links() const;  // after parsing
 
  private:
   std::vector<std::uint16_t> ports_;

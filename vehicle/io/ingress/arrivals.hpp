@@ -1,12 +1,13 @@
-// Arrival statistics of a stream of samples: rate, largest gap and largest latency of the last
+// Arrival statistics of a stream of samples: rate, largest gap and largest latency in the last
 // second. A low rate, a gap and an old sample are three different faults.
-//   in     note(): when a sample arrived and how old it was, by the thread that receives
-//   out    newest(): figures at any time, by any other thread
+//   in     note(): time of arrival and age of a sample, by the receiving thread
+//   out    newest(): the figures at any time, by any other thread
 //   units  Hz, ms
 //   invariants
-//          silence is seen although nothing arrives: the gap grows, after a second the rate is 0
-//   unset  all three before the first sample; the latency of samples whose stamp is no time of ours
-//   cost   note(): a look at the arrivals of a second; newest(): four atomic loads
+//          silence shows without new samples: the gap grows, and after a second the rate is 0
+//   unset  all three before the first sample; the latency if the stamps of the samples are not in
+//          UTC
+//   cost   note(): a pass over the arrivals of a second; newest(): four atomic loads
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -27,7 +28,7 @@ struct ArrivalFigures {
 class Arrivals {
  public:
   static constexpr Duration kWindow = seconds(1);
-  static constexpr std::size_t kKept = 512;  // of a faster stream the window is shorter
+  static constexpr std::size_t kKept = 512;  // a faster stream has a shorter window
 
   void note(Instant at, std::optional<Duration> latency);
   ArrivalFigures newest(Instant now) const;
@@ -36,11 +37,11 @@ class Arrivals {
  private:
   struct Arrival {
     Instant at{};
-    Duration gap{};  // to the one before
+    Duration gap{};  // to the previous arrival
     double latency_ms = kUnset;
   };
 
-  std::array<Arrival, kKept> ring_{};  // the receiving thread's own
+  std::array<Arrival, kKept> ring_{};  // of the receiving thread
   std::uint64_t noted_ = 0;
   std::atomic<std::uint64_t> count_{0};
   std::atomic<std::int64_t> last_ns_{0};

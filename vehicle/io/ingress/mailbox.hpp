@@ -1,9 +1,10 @@
-// The newest of something large, from the thread that receives it to the thread that uses it.
+// Wait-free triple buffer: passes the newest large value from the receiving thread to the using
+// thread.
 //   in     put() by one thread                      out    take() by one other
 //   invariants
-//          wait-free on both sides: three places, of which one changes hands by an atomic exchange;
-//          nobody waits, nobody allocates, the taker's place stays as it is until it takes again
-//   errors one that was overwritten before it was taken is counted: overwritten()
+//          wait-free on both sides: one of three buffers changes owner by an atomic exchange.
+//          Neither side allocates, and the taken value stays unchanged until the next take()
+//   errors a value that was overwritten before it was taken is counted: overwritten()
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -17,7 +18,7 @@ namespace pitwall::io {
 template <class T>
 class Mailbox {
  public:
-  // To be filled, then handed over by put(); it still has the storage of an earlier one.
+  // Buffer to fill before put(); it still has the storage of an earlier value.
   T& next() { return places_[writing_]; }
   void put() {
     const std::uint8_t before =
@@ -26,7 +27,7 @@ class Mailbox {
     writing_ = before & kPlace;
   }
 
-  // The newest; nullptr: none since the last time.
+  // The newest value; nullptr if there is no new one since the last call.
   const T* take() {
     if ((middle_.load(std::memory_order_relaxed) & kFresh) == 0) return nullptr;
     reading_ = middle_.exchange(reading_, std::memory_order_acq_rel) & kPlace;

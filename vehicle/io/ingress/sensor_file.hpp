@@ -1,13 +1,14 @@
-// File of the sensors that come over ROS 2 topics:
+// Configuration file of the sensors that are received over ROS 2 topics:
 //
 //     domain: 0                       # ROS_DOMAIN_ID
-//     interface: 192.168.10.5         # of this machine; 127.0.0.1 where it is left out
-//     peers: [192.168.10.7]           # where multicast does not reach; may be left out
+//     interface: 192.168.10.5         # of this machine; default 127.0.0.1
+//     peers: [192.168.10.7]           # optional; hosts that multicast does not reach
 //     sensors:
 //       - {name: lidar, topic: /luminar_front/points, type: PointCloud2, rate_hz: 20}
 //
 //   invariants
-//          names are unique, topics are; `lidar`, `camera` and `radar` are told to the pit wall
+//          names and topics are unique; telemetry reports `lidar`, `camera` and `radar` to the pit
+//          wall
 //   errors Problem with file, line and column
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
@@ -25,7 +26,7 @@ enum class SensorType : std::uint8_t { kPointCloud2, kImage, kNavSatFix, kImu };
 struct SensorRow {
   std::string name, topic;
   SensorType type = SensorType::kPointCloud2;
-  double rate_hz = 0.0;  // that is expected
+  double rate_hz = 0.0;  // expected rate
 };
 
 struct SensorFile {

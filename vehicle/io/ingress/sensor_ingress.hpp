@@ -27,13 +27,13 @@ namespace pitwall::io {
 
 struct SensorCounts {
   std::uint64_t samples = 0;
-  std::uint64_t overwritten = 0;    // that nobody took before the next
-  std::uint64_t refused = 0;        // cut, no CDR, or numbers that contradict each other
+  std::uint64_t overwritten = 0;    // not taken before the next one
+  std::uint64_t refused = 0;        // truncated, not CDR, or inconsistent sizes
   std::uint64_t foreign_types = 0;  // writers of the topic with another type
   std::uint64_t bad_stamps = 0;     // more than kStampApart from this clock
 };
 
-// None: the sizes in it agree with each other.
+// Returns nullptr if the sizes in the message are consistent, else the contradiction.
 const char* contradiction_of(const ros::PointCloud2& cloud);
 const char* contradiction_of(const ros::Image& image);
 const char* contradiction_of(const ros::NavSatFix& fix);
@@ -49,10 +49,11 @@ class SensorIngress {
   std::size_t size() const { return sensors_.size(); }
   const SensorRow& row(std::size_t i) const;
   ArrivalFigures figures(std::size_t i, Instant now) const;
-  // Of the sensor with this name; unset where there is none.
+  // Figures of the sensor with this name; unset if there is none.
   ArrivalFigures figures(const std::string& name, Instant now) const;
   SensorCounts counts(std::size_t i) const;
-  // The newest that was not taken yet; nullptr: none, or the sensor is of another type.
+  // The newest sample that was not taken yet; nullptr if there is none or the sensor has another
+  // type.
   template <class M>
   const M* take(std::size_t i);
   std::string json(Instant now) const;  // a list, for the summary of a run

@@ -1,7 +1,8 @@
-// The car's state for programs on the same machine, bench and tools: the plain snapshot, unsealed,
-// to a port of the loopback interface. It never leaves the machine; the radio is elsewhere.
+// State report to programs on the same machine (bench, tools): the plain snapshot without
+// encryption, to a port of the loopback interface. It does not leave the machine and is independent
+// of the radio.
 //   in     the newest snapshot
-//   out    a StatePacket for each call; without a port nothing
+//   out    one StatePacket per call; nothing without a port
 //   errors open(): Problem with the port; afterwards the socket's counters
 //   cost   no allocation after open()
 // SPDX-License-Identifier: Apache-2.0
@@ -21,7 +22,7 @@ namespace pitwall::io {
 
 class LocalReport {
  public:
-  // `port` 0: nobody is told.
+  // `port` 0: no report.
   static Result<LocalReport, Problem> open(std::uint16_t port, telemetry::Source source);
 
   void send(const telemetry::Snapshot& snapshot, Instant now);

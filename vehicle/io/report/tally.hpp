@@ -1,4 +1,4 @@
-// Counters of the car process, and the summary that it leaves behind.
+// Counters of the car process, and its summary at the end of a run.
 //   units  microseconds; quantiles from a histogram of 1 us up to 4 ms (longer ones count as 4 ms)
 //   cost   add(): O(1), no allocation
 // SPDX-License-Identifier: Apache-2.0
@@ -21,9 +21,9 @@ namespace pitwall::io {
 class StepTally {
  public:
   void add(Duration step, std::uint64_t missed_deadlines);
-  // Of the steps since the last call; for telemetry.
+  // Largest step time since the last call; for telemetry.
   double take_recent_max_us();
-  // Of the last kRecent steps; unset before the first.
+  // Median of the last kRecent steps; unset before the first.
   double recent_median_us() const;
 
   std::uint64_t steps() const { return steps_; }
@@ -34,17 +34,17 @@ class StepTally {
  private:
   static constexpr std::size_t kBins = 4'000, kRecent = 100;
   Histogram bins_us_{kBins};
-  std::array<float, kRecent> recent_us_{};  // a ring
+  std::array<float, kRecent> recent_us_{};  // ring buffer
   std::uint64_t steps_ = 0, missed_ = 0;
   double max_us_ = 0.0, recent_max_us_ = 0.0;
 };
 
-// Every loss that was noticed, as long as there is room; the rest is counted.
+// List of the detected losses, up to kListed; further ones are only counted.
 class LossTally {
  public:
   static constexpr std::size_t kListed = 1'024;
 
-  // Of one tick.
+  // Takes the losses of one tick.
   void add(const world::BusHealth& bus);
 
   std::span<const world::LossReport> listed() const { return listed_.span(); }
@@ -53,18 +53,18 @@ class LossTally {
  private:
   FixedVector<world::LossReport, kListed> listed_;
   std::uint64_t reports_ = 0;
-  std::uint64_t unlisted_ = 0;  // those that found the list of their tick full
+  std::uint64_t unlisted_ = 0;  // those that did not fit into the list of their tick
 };
 
-// Since the start.
+// Counts since the start.
 struct FrameTotals {
   std::uint64_t received = 0, sent = 0, tx_drops = 0, rx_dropped = 0;
   std::uint64_t gate_refusals = 0;
-  std::array<std::uint64_t, safety::kVerdicts> gate_verdicts{};  // of what was to be said
+  std::array<std::uint64_t, safety::kVerdicts> gate_verdicts{};  // of the proposed frames
 };
 
-// One JSON object; `bus` as of the last tick, `radio` as radio_json() writes it, `receivers` as
-// receivers_json() does, `recorder` as BlackBox does.
+// One JSON object. `bus` is that of the last tick; `radio`, `receivers` and `recorder` are the
+// texts of radio_json(), receivers_json() and BlackBox::json().
 std::string summary_json(const StepTally& tally, const FrameTotals& frames,
                          const world::BusHealth& bus, const LossTally& losses,
                          const std::string& radio = "{}", const std::string& receivers = "[]",

@@ -1,6 +1,7 @@
-// The limits of localization's checks, each with its legal range: one table that start-up, the car
-// file and the tests read.
-//   units  in the names; a limit that compares adds the reported sigmas where its comment says so
+// Limits of the localization checks with their legal ranges: one table for start-up, the car file
+// and the tests.
+//   units  in the names; a limit of a comparison is in addition to the reported sigmas where its
+//          comment says so
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -13,57 +14,57 @@
 
 namespace pitwall::localization {
 
-// Which unit a channel prefers; the other one is used when that one is not well.
+// Preferred unit of a channel; the other unit is used while that one is not healthy.
 enum class Preference : std::uint8_t { kBoth, kUnit0, kUnit1 };
 struct Priorities {
   Preference position = Preference::kBoth, velocity = Preference::kBoth,
              heading = Preference::kBoth;
-  Preference imu = Preference::kUnit0;  // of two gyros one is used: their biases differ
+  Preference imu = Preference::kUnit0;  // only one IMU is used: biases differ
 };
 
 struct CheckParams {
-  // Stamps.
-  double future_max_s = 0.005;        // clocks of receivers are estimates
-  double reorder_max_s = 0.12;        // a stamp may lie so far before the newest of its stream
-  double spacing_min_s = 0.001;       // closer to a used stamp: the same one again
-  double frozen_speed_min_mps = 2.0;  // faster than this no content repeats
+  // Time stamps.
+  double future_max_s = 0.005;        // tolerance: receiver clocks are estimates
+  double reorder_max_s = 0.12;        // allowed age relative to the newest stamp of the stream
+  double spacing_min_s = 0.001;       // a stamp nearer to a used one counts as repeated
+  double frozen_speed_min_mps = 2.0;  // above this speed repeated content is a fault
   // Streams.
   double position_gap_max_s = 0.125, velocity_gap_max_s = 0.125, heading_gap_max_s = 2.5,
          imu_gap_max_s = 0.05, wheel_gap_max_s = 0.05;
-  double rate_window_s = 1.0;  // an outage longer than this ends the trust in a unit
+  double rate_window_s = 1.0;  // a longer outage ends the trust in a unit
   // Solution.
-  double position_rank_min = 1.0;  // 0 any solved, 1 single point, 2 differential or float, 3 fixed
+  double position_rank_min = 1.0;  // rank_of() in evidence.hpp
   double height_sigma_max_m = 10.0;
   double differential_age_max_s = 10.0, solution_age_max_s = 1.0;
   double velocity_sigma_max_mps = 1.0;
   double attitude_sigma_max_rad = 0.1;
   double baseline_tolerance_m = 0.1;
-  double sigma_ratio_max = 5.0;  // to that of the other unit, while that one is in use
-  // Jumps against the prediction: beyond so many sigma of both, and larger than this.
+  double sigma_ratio_max = 5.0;  // relative to the other unit, while that one is in use
+  // Jumps relative to the prediction: larger than these values, and beyond so many combined sigmas.
   double jump_sigmas = 4.0;
   double jump_position_m = 0.08, jump_velocity_mps = 0.2, jump_heading_rad = 0.01;
-  // One unit against the other, beside three sigma of both.
+  // Difference between the units, in addition to three combined sigmas.
   double agree_position_m = 0.08, agree_velocity_mps = 0.3, agree_heading_rad = 0.02;
-  double agree_within_s = 0.2;  // so far apart in time two residuals are compared
-  double worse_factor = 1.5;    // the one that is to blame is so many times worse
-  double drift_memory_s = 5.0;  // over which a unit is seen to stray by itself
+  double agree_within_s = 0.2;  // largest time difference of compared residuals
+  double worse_factor = 1.5;    // the blamed unit deviates by this factor more
+  double drift_memory_s = 5.0;  // memory of the drift detector of one unit
   double course_speed_min_mps = 10.0, course_max_rad = 0.15;
-  // Inertial units, against each other and against the turning of the course.
+  // IMUs: relative to each other and to the rate of the course.
   double imu_rate_max_rad_per_s = 0.03, imu_force_max_mps2 = 1.5;
-  double imu_contradict_s = 0.04;     // so long before one is blamed
-  double imu_offset_memory_s = 20.0;  // of their lasting difference
-  // Wheels, against each other and against the car.
+  double imu_contradict_s = 0.04;     // duration before one is blamed
+  double imu_offset_memory_s = 20.0;  // time constant of their constant difference
+  // Wheels: relative to each other and to the car.
   double wheel_spread_mps = 0.8, wheel_spread_per_speed = 0.04;
   double wheel_speed_max_mps = 1.5, wheel_speed_max_per_speed = 0.1;
   double half_track_m = 0.82;
-  // How much slower the wheels read, as their tyres grow with speed.
+  // Tyre growth with speed: the wheel speeds read low by this factor times v^2 - from^2.
   double wheel_growth_s2_per_m2 = 3.8e-6, wheel_growth_from_mps = 30.0;
-  double wheel_scale_memory_s = 10.0;  // over which the rest of it is learned
-  double wheel_scale_sigma = 0.004;    // share of the speed: of what is left then
+  double wheel_scale_memory_s = 10.0;  // time constant of the learned scale
+  double wheel_scale_sigma = 0.004;    // remaining error, share of the speed
   // Trust.
-  double distrust_samples = 3.0;       // refused in a row
-  double readmit_after_s = 1.0;        // consistent without a break
-  double readmit_alone_after_s = 0.1;  // where nothing else gives the state
+  double distrust_samples = 3.0;       // consecutive refusals that end the trust
+  double readmit_after_s = 1.0;        // consistent without interruption
+  double readmit_alone_after_s = 0.1;  // if no other source gives the state
 };
 
 inline constexpr auto kCheckRanges = std::to_array<world::NamedRange<CheckParams>>({
@@ -115,7 +116,8 @@ inline constexpr auto kCheckRanges = std::to_array<world::NamedRange<CheckParams
     {"readmit_alone_after_s", &CheckParams::readmit_alone_after_s, 0.0, 5.0},
 });
 
-// The first limit that is outside its range (NaN is outside); the place is "checks." and its name.
+// Problem of the first limit outside its range (NaN is outside); the place is "checks." and its
+// name. nullopt if all are legal.
 std::optional<Problem> illegal(const CheckParams& params);
 
 }  // namespace pitwall::localization

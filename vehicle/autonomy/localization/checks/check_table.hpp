@@ -1,12 +1,12 @@
-// Every check of a sample that is not excluded, as one table: the reason, the monitor that looks,
-// which sources it judges, and the law. Read from top to bottom; the first row that a sample fails
-// is its verdict, every row that it fails is seen.
-//   in     Evidence: what is known of one sample; a number that does not apply is NaN, and no law
-//          holds against a NaN
-//   out    the verdict, and the monitors that see something wrong
+// Table of all checks of a sample that is not excluded: reason, monitor, checked sources and
+// condition. The rows are evaluated from top to bottom; the first row that a sample fails is its
+// verdict, and the monitor of every failed row reports.
+//   in     Evidence: the facts about one sample; a number that does not apply is NaN, and no
+//          condition is true for a NaN
+//   out    the verdict, and the monitors with a finding
 //   invariants
-//          a row without a monitor judges the form: what fails it is not looked at any further and
-//          is refused always. A row whose monitor is switched off is not there
+//          a row without a monitor checks the form: a sample that fails it is always refused and
+//          not checked further. A row whose monitor is disabled is skipped
 //   units  position m, velocity m/s, angles rad
 //   cost   O(rows); no allocation
 // SPDX-License-Identifier: Apache-2.0
@@ -28,27 +28,27 @@ struct Evidence {
   Source source = Source::kPosition;
   // Form.
   bool known_unit = true, finite = true, plausible = true;
-  double least_sigma = kUnset;  // of all that the sample reports
+  double least_sigma = kUnset;  // smallest sigma of the sample
   // Time.
-  double age_s = kUnset, window_s = kUnset;  // how late the filter can still take it
+  double age_s = kUnset, window_s = kUnset;  // age, and the largest that the filter accepts
   double after_newest_s = kUnset, spacing_s = kUnset;
-  bool same_content = false;  // number for number what the stream said before
-  double speed_mps = kUnset;  // of the car, by the filter
+  bool same_content = false;  // identical to the previous sample of the stream
+  double speed_mps = kUnset;  // of the car, from the filter
   // Solution.
   bool solved = true;
   double rank = kUnset;
   double sigma = kUnset, sigma_max = kUnset;
-  double other_sigma = kUnset;  // of the other unit, while it is in use
+  double other_sigma = kUnset;  // sigma of the other unit, while that one is in use
   double height_sigma_m = kUnset;
   double differential_age_s = kUnset, solution_age_s = kUnset;
   double baseline_error_m = kUnset;
   bool receiver_well = true, other_well = false;
-  // Against the prediction.
-  double residual = kUnset;  // its magnitude
+  // Relative to the prediction.
+  double residual = kUnset;  // magnitude
   double jump_min = kUnset, jump_sigma_max = kUnset;
   double course_error_rad = kUnset;
-  // Against the other unit: how far apart the two residuals are, what is allowed, and by how much
-  // each strays from where it was.
+  // Relative to the other unit: difference of the two residuals, the allowed difference, and the
+  // drift of each unit (drift_watch.hpp).
   double apart = kUnset, apart_max = kUnset;
   double stray = kUnset, other_stray = kUnset;
 };
@@ -62,7 +62,7 @@ struct CheckRow {
   Gate reason;
   std::optional<world::Monitor> monitor;
   Sources sources;
-  bool refuses;  // false: it is seen, and passes
+  bool refuses;  // false: the monitor reports, the sample passes
   bool (*fails)(const Evidence& e, const CheckParams& p);
 };
 
@@ -85,7 +85,8 @@ inline constexpr auto kChecks = [] {
   constexpr bool kRefuse = true, kNotice = false;
   return std::to_array<CheckRow>({
       {kUnknownUnit, kForm, kAll, kRefuse, [](E e, P) { return !e.known_unit; }},
-      // What has no solution says zeros or nothing; that is its reason, and not the zeros.
+      // A sample without a solution contains zeros or nothing: this row gives the true reason
+      // first.
       {kNotSolved, kSolution, kAll, kRefuse, [](E e, P) { return !e.solved; }},
       {kNotFinite, kForm, kAll, kRefuse, [](E e, P) { return !e.finite; }},
       {kNegativeVariance, kForm, kAll, kRefuse, [](E e, P) { return e.least_sigma < 0.0; }},

@@ -1,9 +1,9 @@
-// Drift detector of each unit's positions against the motion by the car's own speed: of two units
-// that come apart slowly, the one that drifts is to blame, although the filter follows both.
-//   in     per tick the velocity in Map; per position its residual-free place in Map
-//   out    distance from where the unit has been over the last drift_memory_s, m
+// Drift detector of each unit's positions relative to dead reckoning with the car's speed. If two
+// units diverge slowly, it shows which of them drifts, although the filter follows both.
+//   in     per tick the velocity in Map; per position the position of the centre of gravity in Map
+//   out    distance from the unit's mean offset over the last drift_memory_s, m
 //   invariants
-//          what strays is not learned while it is refused
+//          a position that is refused does not change the mean offset
 //   cost   O(1)
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
@@ -21,21 +21,22 @@ struct DriftWatch {
   struct Unit {
     bool known = false;
     Instant at{};
-    double x_m = 0.0, y_m = 0.0;  // the place less the way gone, low-passed
+    double x_m = 0.0, y_m = 0.0;  // position minus reckoned path, low-passed
   };
   bool moving = false;
   Instant at{};
-  double gone_x_m = 0.0, gone_y_m = 0.0;  // the way gone until `at`
+  double gone_x_m = 0.0, gone_y_m = 0.0;  // path reckoned until `at`
   double vx_mps = 0.0, vy_mps = 0.0;      // Map
   std::array<Unit, world::kGnssUnits> units{};
 };
 static_assert(std::is_trivially_copyable_v<DriftWatch>);
 
-// The car goes on with this velocity until now.
+// Advances the reckoned path to `now` with this velocity.
 void go(DriftWatch& watch, double vx_mps, double vy_mps, Instant now);
-void forget(DriftWatch& watch);  // the way is not known any more
+void forget(DriftWatch& watch);  // when the reckoned path is no longer valid
 
-// Of a place of the centre of gravity by one unit; unset where nothing is known of it.
+// Distance of a position (centre of gravity) of one unit from its mean offset; unset if the unit is
+// unknown.
 double stray_m(const DriftWatch& watch, std::size_t unit, double x_m, double y_m, Instant at);
 void learn(const CheckParams& params, DriftWatch& watch, std::size_t unit, double x_m, double y_m,
            Instant at);

@@ -2,11 +2,11 @@
 // whose yaw rate contradicts the course over ground, or whose acceleration contradicts the change
 // of speed.
 //
-//     unit 0   ____/----      apart since here; the course turns as unit 1 says: unit 0 is blamed
+//     unit 0   ____/----      apart since here; the course agrees with unit 1: unit 0 is blamed
 //     unit 1   _________      after imu_contradict_s, and free again after readmit_after_s together
 //
 //   in     samples of both units (Body, rad/s and m/s^2), courses over ground (rad), and at each
-//          tick what other sensors say of the motion
+//          tick the motion from other sensors
 //   out    the blamed unit, if any; whether the units differ; their constant difference is learned
 //   invariants
 //          without another sensor no unit is blamed. Exchanging the units exchanges the result
@@ -26,7 +26,7 @@
 
 namespace pitwall::localization {
 
-inline constexpr std::size_t kImuAxes = 6;  // rates x, y, z, forces x, y, z
+inline constexpr std::size_t kImuAxes = 6;  // rates x, y, z, then forces x, y, z
 using ImuAxes = std::array<double, kImuAxes>;
 inline constexpr std::size_t kCoursesKept = 5;
 
@@ -37,7 +37,7 @@ struct ImuWatch {
     ImuAxes mean{};           // low-passed
     double turned_rad = 0.0;  // integral of the yaw rate
   };
-  // The direction of the way over ground by one receiver, and what each IMU had turned then.
+  // Course over ground from one receiver, and the integrated yaw of each IMU at that time.
   struct Course {
     Instant at{};
     double course_rad = 0.0;
@@ -49,7 +49,7 @@ struct ImuWatch {
   };
   std::array<Unit, world::kGnssUnits> units{};
   std::array<Courses, world::kGnssUnits> courses{};
-  ImuAxes offset{};  // lasting, unit 1 less unit 0
+  ImuAxes offset{};  // constant difference, unit 1 minus unit 0
   double offset_known_s = 0.0;
   bool apart = false, together = false;
   Instant apart_since{}, together_since{};
@@ -59,16 +59,16 @@ static_assert(std::is_trivially_copyable_v<ImuWatch>);
 
 ImuAxes axes_of(const world::ImuSample& sample);
 
-// A sample that is a number.
+// Takes a sample, whose values must be finite.
 void note(ImuWatch& watch, const world::ImuSample& sample);
-// The course over ground of a receiver, where it is fast enough to have one.
+// Takes a course over ground of a receiver, to be called only at speeds that define a course.
 void note_course(ImuWatch& watch, std::size_t receiver, Instant at, double course_rad);
 
-// What the car does by other senses; unset where they do not say.
+// Motion of the car from other sensors; unset if they do not provide it.
 struct ImuWitness {
   double bank_rad = 0.0, speed_mps = kUnset;
-  double accel_mps2 = kUnset;  // along the car, by the wheels
-  bool stands = false;         // every wheel stands
+  double accel_mps2 = kUnset;  // longitudinal, from the wheels
+  bool stands = false;         // all wheel speeds are zero
 };
 void watch_imu(const CheckParams& params, ImuWatch& watch, const ImuWitness& witness, Instant now);
 

@@ -1,11 +1,11 @@
 // Detector of repeated stamps in one stream, and of a clock that stands still or runs back. It
 // keeps the recent stamps. Datagrams may arrive out of order: an older stamp that was not used yet
-// is no fault within the limit.
+// is accepted within the limit.
 //
 //     used   10  60 110 160      arrives 160: stands still      arrives 85: 75 before the newest
 //
 //   in     stamps in order of arrival
-//   out    spacing to the nearest used stamp, place after the newest; infinite before the first
+//   out    spacing to the nearest used stamp, time after the newest; infinite before the first
 //   cost   O(kStampsKept); no allocation
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
@@ -18,8 +18,8 @@
 
 namespace pitwall::localization {
 
-// An IMU at 125 Hz within the longest legal reordering would need 63; 16 hold 0.12 s of it, and
-// 0.8 s of positions.
+// An IMU at 125 Hz with the longest legal reordering would need 63 stamps; 16 cover 0.12 s of it,
+// and 0.8 s of positions.
 inline constexpr std::size_t kStampsKept = 16;
 
 struct StampWatch {

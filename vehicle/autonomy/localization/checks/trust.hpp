@@ -1,11 +1,11 @@
-// Trust in a stream: a stream that was refused some times in a row, or was silent for long, has to
-// be consistent for a while before it is used again.
+// Trust in one stream: after several consecutive refusals or a long silence the samples of a stream
+// must be consistent for a while before they are used again.
 //
-//   refused  x x x . . . . . . . .      x refused for a reason of its own, . passes every check
-//   trusted  T T - - - - - - - T T      after readmit_after_s without an x; alone: sooner
+//   refused  x x x . . . . . . . .      x refused by a check, . passes every check
+//   trusted  T T - - - - - - - T T      again after readmit_after_s without an x; alone: sooner
 //
-//   in     per sample: whether it passed every check; whether nothing else gives this state
-//   out    whether it may enter
+//   in     per sample: whether it passed every check, and whether no other source gives this state
+//   out    whether it may enter the filter
 //   cost   O(1)
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
@@ -23,11 +23,11 @@ struct Trust {
   std::uint8_t refused_in_row = 0;
   Instant received_at{}, consistent_since{};
 
-  // A sample comes at `now`; a silence before it that was longer than `silence_s` ends the trust.
+  // A sample arrives at `now`; a silence before it of more than `silence_s` ends the trust.
   void receive(double silence_s, Instant now);
-  // It was refused.
+  // The sample was refused.
   void refuse(const CheckParams& params);
-  // It passed every check; true: it may enter.
+  // The sample passed every check. Returns true if it may enter the filter.
   bool admit(const CheckParams& params, bool alone, Instant now);
 };
 static_assert(std::is_trivially_copyable_v<Trust>);

@@ -1,6 +1,7 @@
-// Verdicts of localization's checks on samples, and their counts.
+// Verdicts of the localization checks on samples, and their counts.
 //   invariants
-//          every sample gets one verdict; a refused one changes no estimate, and none is repaired
+//          every sample gets one verdict; a refused sample changes no estimate, and no sample is
+//          repaired
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -27,26 +28,26 @@ enum class Gate : std::uint8_t {
   kTooUncertain,
   kTooOld,
   kFromTheFuture,
-  kOutlier,  // a step against the car's own motion
+  kOutlier,  // a jump relative to the predicted motion
   kNotStarted,
   kStandby,           // healthy, but another unit or source is preferred
-  kImplausible,       // finite, but nothing that a car on a track can do or a receiver can mean
-  kExcluded,          // by the operator
-  kNegativeVariance,  // never repaired by its magnitude
+  kImplausible,       // finite, but impossible for a car on a track or for a receiver
+  kExcluded,          // excluded by the operator
+  kNegativeVariance,  // refused; its absolute value is not used
   kOldCorrections,
-  kWrongBaseline,  // the antennas are not as far apart as they are mounted
-  kRepeated,       // a stamp that was used before: it stands still
+  kWrongBaseline,  // antenna distance differs from the mounting
+  kRepeated,       // a stamp that was used before
   kRanBack,
-  kFrozen,  // new stamps over a content that does not change while the car moves
+  kFrozen,  // new stamps, but constant content while the car moves
   kDisagrees,
-  kOffCourse,      // a heading across the way the car goes
-  kReceiverError,  // the receiver says itself that it is not well
-  kProbation,      // consistent, but not for long enough since it was refused
-  kSilent          // of a stream, not of a sample: nothing comes
+  kOffCourse,      // heading contradicts the course over ground
+  kReceiverError,  // the receiver reports an error
+  kProbation,      // consistent, but not yet long enough after refusals
+  kSilent          // state of a stream without samples
 };
 inline constexpr std::size_t kGates = 24;
 
-// In the order of Gate; telemetry compares its labels with them.
+// In the order of Gate; the telemetry labels must match them.
 inline constexpr std::array<std::string_view, kGates> kGateNames{"-",
                                                                  "in use",
                                                                  "NOT A NUMBER",
@@ -81,7 +82,7 @@ struct Verdict {
   double age_s = kUnset;
 };
 
-// Since the start; one row per source and unit (wheel speed is unit 0).
+// Counts since the start; one row per source and unit (wheel speed is unit 0).
 struct Tally {
   std::array<std::uint32_t, kGates> by_gate{};
   Instant last_accepted{};

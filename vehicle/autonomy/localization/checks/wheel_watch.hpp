@@ -1,11 +1,13 @@
-// The speed of the car by its wheels, without the ones that lock, spin, are lost or lie.
-//   in     four wheel speeds over ground, the yaw rate, the car's speed where the receivers say it
-//   out    speed of the centre of gravity, NaN if no wheel is believed; which wheels are not
+// Speed of the car from the wheels, without wheels that lock, spin, are missing or have a wrong
+// sensor.
+//   in     four wheel speeds over ground, the yaw rate, the speed from the receivers if available
+//   out    speed of the centre of gravity, NaN if every wheel is excluded; whether a wheel is
+//          excluded
 //   invariants
-//          each wheel is brought to the middle of the car by the yaw rate; one that is far from
-//          the middle of the four, or that the receivers contradict, is out at once and comes back
-//          after readmit_after_s of agreement. The rear axle speaks for the car, as the filter
-//          expects; the front one where no rear wheel is believed
+//          each wheel speed is corrected by the yaw rate to the centre line of the car. A wheel
+//          that differs from the receivers' speed, or without it from the median of the four, is
+//          excluded at once, and used again after readmit_after_s of agreement. The rear axle gives
+//          the speed, as the filter expects; the front axle if both rear wheels are excluded
 //   units  m/s, rad/s; positive yaw rate turns left
 //   cost   O(1)
 // SPDX-License-Identifier: Apache-2.0
@@ -32,15 +34,15 @@ static_assert(std::is_trivially_copyable_v<WheelWatch>);
 struct WheelFacts {
   world::PerWheel speed_mps;
   double yaw_rate_rad_per_s = 0.0;
-  double by_receivers_mps = kUnset;  // unset: they have not said lately
+  double by_receivers_mps = kUnset;  // unset: not available
 };
 
 struct WheelSpeed {
   double speed_mps = kUnset;
-  bool contradiction = false;  // some wheel is out
+  bool contradiction = false;  // at least one wheel is excluded
 };
 
-// `watched` false: every wheel is believed, and a mean with one that is not a number is not one.
+// `watched` false: the mean of all four wheels, NaN if one of them is not a number.
 WheelSpeed watch_wheels(const CheckParams& params, WheelWatch& watch, const WheelFacts& facts,
                         bool watched, Instant now);
 

@@ -1,5 +1,5 @@
-// The spatial filter's errors as vectors and matrices: the inside of ekf_3d.cpp, shared with the
-// models, the update and the seed. A file that only carries a belief needs ekf_3d.hpp alone.
+// Errors of the spatial filter as Eigen vectors and matrices, shared by ekf_3d.cpp, the models, the
+// update and the seed. Code that only stores a belief needs ekf_3d.hpp alone.
 //   frames rates and forces in Body; errors in the order of ErrorIndex
 //   cost   no allocation
 // SPDX-License-Identifier: Apache-2.0
@@ -32,19 +32,20 @@ inline Eigen::Quaterniond quaternion_of(const SpatialBelief& b) {
   return {b.attitude[0], b.attitude[1], b.attitude[2], b.attitude[3]};
 }
 
-// What the IMU says less what is believed of its errors; Body.
+// IMU values minus the estimated errors; Body.
 Eigen::Vector3d rate_of(const SpatialBelief& b, const Drive& drive);
 Eigen::Vector3d force_of(const SpatialBelief& b, const Drive& drive);
 
-// The pieces of advance(), one step of constant drive: what becomes of the mean, and of its errors.
+// Parts of advance(), one step with constant input: propagation of the mean, and transition matrix
+// of its errors.
 void integrate(SpatialBelief& b, const Drive& middle, double dt_s);
 ErrorMatrix transition(const SpatialBelief& b, const Drive& middle, double dt_s, double wander_s);
 
-// Puts an error into the mean.
+// Adds an error to the mean.
 void inject(SpatialBelief& b, const ErrorVector& error);
-// Takes confidence in three errors away.
+// Adds variance to three errors.
 void widen(SpatialBelief& b, ErrorIndex at, const Eigen::Vector3d& sigma);
-// Removes what rounding leaves between the halves of the covariance.
+// Removes the asymmetry of the covariance that rounding causes.
 void make_symmetric(SpatialBelief& b);
 
 }  // namespace pitwall::localization

@@ -1,5 +1,5 @@
-// Measurement model of the spatial filter: predicted measurement, innovation, and its derivative by
-// the errors of the state.
+// Measurement models of the spatial filter: innovation and its derivative with respect to the
+// errors of the state.
 //   out    Observation: residual r = z - h(x), its derivative -dr/d(error), white variance
 //   frames residuals of receivers in Map, of models in Body
 //   invariants
@@ -23,7 +23,7 @@ struct Observation {
   Eigen::Matrix<double, 3, kErrors> jacobian = Eigen::Matrix<double, 3, kErrors>::Zero();
 };
 
-// Of the road's surface, in Map, upwards, of length one.
+// Unit normal of the road surface in Map, upwards.
 Eigen::Vector3d normal_of(const Road& road);
 
 Observation antenna_position(const SpatialBelief& b, const SpatialParams& p, const Measurement& m);

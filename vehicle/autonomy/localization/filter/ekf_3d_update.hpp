@@ -1,12 +1,12 @@
-// The spatial filter as a fold over measurements: what each one does to the belief.
-//   in     a belief, a measurement not older than it, the next IMU sample where it is known
-//   out    the belief at the measurement's instant, with it
+// Measurement update of the spatial filter, one step of a fold over measurements.
+//   in     a belief, a measurement not older than it, the next IMU sample if it is known
+//   out    the belief at the measurement's instant, updated by it
 //   invariants
-//          Joseph's form of the update; gates by degrees of freedom. Errors of models last: a
-//          stream of them is worth one independent sample in two correlation times
-//   errors update refuses an innovation outside its gate and leaves the belief as it is, but for
-//          the count of refusals: positions (velocities, headings) refused without a break for
-//          reacquire_s are right and the belief is wrong, and it opens by their innovation
+//          Joseph's form of the update; gates by degrees of freedom. Model errors are correlated in
+//          time: a stream of them counts as one independent sample in two correlation times
+//   errors an innovation outside its gate is refused and changes only the count of refusals. If
+//          positions (velocities, headings) are refused without interruption for reacquire_s, the
+//          belief is taken as wrong, and its covariance is increased by the innovation
 //   source Bucy and Joseph, Filtering for Stochastic Processes (1968)
 //   cost   2 to 5 us; no allocation
 // SPDX-License-Identifier: Apache-2.0

@@ -1,5 +1,5 @@
-// Motion, measurement models and their Jacobians of the planar filter, as matrices: the inside of
-// ekf.cpp, and what its tests look at. A file that only runs the filter needs ekf.hpp alone.
+// Motion and measurement models of the planar filter with their Jacobians, as Eigen matrices, for
+// ekf.cpp and its tests. Code that only runs the filter needs ekf.hpp alone.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

@@ -19,13 +19,13 @@ inline constexpr std::array<const char*, 2> kFilterKindNames{"planar", "spatial"
 
 struct FilterParams {
   FilterKind kind = FilterKind::kSpatial;
-  double window_s = kUnset;     // how late a measurement may be
-  double reentry_mps = kUnset;  // fastest that a correction moves the published position
+  double window_s = kUnset;     // largest delay of a measurement
+  double reentry_mps = kUnset;  // speed limit of corrections of the published position
   PlanarParams planar;
   SpatialParams spatial;
 };
 
-// What the list of measurements holds at their rates is a little more (filter_window.hpp).
+// The list of measurements has room for slightly more at their rates (filter_window.hpp).
 inline constexpr double kWindowLeast_s = 0.05, kWindowMost_s = 1.1;
 
 inline constexpr auto kFilterRanges = std::to_array<world::NamedRange<FilterParams>>({
@@ -33,7 +33,7 @@ inline constexpr auto kFilterRanges = std::to_array<world::NamedRange<FilterPara
     {"reentry_mps", &FilterParams::reentry_mps, 0.5, 5.0},
 });
 
-inline constexpr double kGateLeast = 4.0, kGateMost = 100.0;  // of every normalised innovation
+inline constexpr double kGateLeast = 4.0, kGateMost = 100.0;  // limits of every NIS gate
 
 inline constexpr auto kMotionNoiseRanges = std::to_array<world::NamedRange<MotionNoise>>({
     {"gyro_rad_per_sqrt_s", &MotionNoise::gyro_rad_per_sqrt_s, 1e-5, 0.1},
@@ -86,7 +86,8 @@ inline constexpr auto kSpatialRanges = std::to_array<world::NamedRange<SpatialPa
     {"attitude_sigma_floor_rad", &SpatialParams::attitude_sigma_floor_rad, 0.0005, 0.5},
 });
 
-// The first parameter outside its range (NaN is outside); the place is "filter." and its name.
+// Problem of the first parameter outside its range (NaN is outside); the place is "filter." and its
+// name. nullopt if all are legal.
 std::optional<Problem> illegal(const FilterParams& params);
 
 }  // namespace pitwall::localization

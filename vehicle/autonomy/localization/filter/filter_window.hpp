@@ -12,7 +12,7 @@
 //            static Innovation fold(Belief&, const Params&, const Measurement&,
 //                                   const Measurement* next_imu)
 //          which updates the belief by one measurement at that measurement's time
-//   errors insert_into() gives nothing for a measurement before the first entry
+//   errors insert_into() returns nullopt for a measurement before the first entry
 //   cost   insert_into() and settle(): O(entries since the oldest insertion that is not folded yet
 //          + kMemoStride) folds; no allocation
 // SPDX-License-Identifier: Apache-2.0
@@ -28,15 +28,15 @@
 namespace pitwall::localization {
 
 // 1.1 s of IMU at 125 Hz, wheels, slip and road at 100 Hz, two receivers at 20 Hz with their
-// attitudes at 50 Hz: 670, and reserve.
+// attitudes at 50 Hz are 670 entries; the rest is reserve.
 inline constexpr std::size_t kEntries = 768, kMemoStride = 8, kMemos = kEntries / kMemoStride;
 
-// Rings, so that forgetting moves nothing.
+// Ring buffer, so that dropping old entries moves none.
 struct Entries {
   std::array<Measurement, kEntries> ring{};
-  std::size_t begins = 0;  // where entry 0 is; a multiple of kMemoStride
+  std::size_t begins = 0;  // index of entry 0; a multiple of kMemoStride
   std::size_t size = 0;
-  std::size_t folded = 0;  // the last entry that the tip knows
+  std::size_t folded = 0;  // the last entry that the tip includes
 
   Measurement& operator[](std::size_t i) { return ring[(begins + i) % kEntries]; }
   const Measurement& operator[](std::size_t i) const { return ring[(begins + i) % kEntries]; }
@@ -47,14 +47,14 @@ struct Memory {
   std::array<Belief, kMemos> ring{};
   Belief tip{};  // after entry `folded`
 
-  // After entry k * kMemoStride.
+  // Belief after entry k * kMemoStride.
   Belief& every(const Entries& e, std::size_t k) {
     return ring[(e.begins / kMemoStride + k) % kMemos];
   }
 };
 
-// Order in time; what was true at once is ordered by what it is, so that the order of arrival never
-// matters.
+// Order in time; measurements of the same instant are ordered by kind, unit and value, so that the
+// order of arrival has no effect.
 inline bool before(const Measurement& a, const Measurement& b) {
   if (a.at != b.at) return a.at < b.at;
   if (a.kind != b.kind) return a.kind < b.kind;
@@ -71,19 +71,19 @@ void begin(Entries& entries, Memory<Belief>& memory, const Belief& belief, Insta
   memory.every(entries, 0) = memory.tip = belief;
 }
 
-// The first kImu at or after entry i; e.size where there is none.
+// Index of the first kImu at or after entry i; e.size if there is none.
 inline std::size_t imu_from(const Entries& e, std::size_t i) {
   while (i < e.size && e[i].kind != Kind::kImu) ++i;
   return i;
 }
 
-// The last kImu before entry i, or entry 0.
+// Index of the last kImu before entry i, or 0.
 inline std::size_t imu_before(const Entries& e, std::size_t i) {
   while (--i > 0 && e[i].kind != Kind::kImu) continue;
   return i;
 }
 
-// Takes the tip to entry `last`, which is not before it; the innovation of that one.
+// Advances the tip to entry `last`, which is not before it. Returns the innovation of that entry.
 template <class Model>
 Innovation fold_to(Entries& e, Memory<typename Model::Belief>& memory,
                    const typename Model::Params& params, std::size_t last) {
@@ -99,7 +99,7 @@ Innovation fold_to(Entries& e, Memory<typename Model::Belief>& memory,
   return innovation;
 }
 
-// Takes the tip back before entry `first`, to the newest belief that is known there.
+// Takes the tip back to the newest snapshot before entry `first`.
 template <class Belief>
 void rewind(Entries& e, Memory<Belief>& memory, std::size_t first) {
   if (e.folded < first) return;
@@ -108,15 +108,15 @@ void rewind(Entries& e, Memory<Belief>& memory, std::size_t first) {
   e.folded = k * kMemoStride;
 }
 
-// Everything that is known is in the tip.
+// Advances the tip to the newest entry.
 template <class Model>
 void settle(Entries& e, Memory<typename Model::Belief>& memory,
             const typename Model::Params& params) {
   (void)fold_to<Model>(e, memory, params, e.size - 1);
 }
 
-// Drops whole strides that are older than the window, or the oldest one of a full list. What is
-// not folded yet is not dropped.
+// Drops whole strides that are older than the window, or the oldest one of a full list. An entry
+// that is not folded yet is folded first.
 template <class Model>
 void forget(Entries& e, Memory<typename Model::Belief>& memory,
             const typename Model::Params& params, Duration window) {
@@ -133,7 +133,7 @@ void forget(Entries& e, Memory<typename Model::Belief>& memory,
   e.folded -= count;
 }
 
-// Kinds of which nobody asks what became of them.
+// Kinds whose innovation is not reported.
 inline bool is_quiet(Kind kind) {
   return kind == Kind::kImu || kind == Kind::kRoad || kind == Kind::kSlip || kind == Kind::kWiden;
 }

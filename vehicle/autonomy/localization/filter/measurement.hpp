@@ -1,9 +1,9 @@
-// Measurement of any source, as the filters of localization take it, and what became of it.
+// Measurement of any source in the form that the filters of localization take, and its innovation.
 //   frames Map: ENU at the datum, z up. Body: ISO 8855, origin at the centre of gravity. Yaw from
 //          east, counter-clockwise; roll positive left side up; pitch positive nose down
 //   invariants
-//          sigma_* is what the sensor says of itself and nothing else: floors and models of
-//          correlated noise belong to the filter. Unset where the sensor does not say
+//          sigma_* is exactly what the sensor reports: floors and models of correlated noise are in
+//          the filter. Unset if the sensor reports none
 //   errors none here; a filter refuses with Innovation
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
@@ -16,20 +16,19 @@
 
 namespace pitwall::localization {
 
-// In this order at one instant.
+// In the order of evaluation at one instant.
 enum class Kind : std::uint8_t {
   kNone,
-  kImu,       // imu, at `arm`; what is unset in it the filter fills from the road
-  kWiden,     // measures nothing: takes confidence in the position away, sigma_a east and
-              // sigma_b north
-  kPosition,  // a, b, c: east, north, up [m] of the antenna at `arm`; c may be unset
-  kVelocity,  // a, b, c: east, north, up [m/s] of the antenna at `arm`; c may be unset
-  kHeading,   // a: azimuth of the antenna baseline less direction_rad, which is the baseline's own
-              // direction in Body: the yaw, where the car is level
-  kWheelSpeed,  // a: forward speed by the rear wheels [m/s]; sigma_b: of its scale, a share
-  kSlip,        // the rear axle slips as its tyres do: lateral speed by a model, no numbers
-  kRoad,        // road: the car stands on it and moves along it
-  kAttitude     // a, b, c: roll, pitch, yaw [rad] by a receiver's own inertial solution; c may be
+  kImu,         // imu, at `arm`; the filter fills unset values from the road
+  kWiden,       // no measurement: adds variance to the position, sigma_a east and sigma_b north
+  kPosition,    // a, b, c: east, north, up [m] of the antenna at `arm`; c may be unset
+  kVelocity,    // a, b, c: east, north, up [m/s] of the antenna at `arm`; c may be unset
+  kHeading,     // a: azimuth of the antenna baseline minus direction_rad, the direction of the
+                // baseline in Body; for a level car this is the yaw
+  kWheelSpeed,  // a: forward speed from the rear wheels [m/s]; sigma_b: relative scale error
+  kSlip,        // lateral speed of the rear axle by the tyre model, no values
+  kRoad,        // road: the car is on its surface and moves along it
+  kAttitude     // a, b, c: roll, pitch, yaw [rad] from a receiver's inertial solution; c may be
                 // unset
 };
 
@@ -42,18 +41,18 @@ struct Imu {  // Body x, y, z
   std::array<double, 3> force_mps2{kUnset, kUnset, kUnset};  // specific force
 };
 
-// The surface under a place of the map. Bank positive where the left side is lower, climb positive
-// uphill, both seen along `direction_rad`, the direction of the reference line in Map.
+// Road surface at a position of the map. Bank positive where the left side is lower, climb positive
+// uphill, both in `direction_rad`, the direction of the reference line in Map.
 struct Road {
-  double x_m = kUnset, y_m = kUnset;  // where it was looked up
-  double height_m = kUnset;           // of the surface, Map
+  double x_m = kUnset, y_m = kUnset;  // position of the look-up
+  double height_m = kUnset;           // height of the surface, Map
   double bank_rad = kUnset, climb_rad = kUnset, direction_rad = kUnset;
 };
 
 struct Measurement {
   Kind kind = Kind::kNone;
-  std::uint8_t unit = 0;  // of GNSS and IMU
-  Instant at{};           // when it was true
+  std::uint8_t unit = 0;  // GNSS or IMU unit
+  Instant at{};           // time of measurement
   double a = kUnset, b = kUnset, c = kUnset;
   double sigma_a = kUnset, sigma_b = kUnset, sigma_c = kUnset;
   LeverArm arm{};

@@ -1,8 +1,9 @@
-// Rotations as three by three matrices and unit quaternions, Z-Y-X angles as ISO 8855 has them.
+// Rotations as 3 x 3 matrices and unit quaternions, with the Z-Y-X angles of ISO 8855.
 //   frames R takes Body to Map. Yaw from x counter-clockwise, pitch positive nose down, roll
 //          positive left side up
 //   invariants
-//          exp_rotation(v) is the rotation by |v| about v; log_rotation its inverse below pi
+//          exp_rotation(v) is the rotation by |v| about v; log_rotation is its inverse for angles
+//          below pi
 //   cost   a few tens of floating-point operations; no allocation
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
@@ -20,7 +21,7 @@ inline Eigen::Matrix3d cross(const Eigen::Vector3d& v) {
 }
 
 inline Eigen::Quaterniond exp_rotation(const Eigen::Vector3d& v) {
-  constexpr double kSmall_rad = 1e-6;  // the series is exact to double there
+  constexpr double kSmall_rad = 1e-6;  // below it the series is exact to double
   const double angle = v.norm();
   const double share =
       angle < kSmall_rad ? 0.5 - angle * angle / 48.0 : std::sin(0.5 * angle) / angle;
