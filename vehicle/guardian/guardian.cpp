@@ -273,6 +273,7 @@ world::ActuatorCommand open_loop(const Tick& t) {
                                   .last_good = s.following.command,
                                   .speed_mps = wheel_speed(t),
                                   .tyre_c = s.record.tyre_c,
+                                  .front_slip = safety::front_slip(s.signals, t.in.now),
                                   .learned = s.record.learned};
   return safety::stop_along(t.params.following, s.open_loop, in, t.in.now);
 }
@@ -282,8 +283,10 @@ world::ActuatorCommand next_command(const Tick& t) {
   s.status.guidance = guidance_of(t);
   if (s.status.guidance != Guidance::kOpenLoop) {
     s.open_loop = {};
-    return safety::follow_stop(t.params.following, s.following, s.record.stop,
-                               on_path(s.reckoning.pose), safety::StopKind::kControlled, t.in.now);
+    safety::PathPose pose = on_path(s.reckoning.pose);
+    pose.front_slip = safety::front_slip(s.signals, t.in.now);
+    return safety::follow_stop(t.params.following, s.following, s.record.stop, pose,
+                               safety::StopKind::kControlled, t.in.now);
   }
   s.following.command = open_loop(t);
   s.following.last = t.in.now;  // where feedback comes back, it turns the wheels from here

@@ -99,6 +99,7 @@ void read_following(yaml::StrictMap map, safety::ActuatorParams& following) {
   following.steering = read_follow(map.map("steering"), 1.0);
   following.brake = read_follow(map.map("brake"), 2000.0);
   following.throttle = read_follow(map.map("throttle"), 0.5);
+  following.unexplained_max_rad = map.number("unexplained_max_rad", 0.002, 0.05);
   following.moving_mps = map.number("moving_mps", 1.0, 20.0);
 }
 

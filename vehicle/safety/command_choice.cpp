@@ -40,7 +40,10 @@ Chosen hold(const Tick& t) {
 Chosen stop(const Tick& t) {
   const SupervisorParams& p = t.params;
   SupervisorState& s = t.state;
-  const bool hard = s.mode == Mode::kEmergencyStop || s.steering_strayed || s.was_blind;
+  const bool biased = s.steering_bias_rad != 0.0;
+  const bool hard = s.mode == Mode::kEmergencyStop || s.steering_strayed || biased || s.was_blind;
+  steering::Learned learned = t.in.learned;
+  learned.offset_rad += s.steering_bias_rad;
   const auto& motor = t.in.signals.steering_motor_rad;
   const bool measured = s.steering_strayed && motor.fresh(t.now, kFeedbackAgeMax);
   const SafeStopInputs inputs{.stop = t.in.stop,
@@ -49,7 +52,8 @@ Chosen stop(const Tick& t) {
                               .kind = hard ? StopKind::kEmergency : StopKind::kControlled,
                               .ego = t.in.ego,
                               .tyre_c = tyres_c(t),
-                              .learned = t.in.learned,
+                              .front_slip = front_slip(t.in.signals, t.now),
+                              .learned = learned,
                               .steered_rad = measured ? motor.value / p.steering_ratio : kUnset};
   return {stop_along(following_of(p), s.safe_stop, inputs, t.now), CommandSource::kSafeStop};
 }

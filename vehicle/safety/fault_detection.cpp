@@ -231,12 +231,27 @@ world::Received<double> part_of(const world::Received<T>& whole, Part part) {
   return {whole.value.*part, whole.at, whole.received};
 }
 
+// A rod that is bent or a motor that slips on its shaft turns the wheels elsewhere than its sensor
+// says: the car shows it. Where the sensor itself is outside its bounds, that is the finding.
+void turning(Finder& f, FaultState& state, Instant now) {
+  const ActuatorParams& p = f.params.following;
+  const double excess_rad =
+      std::abs(f.in.innovation_rad) - f.in.innovation_sigma_rad - p.unexplained_max_rad;
+  const bool follows = state.steering.within == now;
+  if (!follows || !(excess_rad > 0.0)) state.explained = now;  // not a number is explained
+  f.out.steering_biased =
+      now - state.explained >= p.steering.persist && !f.is_off(Monitor::kSteeringFollows);
+  f.add(Monitor::kSteeringFollows, Cause::kSteeringStrays, f.out.steering_biased,
+        excess_rad * f.in.steering_ratio);
+}
+
 void actuators(Finder& f, FaultState& state, Instant now) {
   const ActuatorParams& p = f.params.following;
   const world::VehicleSignals& s = f.in.signals;
   const world::ActuatorCommand& reported = f.in.reported;
   if (!follows_commands(f)) {
     state.steering = state.brake_front = state.brake_rear = state.throttle = {};
+    state.explained = now;
     return;
   }
   const auto judge = [&](Monitor monitor, Cause cause, const FollowLimits& limits,
@@ -247,6 +262,7 @@ void actuators(Finder& f, FaultState& state, Instant now) {
   };
   judge(Monitor::kSteeringFollows, Cause::kSteeringStrays, p.steering, state.steering,
         reported.road_wheel_rad * f.in.steering_ratio, s.steering_motor_rad);
+  turning(f, state, now);
   judge(Monitor::kBrakeFollows, Cause::kBrakeStrays, p.brake, state.brake_front, reported.brake_kpa,
         part_of(s.brake, &world::BrakePressure::front_kpa));
   judge(Monitor::kBrakeFollows, Cause::kBrakeStrays, p.brake, state.brake_rear, reported.brake_kpa,

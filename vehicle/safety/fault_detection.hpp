@@ -48,6 +48,9 @@ struct ActuatorParams {
   FollowLimits steering{.settle_s = 0.2, .tolerance = 0.05};                // rad at the motor
   FollowLimits brake{.settle_s = 0.25, .tolerance = 200.0, .share = 0.05};  // kPa
   FollowLimits throttle{.settle_s = 0.15, .tolerance = 0.06};               // 0 .. 1
+  // Largest innovation of the learned steering, beyond one standard deviation; road wheel. It may
+  // last for steering.persist. [0.002, 0.05]
+  double unexplained_max_rad = 0.008;
   // Below it the drive-by-wire may hold the car itself; [1, 20].
   double moving_mps = 3.0;
 };
@@ -108,6 +111,8 @@ struct FaultInputs {
   // Last command to the actuators; unset before the first.
   world::ActuatorCommand reported{};
   double steering_ratio = 19.5;
+  // Of steering::Learned in this tick; unset while nothing is learned.
+  double innovation_rad = kUnset, innovation_sigma_rad = kUnset;
   double speed_mps = kUnset;  // from the wheels
 };
 
@@ -118,6 +123,7 @@ struct FaultState {
   bool bus_dead = false;
   Instant bus_dead_since{};  // time of detection
   FollowState steering, brake_front, brake_rear, throttle;
+  Instant explained{};  // last time that the car turned as its steering sensor reports
   OversteerState oversteer;
   ClockState clock;
   ComputerState computer;
@@ -127,6 +133,7 @@ struct FaultOutput {
   CauseSet causes;
   std::array<double, kCauses> values{};  // of each cause that holds
   bool drive_by_wire_gone = false;       // the bus has been dead for bus_dead_disarm
+  bool steering_biased = false;          // the car does not turn as its steering sensor reports
   world::MonitorSet seen{};              // monitors with a finding in this tick
 };
 

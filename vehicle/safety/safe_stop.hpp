@@ -34,7 +34,7 @@ struct SafeStopState {
   double speed_mps = 0.0;         // measured or dead reckoned
   double steer_offset_rad = 0.0;  // at the start: last good angle minus feed-forward
   double learned_rad = 0.0;       // trim and observer of the feedback when it ended
-  double brake_kpa = 0.0;
+  double brake_kpa = 0.0, brake_share = 1.0;
   Instant begun{};
   bool located = false;      // position known in the last tick
   FollowingState following;  // while located
@@ -46,8 +46,9 @@ struct SafeStopInputs {
   const world::ActuatorCommand& last_good;  // steering, brake, gear
   double speed_mps = kUnset;                // from the wheels
   StopKind kind = StopKind::kControlled;
-  world::EgoState ego{};   // if not valid: open loop
-  double tyre_c = kUnset;  // coldest tyre; unset counts as cold
+  world::EgoState ego{};       // if not valid: open loop
+  double tyre_c = kUnset;      // coldest tyre; unset counts as cold
+  double front_slip = kUnset;  // stop_brake.hpp
   steering::Learned learned{};
   double steered_rad = kUnset;  // measured angle if the motor does not follow; else unset
 };

@@ -25,7 +25,8 @@ double grip_left_mps2(const SafeStopParams& params, StopKind kind, const Grip& g
   const bool emergency = kind == StopKind::kEmergency;
   const double share = emergency ? params.emergency_grip_share : params.grip_share;
   const double usable = share * grip.total_mps2, lateral = grip.lateral_mps2;
-  return params.brake_share * std::sqrt(std::max(0.0, usable * usable - lateral * lateral));
+  return grip.share * params.brake_share *
+         std::sqrt(std::max(0.0, usable * usable - lateral * lateral));
 }
 
 }  // namespace
@@ -50,6 +51,21 @@ double brake_towards(const SafeStopParams& params, StopKind kind, const BrakeDem
   const double brake_mps2 = std::max(0.0, std::min(demand.decel_mps2 - free_mps2, left_mps2));
   const double target_kpa = std::min(brake_mps2 * params.brake_kpa_per_mps2, params.brake_max_kpa);
   return ramped(demand.last_kpa, target_kpa, ramp_of(params, kind), demand.dt_s);
+}
+
+double front_slip(const world::VehicleSignals& signals, Instant now) {
+  constexpr double kMoves_mps = 5.0;
+  if (!signals.wheel_speed_mps.fresh(now, kSlipAgeMax)) return kUnset;
+  const auto& [front_left, front_right, rear_left, rear_right] = signals.wheel_speed_mps.value.at;
+  if (!std::isfinite(front_left + front_right + rear_left + rear_right)) return kUnset;
+  const double fastest = std::max({front_left, front_right, rear_left, rear_right});
+  return fastest > kMoves_mps ? 1.0 - std::min(front_left, front_right) / fastest : 0.0;
+}
+
+double share_after(const SafeStopParams& params, double share, double front_slip, double dt_s) {
+  const bool locks = front_slip > params.lock_slip;
+  const double rate_per_s = locks ? -params.lock_release_per_s : params.lock_recover_per_s;
+  return std::clamp(share + rate_per_s * dt_s, params.lock_share_least, 1.0);
 }
 
 double hold_towards(const SafeStopParams& params, StopKind kind, double last_kpa, double dt_s) {

@@ -9,6 +9,7 @@
 //          Braking may use brake_share of what the corner leaves, because the front axle locks
 //          before the rear one. The deceleration by air drag, rolling resistance and engine is
 //          subtracted from the demand
+//          a front wheel that locks takes pressure back, and with it the steering returns
 //   source Rajamani, Vehicle Dynamics and Control, 2nd ed., sec. 4.1
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
@@ -16,9 +17,11 @@
 #include <array>
 #include <cstdint>
 
+#include "protocol/vocabulary/time.hpp"
 #include "protocol/vocabulary/units.hpp"
 #include "vehicle/steering/path_steering.hpp"
 #include "vehicle/world/legal_range.hpp"
+#include "vehicle/world/signals.hpp"
 #include "vehicle/world/tyre_grip.hpp"
 
 namespace pitwall::safety {
@@ -49,6 +52,10 @@ struct SafeStopParams {
   double drag_per_m = 0.0;            // drag / (mass v^2)
   double coast_mps2 = 0.0;            // rolling and engine, throttle closed
   world::TyreGrip tyres;              // grip by temperature; same as in planning
+  double lock_slip = 0.15;            // a front wheel that slips more is locking
+  double lock_release_per_s = 1.5;    // fall of the brake share while it does
+  double lock_recover_per_s = 0.1;    // rise afterwards
+  double lock_share_least = 0.5;      // whatever the wheels report; (0, 1]
 };
 
 inline constexpr auto kSafeStopRanges = std::to_array<world::NamedRange<SafeStopParams>>({
@@ -70,6 +77,10 @@ inline constexpr auto kSafeStopRanges = std::to_array<world::NamedRange<SafeStop
     {"brake_preview_s", &SafeStopParams::brake_preview_s, 0.0, 0.5},
     {"throttle_fall_per_s", &SafeStopParams::throttle_fall_per_s, 0.2, 20.0},
     {"hold_ramp_kpa_per_s", &SafeStopParams::hold_ramp_kpa_per_s, 100.0, 20000.0},
+    {"lock_slip", &SafeStopParams::lock_slip, 0.05, 0.5},
+    {"lock_release_per_s", &SafeStopParams::lock_release_per_s, 0.0, 10.0},
+    {"lock_recover_per_s", &SafeStopParams::lock_recover_per_s, 0.0, 1.0},
+    {"lock_share_least", &SafeStopParams::lock_share_least, 0.1, 1.0},
 });
 
 enum class StopKind : std::uint8_t { kControlled, kEmergency };
@@ -78,6 +89,7 @@ enum class StopKind : std::uint8_t { kControlled, kEmergency };
 struct Grip {
   double total_mps2 = kUnset, lateral_mps2 = kUnset;
   double free_mps2 = 0.0;  // deceleration without the brake
+  double share = 1.0;      // of the brake force, after front wheels that locked
 };
 // tyre_c: coldest tyre; unset counts as cold.
 Grip grip_at(const SafeStopParams& params, double speed_mps, double curvature_per_m,
@@ -94,6 +106,14 @@ struct BrakeDemand {
   double last_kpa = kUnset, dt_s = kUnset;
 };
 double brake_towards(const SafeStopParams& params, StopKind kind, const BrakeDemand& demand);
+
+// Slip of the slower front wheel against the fastest wheel. NaN if the wheel speeds are older than
+// kSlipAgeMax or one is not a number; zero for a car that hardly moves.
+inline constexpr Duration kSlipAgeMax = milliseconds(50);
+double front_slip(const world::VehicleSignals& signals, Instant now);
+
+// Next share of the brake force. An unknown slip lets it recover.
+double share_after(const SafeStopParams& params, double share, double front_slip, double dt_s);
 
 // Next pressure towards the one that holds the car at standstill, within the ramp.
 double hold_towards(const SafeStopParams& params, StopKind kind, double last_kpa, double dt_s);

@@ -40,6 +40,7 @@ struct PathPose {
   double x_m = kUnset, y_m = kUnset, yaw_rad = kUnset;
   double speed_mps = kUnset, slip_mps = 0.0;
   double yaw_rate_rad_per_s = kUnset;  // about body z; unset: yaw rate of the path
+  double front_slip = kUnset;          // stop_brake.hpp
 };
 
 struct FollowingParams {
@@ -59,6 +60,7 @@ struct FollowingState {
   double curvature_per_m = 0.0, bank_rad = 0.0;         // of the path at the car
   double speed_mps = kUnset;                            // planned speed at the car
   double tyre_c = kUnset;                               // coldest tyre; unset counts as cold
+  double brake_share = 1.0;                             // after front wheels that locked
   double steered_rad = kUnset;  // measured angle if the motor does not follow; else unset
   steering::Learned learned;    // as learned before the stop
   steering::State steering;

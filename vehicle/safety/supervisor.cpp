@@ -183,6 +183,7 @@ void enter(const Tick& t, Mode to, bool drive_by_wire_gone) {
   if (to == Mode::kStandby || to == Mode::kDriving) {
     s.safe_stop = {};
     s.engine_off = s.steering_strayed = s.was_blind = false;
+    s.steering_bias_rad = 0.0;
     s.coasts = {};
   }
   // What lasted too long is what stopped the car.
@@ -206,7 +207,10 @@ void note_lost_guidance(const Tick& t, const FaultOutput& found) {
   if (!stops(s.mode)) return;
   const bool placed = t.in.ego.validity == Validity::kGood;
   s.was_blind = s.was_blind || (found.causes.has(Cause::kImuLost) && !placed);
-  s.steering_strayed = s.steering_strayed || found.causes.has(Cause::kSteeringStrays);
+  if (found.steering_biased && s.steering_bias_rad == 0.0)
+    s.steering_bias_rad = t.in.learned.innovation_rad;
+  s.steering_strayed = s.steering_strayed ||
+                       (found.causes.has(Cause::kSteeringStrays) && s.steering_bias_rad == 0.0);
 }
 
 Follow follow_of(Mode mode) {
@@ -258,6 +262,8 @@ SupervisorOutput supervise(const SupervisorParams& params, SupervisorState& stat
                                     .computer = inputs.computer,
                                     .reported = state.last_known ? state.last : ActuatorCommand{},
                                     .steering_ratio = params.steering_ratio,
+                                    .innovation_rad = inputs.learned.innovation_rad,
+                                    .innovation_sigma_rad = inputs.learned.innovation_sigma_rad,
                                     .speed_mps = speed_mps},
                                    now);
   const bool standstill = stands(tick);

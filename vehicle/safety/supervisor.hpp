@@ -146,8 +146,9 @@ struct SupervisorState {
   // Set in a stop, until the car is armed again: the steering did not follow; neither position nor
   // inertial unit was available.
   bool steering_strayed = false, was_blind = false;
-  bool arm_used = false;      // an arm request arms once; cleared when it is withdrawn
-  bool arm_released = false;  // the request was absent at least once since the start
+  double steering_bias_rad = 0.0;  // likewise: road-wheel angle that the sensor does not show
+  bool arm_used = false;           // an arm request arms once; cleared when it is withdrawn
+  bool arm_released = false;       // the request was absent at least once since the start
   Arming arming = Arming::kNotAsked;
   world::ActuatorCommand last;  // the last command that was chosen
   bool last_known = false;

@@ -140,6 +140,7 @@ void follow_command(const LearningParams& params, Learned& learned, double comma
 void learn(const LearningParams& params, const Bicycle& car, Learned& learned, const Turning& at,
            Duration dt) {
   const double dt_s = tick_s(dt);
+  learned.innovation_rad = learned.innovation_sigma_rad = kUnset;
   if (!(at.speed_mps > kLearnFrom_mps && dt_s > 0.0)) return;
   const double a_mps2 = lateral_mps2(at);
   const double missing_rad = residual_rad(car, learned, at);
@@ -152,7 +153,12 @@ void learn(const LearningParams& params, const Bicycle& car, Learned& learned, c
   const double turning = learned.turning_rad_per_s;
   const double variance =
       (square(params.residual_sigma_rad) + square(kLagDoubt_s * turning)) * kCorrelation_s / dt_s;
-  correct(learned, {1.0, a_mps2, a_mps2 * bends(a_mps2), turning}, missing_rad, variance);
+  const Numbers h{1.0, a_mps2, a_mps2 * bends(a_mps2), turning};
+  learned.innovation_rad = missing_rad;
+  learned.innovation_sigma_rad =
+      std::sqrt(std::max(product(h, product(learned.covariance, h)), 0.0) +
+                square(params.residual_sigma_rad) + square(kLagDoubt_s * turning));
+  correct(learned, h, missing_rad, variance);
 }
 
 }  // namespace pitwall::steering

@@ -66,12 +66,15 @@ double steer(const Params& p, const Learned& learned, State& s, const SteeringIn
       angle_rad(p.bicycle, learned, {speed_mps, in.ahead.curvature_per_m, in.ahead.bank_rad});
   const double known_rad = forward_rad + per_curvature_m * feedback_per_m + s.unknown_rad;
   if (!std::isfinite(known_rad)) return in.last_angle_rad;
+  if (speed_mps < p.hold_speed_mps) {  // the wheels would turn on the spot
+    s.begun = false;
+    return in.last_angle_rad;
+  }
   if (!s.begun) {
     s.begun = true;
     s.trim_rad = 0.0;
     s.bump_rad = in.last_angle_rad - known_rad;
   }
-  if (speed_mps < p.hold_speed_mps) return in.last_angle_rad;  // the wheels would turn on the spot
   const double trim_per_m = p.trim_per_s * per_curvature_m * w * w / (v_mps * v_mps);
   const double raw_rad = known_rad + s.trim_rad + s.bump_rad;
   const double angle_rad = std::clamp(raw_rad, -in.angle_max_rad, in.angle_max_rad);

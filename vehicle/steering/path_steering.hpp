@@ -14,7 +14,7 @@
 //                   learned_steering.hpp
 //            trim = -trim_per_s * A w^2 / v^2 * integral of e
 //          bump makes the first angle equal to the last angle of the previous controller; it decays
-//          over settle_s. Below hold_speed_mps the angle is held
+//          over settle_s. Below hold_speed_mps the angle is held, and the law begins anew
 //   errors none: if a value is not a number the last angle is held
 //   cost   O(1), no allocation
 //   source Rajamani, Vehicle Dynamics and Control, 2nd ed., eq. 3.12 (feed-forward), with the

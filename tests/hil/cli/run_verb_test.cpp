@@ -111,7 +111,7 @@ TEST_F(RunVerb, AWallEndsTheRunAndIsFour) {
   EXPECT_LT(json->root().number("simulated_s", 0, 100), 60.0);
   EXPECT_NE(text_of("report/report.html").find("CONTACT"), std::string::npos);
   EXPECT_NE(text_of("report/junit.xml").find("<failure message=\"CONTACT: "), std::string::npos);
-  EXPECT_EQ(run({"run", spoilt("steering_stuck.yaml", "at_most_mps: 63", "at_most_mps: 5")}).code,
+  EXPECT_EQ(run({"run", spoilt("steering_stuck.yaml", "at_most_mps: 64", "at_most_mps: 5")}).code,
             4);
 }
 

@@ -19,6 +19,14 @@ TEST(Cars, StopFromSpeedWithoutSpinOrContactWithinTheirEllipse) {
   EXPECT_EQ(print_survey(cars, stops), 0U);
 }
 
+// 65 % of its brake force acts in front, and it has little grip: in an emergency a front wheel
+// locks, and a wheel that stays locked does not steer.
+TEST(Cars, ACarWhoseFrontWheelsLockKeepsItsSteering) {
+  const std::array cars{plant::drawn_car(kSeed, 48)};
+  const std::array places{kStopPlaces[0], kStopPlaces[4]};
+  EXPECT_EQ(print_survey(cars, survey(cars, places, 2)), 0U);
+}
+
 // A judge that sees nothing would pass everything.
 TEST(Cars, AStopThatIsNoneFails) {
   CarStopFigures f{.begun = true, .stood = true, .use = 0.5};

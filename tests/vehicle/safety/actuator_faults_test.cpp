@@ -22,6 +22,7 @@ struct Axle {
   Instant now = Instant{} + seconds(10);
   world::ActuatorCommand reported{
       .at = {}, .road_wheel_rad = 0.02, .throttle_fraction = 0.4, .brake_kpa = 1000.0, .gear = 4};
+  double innovation_rad = 0.0, innovation_sigma_rad = 0.001;
   double steering_off_rad = 0.0, front_kept = 1.0, rear_kept = 1.0, throttle_off = 0.0;
   bool moves = true;
   double speed_mps = 50.0;
@@ -45,6 +46,8 @@ struct Axle {
                    .driving = moves,
                    .moves = moves,
                    .reported = reported,
+                   .innovation_rad = innovation_rad,
+                   .innovation_sigma_rad = innovation_sigma_rad,
                    .speed_mps = speed_mps},
                   now);
   }
@@ -60,9 +63,11 @@ struct ActuatorCase {
   Monitor monitor;
   std::function<void(Axle&)> spoil;
 };
-const std::array<ActuatorCase, 5> kActuatorCases{{
+const std::array<ActuatorCase, 6> kActuatorCases{{
     {Cause::kSteeringStrays, Monitor::kSteeringFollows,
      [](Axle& a) { a.steering_off_rad = -0.06; }},
+    {Cause::kSteeringStrays, Monitor::kSteeringFollows,
+     [](Axle& a) { a.innovation_rad = -0.0091; }},
     {Cause::kBrakeStrays, Monitor::kBrakeFollows, [](Axle& a) { a.front_kept = 0.7; }},
     {Cause::kBrakeStrays, Monitor::kBrakeFollows, [](Axle& a) { a.rear_kept = 0.7; }},
     {Cause::kThrottleStrays, Monitor::kThrottleFollows, [](Axle& a) { a.throttle_off = 0.07; }},
@@ -100,8 +105,44 @@ TEST(ActuatorFaults, WhatTheDriveByWireDoesByItselfIsNoFaultOfTheActuators) {
     }
 }
 
+// A bent rod is told from a motor that does not follow: only the first leaves the sensor right.
+TEST(ActuatorFaults, ACarThatTurnsElsewhereThanItsSteeringReportsIsBiased) {
+  struct Case {
+    double innovation_rad, sigma_rad, sensor_off_rad;
+    bool strays, biased;
+  };
+  for (const Case& c :
+       {Case{0.0091, 0.001, 0.0, true, true}, Case{0.0089, 0.001, 0.0, false, false},
+        Case{-0.0191, 0.011, 0.0, true, true}, Case{0.0191, 0.012, 0.0, false, false},
+        Case{0.02, 0.001, 0.1, true, false}, Case{kUnset, 0.001, 0.0, false, false},
+        Case{0.02, kUnset, 0.0, false, false}}) {
+    Axle a;
+    a.run(seconds(1));
+    a.innovation_rad = c.innovation_rad;
+    a.innovation_sigma_rad = c.sigma_rad;
+    a.steering_off_rad = c.sensor_off_rad;
+    const FaultOutput out = a.run(milliseconds(150));
+    EXPECT_EQ(out.causes.has(Cause::kSteeringStrays), c.strays) << c.innovation_rad;
+    EXPECT_EQ(out.steering_biased, c.biased) << c.innovation_rad;
+  }
+}
+
+TEST(ActuatorFaults, AnInnovationOfOneBumpIsNoBias) {
+  Axle a;
+  a.run(seconds(1));
+  for (int bump = 0; bump < 20; ++bump) {
+    a.innovation_rad = 0.03;
+    EXPECT_FALSE(a.run(milliseconds(90)).steering_biased);
+    a.innovation_rad = 0.0;
+    EXPECT_FALSE(a.run(milliseconds(10)).steering_biased);
+  }
+  a.innovation_rad = 0.03;
+  EXPECT_TRUE(a.run(milliseconds(100)).steering_biased);
+}
+
 TEST(ActuatorFaults, WithinTheToleranceIsNone) {
   Axle a;
+  a.innovation_rad = 0.0085;
   a.steering_off_rad = 0.045;
   a.front_kept = a.rear_kept = 0.8;
   a.throttle_off = -0.055;

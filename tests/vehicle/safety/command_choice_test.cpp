@@ -108,6 +108,35 @@ TEST(CommandChoice, AStopThatMayLeaveItsPathBrakesAsAnEmergency) {
   EXPECT_GT(pressure_kpa(false, true, true), 1.2 * smooth_kpa);
 }
 
+// Beside a twin that the operator stops, for the same path and pose.
+TEST(CommandChoice, AStopSteersWithTheBiasThatTheSteeringSensorDoesNotShow) {
+  constexpr double kBias_rad = 0.02;
+  const auto stopped = [](bool biased) {
+    Drive d;
+    d.race();
+    d.run(milliseconds(500));
+    d.car.requests.stop = !biased;
+    d.learned.innovation_rad = biased ? kBias_rad : 0.0;
+    d.learned.innovation_sigma_rad = 0.001;
+    for (int tick = 0; tick < 500; ++tick) {
+      d.speed_mps = d.car.ego.vx_mps = 40.0;
+      d.car.signals.steering_motor_rad = {d.out.command.road_wheel_rad * d.params.steering_ratio,
+                                          d.now, true};
+      d.tick();
+      if (d.out.mode == Mode::kControlledStop) d.learned.innovation_rad = 0.001;
+    }
+    return d;
+  };
+  const Drive calm = stopped(false), biased = stopped(true);
+  EXPECT_EQ(biased.out.mode, Mode::kControlledStop);
+  EXPECT_EQ(biased.state.log.first.cause, Cause::kSteeringStrays);
+  EXPECT_EQ(biased.state.steering_bias_rad, kBias_rad) << "that of the moment it was found";
+  EXPECT_FALSE(biased.state.steering_strayed) << "its motor follows";
+  EXPECT_NEAR(biased.out.command.road_wheel_rad - calm.out.command.road_wheel_rad, kBias_rad,
+              0.02 * kBias_rad);
+  EXPECT_GT(biased.out.command.brake_kpa, 1.2 * calm.out.command.brake_kpa);
+}
+
 // The engine goes off at any speed where, and only where, a stop's throttle stays open.
 TEST(CommandChoice, AThrottleThatStaysOpenInAStopTurnsTheEngineOff) {
   for (const bool stuck : {false, true}) {

@@ -21,6 +21,7 @@ struct Drive {
   Instant now = Instant{} + seconds(5);
   bool wheels_known = true;
   SupervisorOutput out;
+  steering::Learned learned{};
 
   const SupervisorOutput& tick() {
     now += milliseconds(10);
@@ -41,7 +42,8 @@ struct Drive {
                      .gate_refused = car.gate_refused,
                      .operator_requests = car.requests,
                      .last_run_armed = car.last_run_armed,
-                     .radio = car.radio},
+                     .radio = car.radio,
+                     .learned = learned},
                     now);
     const double brake = std::isfinite(out.command.brake_kpa) ? out.command.brake_kpa : 0.0;
     const double pedal =

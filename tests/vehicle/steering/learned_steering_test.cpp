@@ -151,13 +151,16 @@ TEST(LearnedSteering, IsTheKalmanFilterOfItsModel) {
     const double bent = std::min(std::abs(a), 18.0);
     const std::array h{1.0, a, a * bent * bent, turning};
     const double r = (1e-6 + 0.01 * turning * turning) * 0.5 / kTick.seconds();
-    double s = r, predicted = 0.0;
+    double s = r, known = 1e-6 + 0.01 * turning * turning, predicted = 0.0;
     std::array<double, n> k{};
     for (std::size_t i = 0; i < n; ++i) {
       predicted += h[i] * x[i];
       for (std::size_t j = 0; j < n; ++j) k[i] += p[i][j] * h[j];
       s += h[i] * k[i];
+      known += h[i] * k[i];
     }
+    ASSERT_NEAR(car.learned.innovation_rad, z - predicted, 1e-9);
+    ASSERT_NEAR(car.learned.innovation_sigma_rad, std::sqrt(known), 1e-9);
     Matrix left{}, next{};
     for (std::size_t i = 0; i < n; ++i) x[i] += k[i] / s * (z - predicted);
     for (std::size_t i = 0; i < n; ++i)
@@ -243,8 +246,12 @@ TEST(LearnedSteering, WhatIsNoNumberAndASlowCarChangeNothing) {
     learn(kParams, kModel, learned, {slow_mps, 0.5, 0.2}, kTick);
     EXPECT_TRUE(same(learned, before)) << slow_mps;
   }
+  EXPECT_TRUE(std::isnan(learned.innovation_rad + learned.innovation_sigma_rad));
   learn(kParams, kModel, learned, {40.0, 0.2, 0.1}, kTick);
   EXPECT_FALSE(same(learned, before)) << "and a fast one does";
+  EXPECT_TRUE(std::isfinite(learned.innovation_rad + learned.innovation_sigma_rad));
+  learn(kParams, kModel, learned, {14.9, 0.2, 0.1}, kTick);
+  EXPECT_TRUE(std::isnan(learned.innovation_rad)) << "not the one of a tick before";
 }
 
 TEST(LearnedSteering, LeftAndRightAreMirrorImages) {

@@ -9,6 +9,8 @@
 namespace pitwall::control {
 namespace {
 
+constexpr double kDriftFrom_mps = 5.0;  // below, the noise of the slip is not a course
+
 using world::EgoState;
 using world::TrajectoryPoint;
 
@@ -19,7 +21,8 @@ struct Errors {
 Errors errors_at(const TrajectoryPoint& p, const EgoState& ego) {
   const double dx_m = ego.x_m - p.x_m, dy_m = ego.y_m - p.y_m;
   const double heading_rad = wrap_pi(ego.yaw_rad - p.yaw_rad);
-  const double drift_rad = std::atan2(ego.vy_mps * std::cos(p.bank_rad), std::max(ego.vx_mps, 1.0));
+  const double drift_rad =
+      std::atan2(ego.vy_mps * std::cos(p.bank_rad), std::max(ego.vx_mps, kDriftFrom_mps));
   return {-dx_m * std::sin(p.yaw_rad) + dy_m * std::cos(p.yaw_rad), heading_rad,
           heading_rad + drift_rad};
 }
