@@ -20,11 +20,10 @@ constexpr std::array kBounded{std::pair{RacingFault::kSteeringStuck, Loss::kStee
                               std::pair{RacingFault::kReference, Loss::kReference},
                               std::pair{RacingFault::kComputer, Loss::kComputer}};
 
-// What does not hold yet, and has to be told once it does: without any brake the car rolls past the
-// end of its path; a slow motor cannot turn the wheels as far as the car that understeers needs.
+// What does not hold yet, and has to be told once it does: a slow motor cannot turn the wheels back
+// as fast as the car that understeers needs.
 bool is_open(const std::string& car, RacingFault fault) {
-  return fault == RacingFault::kBrakeFree ||
-         (fault == RacingFault::kSteeringSlow && car == "av21_putnam");
+  return fault == RacingFault::kSteeringSlow && car == "av21_putnam";
 }
 
 class RacingFaults : public ::testing::TestWithParam<const char*> {};

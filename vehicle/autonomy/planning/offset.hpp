@@ -21,13 +21,16 @@ constexpr Offset operator+(const Offset& a, const Offset& b) {
   return {a.n_m + b.n_m, a.slope + b.slope, a.bend_per_m + b.bend_per_m};
 }
 
-// No length: it is `to` everywhere. A change is no longer than half a lap: what lies further behind
-// than that counts as before it.
+// No length: it is `to` everywhere.
 struct OffsetChange {
   double from_s_m = kUnset, length_m = 0.0;
   double from_m = 0.0, to_m = 0.0;
 };
 
+// Along a way that does not close.
+Offset offset_at(const OffsetChange& change, double s_m);
+// Along the line. A change is no longer than half a lap: what lies further behind than that counts
+// as before it.
 Offset offset_at(const Line& line, const OffsetChange& change, double s_m);
 // Whether s lies behind the change.
 bool is_over(const Line& line, const OffsetChange& change, double s_m);
