@@ -46,6 +46,12 @@ class LostCar {
     return {};
   }
 
+  double angle_rad(const world::TrackPoint& at, double speed_mps) const {
+    const double k = at.curvature_per_m * std::cos(at.bank_rad);
+    return wheelbase_m_ * k +
+           understeer_ * (speed_mps * speed_mps * k - kGravity_mps2 * std::sin(at.bank_rad));
+  }
+
  private:
   void begin(double s_m, double error) {
     const world::TrackPoint at =
@@ -58,12 +64,6 @@ class LostCar {
     steps_ = 0;
     noticed_s_ = of_.loss == Loss::kSteering ? kLongest_s : 0.0;
     held_rad_ = angle_rad(at, speed_mps_);
-  }
-
-  double angle_rad(const world::TrackPoint& at, double speed_mps) const {
-    const double k = at.curvature_per_m * std::cos(at.bank_rad);
-    return wheelbase_m_ * k +
-           understeer_ * (speed_mps * speed_mps * k - kGravity_mps2 * std::sin(at.bank_rad));
   }
 
   double curvature_per_m(const plant::Road& road) const {
@@ -196,6 +196,16 @@ ImpactBound bound_impact(const ImpactCase& of) {
     }
   }
   return bound;
+}
+
+double steering_rate_rad_per_s(const ImpactCase& of) {
+  const LostCar car{of};
+  const world::TrackMap& track = of.setup.track;
+  double most_rad = 0.0;
+  for (double s_m = 0.0; s_m < track.length_m(); s_m += kEvery_m)
+    most_rad = std::max(most_rad, std::abs(car.angle_rad(track.at(s_m + kEvery_m), of.speed_mps) -
+                                           car.angle_rad(track.at(s_m), of.speed_mps)));
+  return most_rad / kEvery_m * of.speed_mps;
 }
 
 }  // namespace pitwall::testing

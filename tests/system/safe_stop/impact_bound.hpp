@@ -66,4 +66,7 @@ struct ImpactCase {
 };
 ImpactBound bound_impact(const ImpactCase& of);
 
+// The fastest that the wheels of the modelled car turn along the line, at a constant speed.
+double steering_rate_rad_per_s(const ImpactCase& of);
+
 }  // namespace pitwall::testing

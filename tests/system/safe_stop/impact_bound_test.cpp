@@ -11,6 +11,7 @@
 #include "hil/bench/loading.hpp"
 #include "tests/hil/plant/shipped.hpp"
 #include "tests/system/cars/car_stops.hpp"
+#include "tests/system/safe_stop/racing_faults.hpp"
 
 namespace pitwall::testing {
 namespace {
@@ -71,6 +72,22 @@ TEST(ImpactBound, KeepsTheEnergyOfTheBrake) {
   };
   EXPECT_LE(hit.speed_mps, left_mps(brake_mps2, hit.after_m - late_m));
   EXPECT_GE(hit.speed_mps, left_mps(brake_mps2 + air_mps2 + 0.2, hit.after_m));
+}
+
+// v dk/ds (L + K v^2) where the curvature of Las Vegas rises fastest, from 440 to 475 m; banking
+// takes off at most a fifth. A motor of 6 degrees per second can do that of our own car only.
+TEST(ImpactBound, KnowsHowFastTheMotorHasToTurn) {
+  const auto motor_rad_per_s = [](const char* name) {
+    const plant::Params car = plant_of(name);
+    return car.steering.ratio *
+           steering_rate_rad_per_s({Loss::kSteering, lvms(), car, kRacing_mps});
+  };
+  const double flat_rad_per_s = 19.5 * kRacing_mps * (0.00416 - 0.00345) / 35.0 *
+                                (2.971 + 0.0022 * kRacing_mps * kRacing_mps);
+  EXPECT_LE(motor_rad_per_s("av21_putnam"), flat_rad_per_s);
+  EXPECT_GE(motor_rad_per_s("av21_putnam"), 0.8 * flat_rad_per_s);
+  EXPECT_GT(motor_rad_per_s("av21_putnam"), kSlowMotor_rad_per_s);
+  EXPECT_LT(motor_rad_per_s("av21"), kSlowMotor_rad_per_s);
 }
 
 // A scenario names the hardest of the three cars, rounded up to the next metre per second.

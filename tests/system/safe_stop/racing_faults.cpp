@@ -29,7 +29,7 @@ constexpr double kTickOfCar_s = 0.01, kLongestRun_s = 200.0, kStoodBelow_mps = 0
                  kWarmTyres_c = 85.0;
 constexpr double kStart_m = 1250.0, kMoves_mps = 15.0, kSlipAbove_mps = 5.0;
 constexpr double kStopAfter_s = 1.0;  // the operator's
-constexpr double kSlow_rad_per_s = 0.1047, kDrags_kpa = 1500.0, kWorthless = 1000.0;
+constexpr double kDrags_kpa = 1500.0, kWorthless = 1000.0;
 
 scenario::Scenario lead_in(const plant::Params& plant) {
   scenario::Scenario s = flying_lap("lvms").scenario;
@@ -50,7 +50,7 @@ scenario::Scenario lead_in(const plant::Params& plant) {
 std::vector<BenchFault> faults_of(RacingFault fault) {
   switch (fault) {
     case RacingFault::kSteeringSlow:
-      return {{.kind = BenchFaultKind::kSteeringSlow, .value = kSlow_rad_per_s}};
+      return {{.kind = BenchFaultKind::kSteeringSlow, .value = kSlowMotor_rad_per_s}};
     case RacingFault::kThrottleStuck:
       return {{.kind = BenchFaultKind::kThrottleStuck}};
     case RacingFault::kBrakeFree:

@@ -17,7 +17,7 @@
 namespace pitwall::testing {
 
 enum class RacingFault : std::uint8_t {
-  kSteeringSlow,  // 6 degrees per second at the motor
+  kSteeringSlow,  // kSlowMotor
   kThrottleStuck,
   kBrakeFree,   // the pressure stays zero
   kBrakeDrags,  // a pressure that stays applied
@@ -44,6 +44,7 @@ struct RacingFigures {
 using RacingResults = std::array<RacingFigures, kRacingFaults>;
 
 inline constexpr double kRacingTurn_m = 700.0;  // station of the turn
+inline constexpr double kSlowMotor_rad_per_s = 0.1047;
 
 RacingResults race_into_faults(const plant::Params& plant);
 std::string row_of(RacingFault fault, const RacingFigures& figures);

@@ -6,15 +6,19 @@
 namespace pitwall::planning {
 namespace {
 
-double share_along(const Line& line, const OffsetChange& c, double s_m) {
-  return std::remainder(s_m - c.from_s_m, line.length_m) / c.length_m;
+double beyond_m(const Line& line, const OffsetChange& c, double s_m) {
+  return std::remainder(s_m - c.from_s_m, line.length_m);
 }
 
 }  // namespace
 
 Offset offset_at(const Line& line, const OffsetChange& c, double s_m) {
+  return offset_at(c, c.from_s_m + beyond_m(line, c, s_m));
+}
+
+Offset offset_at(const OffsetChange& c, double s_m) {
   if (!(c.length_m > 0.0)) return {c.to_m, 0.0, 0.0};
-  const double u = share_along(line, c, s_m);
+  const double u = (s_m - c.from_s_m) / c.length_m;
   if (u <= 0.0) return {c.from_m, 0.0, 0.0};
   if (u >= 1.0) return {c.to_m, 0.0, 0.0};
   const double u2 = u * u, v = 1.0 - u, l = c.length_m, rise_m = c.to_m - c.from_m;
@@ -23,7 +27,7 @@ Offset offset_at(const Line& line, const OffsetChange& c, double s_m) {
 }
 
 bool is_over(const Line& line, const OffsetChange& c, double s_m) {
-  return !(c.length_m > 0.0) || share_along(line, c, s_m) >= 1.0;
+  return !(c.length_m > 0.0) || beyond_m(line, c, s_m) >= c.length_m;
 }
 
 double curvature_beside(double line_curvature_per_m, const Offset& o) {

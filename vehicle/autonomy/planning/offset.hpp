@@ -21,13 +21,16 @@ constexpr Offset operator+(const Offset& a, const Offset& b) {
   return {a.n_m + b.n_m, a.slope + b.slope, a.bend_per_m + b.bend_per_m};
 }
 
-// With length zero the offset is `to` everywhere. A change is at most half a lap long: a station
-// more than half a lap behind counts as before it.
+// With length zero the offset is `to` everywhere.
 struct OffsetChange {
   double from_s_m = kUnset, length_m = 0.0;
   double from_m = 0.0, to_m = 0.0;
 };
 
+// Along a path that does not close.
+Offset offset_at(const OffsetChange& change, double s_m);
+// Along the closed line. A change is at most half a lap long: a station more than half a lap behind
+// counts as before it.
 Offset offset_at(const Line& line, const OffsetChange& change, double s_m);
 // Whether s is past the end of the change.
 bool is_over(const Line& line, const OffsetChange& change, double s_m);

@@ -67,8 +67,9 @@ world::Trajectory trajectory(const Line& line, double line_s_m, OffsetAt offset,
   out.at = now;
   double s_m = 0.0;
   for (std::size_t i = 0; i < profile.at.size(); ++i) {
-    const LinePoint p = line.at(line_s_m + static_cast<double>(i) * profile.spacing_m);
-    const Beside at = beside(p, offset(p.s_m));
+    const double ahead_m = static_cast<double>(i) * profile.spacing_m;
+    const LinePoint p = line.at(line_s_m + ahead_m);
+    const Beside at = beside(p, offset(ahead_m));
     if (i > 0) s_m += std::hypot(at.x_m - out.points.back().x_m, at.y_m - out.points.back().y_m);
     const bool pushed = out.points.push({.s_m = s_m,
                                          .x_m = at.x_m,
@@ -119,7 +120,10 @@ Limits limits_of(const Params& p, const Inputs& in, double demand_mps, double sp
 // The path that is followed stays; before, it is chosen anew from where the car is.
 void plan_stop_path(const Params& params, const Line& line, const LinePosition& car,
                     double speed_mps, Followed followed, const StopLimits& limits, State& state) {
-  if (stops(followed) && state.stop.chosen) return;
+  if (stops(followed) && state.stop.chosen) {
+    state.stop.gone_m += std::remainder(car.s_m - state.line_s_m, line.length_m);
+    return;
+  }
   const double aside_m = car.offset_m - offset_at(line, state.merge, car.s_m).n_m;
   state.stop = choose_stop(
       line, {.s_m = car.s_m, .speed_mps = speed_mps, .merge = state.merge, .beside_m = aside_m},
@@ -242,9 +246,11 @@ Output step(const Params& params, const Line& line, const world::TrackMap& track
 
   const SpeedProfile stopping = stop_profile(road, now_at, limits.stop, kBeyondStop_m);
   out.stop = trajectory(
-      line, car.s_m, [&](double s_m) { return offset_at(line, next.stop, s_m); }, stopping, now);
+      line, car.s_m,
+      [&](double ahead_m) { return offset_at(next.stop, next.stop.gone_m + ahead_m); }, stopping,
+      now);
   out.drive = trajectory(
-      line, car.s_m, [&](double s_m) { return offset_at(line, next.merge, s_m); },
+      line, car.s_m, [&](double ahead_m) { return offset_at(line, next.merge, car.s_m + ahead_m); },
       drive_profile(line, car.s_m, now_at, limits.drive, params.point_spacing_m), now);
   const LinePoint here = line.at(car.s_m);
   const double limit = limit_mps(here, limits.drive);

@@ -96,25 +96,47 @@ bool is_carried(const StopLimits& limits, const LinePoint& p, const Offset& with
          demand <= std::abs(lateral_demand_mps2(load(without)));
 }
 
-bool is_clear(const LinePoint& p, double clearance_m, double without_m, double with_m) {
-  const double left_m = std::min(clearance_m, p.room_left_m - without_m);
-  const double right_m = std::min(clearance_m, p.room_right_m + without_m);
-  return p.room_left_m - with_m >= left_m && p.room_right_m + with_m >= right_m;
+// Clear, or no nearer than one of two others is.
+bool is_clear(const LinePoint& p, double clearance_m, double n_m, double one_m, double other_m) {
+  const double left_m = std::min(clearance_m, p.room_left_m - std::max(one_m, other_m));
+  const double right_m = std::min(clearance_m, p.room_right_m + std::min(one_m, other_m));
+  return p.room_left_m - n_m >= left_m && p.room_right_m + n_m >= right_m;
+}
+
+// How far weak brakes may take it, in points.
+std::size_t reach_of(const Slowing& slowing) {
+  const double beyond_m = std::max(kBeyond_m, kBeyondShare * distance_m(slowing.stands));
+  return std::min(slowing.stands + static_cast<std::size_t>(beyond_m / kRoadStep_m), kRoadPoints);
+}
+
+// Slow enough for a car that has not slowed down at all.
+void lead_back(StopPath& path, double from_m, double speed_mps) {
+  const double n_m = path.beside_m + path.low.to_m;
+  if (n_m == 0.0) return;
+  const double carried_m = speed_mps * std::sqrt(kLargestBend * std::abs(n_m) / kChangeMost_mps2);
+  path.back = {.from_s_m = from_m,
+               .length_m = std::max(carried_m, kChangeLeast_m),
+               .from_m = 0.0,
+               .to_m = -n_m};
 }
 
 bool is_possible(const Line& line, const StopPath& path, const StopFrom& from,
                  const StopLimits& limits, const StopPathParams& params, const Slowing& slowing) {
   StopPath straight_on = path;
-  straight_on.low = {};
-  const double beyond_m = std::max(kBeyond_m, kBeyondShare * distance_m(slowing.stands));
-  const std::size_t end =
-      std::min(slowing.stands + static_cast<std::size_t>(beyond_m / kRoadStep_m), kRoadPoints);
-  for (std::size_t i = 0; i < end; ++i) {
-    const double s_m = from.s_m + distance_m(i);
-    const LinePoint& p = closest(line, s_m);
-    const Offset with = offset_at(line, path, s_m), without = offset_at(line, straight_on, s_m);
-    if (!is_clear(p, params.clearance_m, without.n_m, with.n_m)) return false;
+  straight_on.low = straight_on.back = {};
+  const std::size_t reach = reach_of(slowing);
+  for (std::size_t i = 0; i < reach; ++i) {
+    const LinePoint& p = closest(line, from.s_m + distance_m(i));
+    const Offset with = offset_at(path, distance_m(i)),
+                 without = offset_at(straight_on, distance_m(i));
+    if (!is_clear(p, params.clearance_m, with.n_m, without.n_m, without.n_m)) return false;
     if (!is_carried(limits, p, without, with, slowing.speed2[i])) return false;
+  }
+  const double back_m = distance_m(reach) + path.back.length_m;
+  for (std::size_t i = reach; distance_m(i) < back_m; ++i) {
+    const LinePoint& p = closest(line, from.s_m + distance_m(i));
+    if (!is_clear(p, params.clearance_m, offset_at(path, distance_m(i)).n_m, path.beside_m, 0.0))
+      return false;
   }
   return true;
 }
@@ -128,9 +150,10 @@ double way_down_m(const LinePoint& place, double offset_m, double clearance_m) {
 
 }  // namespace
 
-Offset offset_at(const Line& line, const StopPath& path, double s_m) {
+Offset offset_at(const StopPath& path, double gone_m) {
   const Offset aside{path.beside_m, 0.0, 0.0};
-  return aside + offset_at(line, path.merge, s_m) + offset_at(line, path.low, s_m);
+  return aside + offset_at(path.merge, gone_m) + offset_at(path.low, gone_m) +
+         offset_at(path.back, gone_m);
 }
 
 RoadAhead road_ahead(const Line& line, const StopPath& path, double s_m) {
@@ -138,7 +161,8 @@ RoadAhead road_ahead(const Line& line, const StopPath& path, double s_m) {
   for (std::size_t i = 0; i < kRoadPoints; ++i) {
     const double at_m = s_m + distance_m(i);
     const LinePoint& p = closest(line, at_m);
-    road.at[i] = {curvature_beside(p.curvature_per_m, offset_at(line, path, at_m)), p.bank_rad};
+    const Offset offset = offset_at(path, path.gone_m + distance_m(i));
+    road.at[i] = {curvature_beside(p.curvature_per_m, offset), p.bank_rad};
   }
   return road;
 }
@@ -148,27 +172,31 @@ StopPath choose_stop(const Line& line, const StopFrom& from, const StopLimits& l
   StopPath path;
   path.chosen = true;
   path.merge = from.merge;
+  path.merge.from_s_m = std::remainder(from.merge.from_s_m - from.s_m, line.length_m);
   path.beside_m = from.beside_m;
   const RoadAhead road = road_ahead(line, path, from.s_m);
   Slowing slowing;
   path.decel_share = choose_decel(line, road, from, limits, params, slowing);
-  const double stop_s_m = from.s_m + distance_m(std::min(slowing.stands, kRoadPoints - 1));
+  const double stop_m = distance_m(std::min(slowing.stands, kRoadPoints - 1));
   const double down_m =
-      way_down_m(closest(line, stop_s_m), offset_at(line, path, stop_s_m).n_m, params.clearance_m);
+      way_down_m(closest(line, from.s_m + stop_m), offset_at(path, stop_m).n_m, params.clearance_m);
+  const double reach_m = distance_m(reach_of(slowing));
   const double low_m = distance_m(slowing.low);
   const StopLimits softer = softened(limits, path.decel_share);
   for (const double share : kChangeShares) {
     if (std::abs(share * down_m) < kShiftLeast_m) break;
     for (const double begin : kBegins) {
       StopPath tried = path;
-      tried.low = {.from_s_m = from.s_m + begin * low_m,
+      tried.low = {.from_s_m = begin * low_m,
                    .length_m = (1.0 - begin) * low_m,
                    .from_m = 0.0,
                    .to_m = share * down_m};
       if (tried.low.length_m < kChangeLeast_m) break;
+      lead_back(tried, reach_m, from.speed_mps);
       if (is_possible(line, tried, from, softer, params, slowing)) return tried;
     }
   }
+  lead_back(path, reach_m, from.speed_mps);
   return path;
 }
 

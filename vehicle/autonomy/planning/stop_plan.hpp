@@ -1,6 +1,7 @@
 // Planner of stop paths: from the car, parallel to the line, down to the low side of the banking
 // while the car is still fast (a slow car slides down), and to a straight and level place if the
-// stopping distance reaches one.
+// stopping distance reaches one. Behind all that weak brakes may take it leads back to the line,
+// along which a car that does not stop is steered round the track.
 //   in     the line; the car's position along it and speed; the change of offset that the drive
 //          trajectory is in; the speed limits of a stop
 //   out    StopPath: a path that begins at the car, with the direction and the curvature of the
@@ -8,8 +9,9 @@
 //   invariants
 //          the change to the low side needs at most kChangeMost_mps2 of lateral acceleration, and
 //          at most what the corner leaves of the share of the friction ellipse at the speed there;
-//          it is complete where the car reaches low_speed. The path keeps clearance_m from the
-//          walls; a car that is nearer already comes no nearer
+//          it is complete where the car reaches low_speed. The way back needs no more at the speed
+//          that the stop begins with. The path keeps clearance_m from the walls; a car that is
+//          nearer already comes no nearer, and neither does a line that is
 //   frames Map; offsets positive left
 //   errors none: if nothing better is possible the path stays parallel to the line
 //   cost   O(kRoadPoints) per tried place and change, below 0.2 ms; no allocation
@@ -36,15 +38,20 @@ inline constexpr auto kStopPathRanges = std::to_array<world::NamedRange<StopPath
     {"stretch_max", &StopPathParams::stretch_max, 1.0, 2.0},
 });
 
+// Its changes are placed by the distance along the line since it was chosen: it may be longer than
+// a lap.
 struct StopPath {
   bool chosen = false;
+  double gone_m = 0.0;       // distance of the car since the path was chosen
   OffsetChange merge;        // change of the drive trajectory when the path was chosen
   double beside_m = 0.0;     // offset of the car from the drive trajectory then
   OffsetChange low;          // change to the low side
+  OffsetChange back;         // change from there back to the line
   double decel_share = 1.0;  // of the largest deceleration
 };
 
-Offset offset_at(const Line& line, const StopPath& path, double s_m);
+Offset offset_at(const StopPath& path, double gone_m);
+// From the car, which is at s of the line.
 RoadAhead road_ahead(const Line& line, const StopPath& path, double s_m);
 
 struct StopFrom {

@@ -1,5 +1,6 @@
 // Laws of the stop: for random speeds, roads and tyres it stays inside its share of the ellipse,
-// slows only, keeps its jerk, keeps its distance to the walls, ends lower, and never steps.
+// slows only, keeps its jerk, keeps its distance to the walls, ends lower, never steps, and leads a
+// car that does not slow down back to the line.
 // SPDX-License-Identifier: Apache-2.0
 #include "vehicle/autonomy/planning/stop_plan.hpp"
 
@@ -115,7 +116,7 @@ TEST(StopPlan, PathEndsNoHigherKeepsItsClearanceAndNeverSteps) {
         for (const double aside : {-1.5, 0.0, 1.0}) {
           const StopPath path =
               choose_stop(rig.line, {s, v, {}, aside}, limits_on(tyre_c), kParams.stop_path);
-          const Offset first = offset_at(rig.line, path, s);
+          const Offset first = offset_at(path, 0.0);
           EXPECT_NEAR(first.n_m, aside, 1e-9);
           EXPECT_NEAR(first.slope, 0.0, 1e-9);
           EXPECT_NEAR(first.bend_per_m, 0.0, 1e-9);
@@ -124,8 +125,8 @@ TEST(StopPlan, PathEndsNoHigherKeepsItsClearanceAndNeverSteps) {
           const SpeedProfile slowing =
               stop_profile(road_ahead(rig.line, path, s), {v, 0.0}, softer, 40.0);
           double last_m = aside;
-          for (double d = 0.0; d < 900.0; d += 1.0) {
-            const Offset o = offset_at(rig.line, path, s + d);
+          for (double d = 0.0; d < 1.3 * slowing.stop_distance_m; d += 1.0) {
+            const Offset o = offset_at(path, d);
             EXPECT_GE(o.n_m, last_m - 1e-9);  // banked to the left everywhere
             const auto k = static_cast<std::size_t>(d / slowing.spacing_m);
             const double then = slowing.at[std::min(k, slowing.at.size() - 1)].speed_mps;
@@ -142,16 +143,70 @@ TEST(StopPlan, PathEndsNoHigherKeepsItsClearanceAndNeverSteps) {
   EXPECT_GT(moved, 100);
 }
 
+TEST(StopPlan, PathOfACarThatDoesNotStopLeadsBackToTheLineForEver) {
+  const StopRig rig;
+  for (double s = 0.0; s < rig.line.length_m; s += 61.0) {
+    for (const double v : {15.0, 40.0, 66.0}) {
+      for (const double aside : {-1.5, 0.0, 1.0}) {
+        const StopPath path =
+            choose_stop(rig.line, {s, v, {}, aside}, limits_on(85.0), kParams.stop_path);
+        for (double d = 0.0; d < 2.5 * rig.line.length_m; d += 2.0) {
+          const Offset o = offset_at(path, d);
+          const LinePoint p = rig.line.at(s + d);
+          ASSERT_GE(std::min(p.room_left_m - o.n_m, p.room_right_m + o.n_m),
+                    kParams.stop_path.clearance_m - 1e-6);
+          if (d > path.back.from_s_m) {
+            ASSERT_LE(std::abs(o.bend_per_m) * v * v, 1.6);
+          }
+          if (d > 0.9 * rig.line.length_m) {
+            ASSERT_NEAR(o.n_m, 0.0, 1e-9);
+          }
+        }
+      }
+    }
+  }
+}
+
+TEST(StopPlan, CarThatDoesNotSlowDownIsSteeredRoundTheTrackWithoutAStep) {
+  const StopRig rig;
+  State state;
+  const double v = 50.0, dt_s = 0.05;
+  double s = 300.0, lowest_m = 0.0;
+  std::optional<double> last_m;
+  for (Instant now{}; s < 300.0 + 2.0 * rig.line.length_m;
+       now += from_seconds(dt_s), s += v * dt_s) {
+    const double n = last_m ? offset_at(state.stop, state.stop.gone_m + v * dt_s).n_m : 0.0;
+    const world::EgoState ego = ego_on(rig.line, s, n, v);
+    const world::RaceControl rc = green(v);
+    const Output out = step(kParams, rig.line, rig.track, state,
+                            {.ego = ego,
+                             .race_control = rc,
+                             .followed = last_m ? Followed::kStop : Followed::kDrive,
+                             .tyre_c = 85.0},
+                            now);
+    const world::TrajectoryPoint& p = out.stop.points[0];
+    ASSERT_NEAR(std::hypot(p.x_m - ego.x_m, p.y_m - ego.y_m), 0.0, 1e-3) << s;
+    if (last_m) {
+      ASSERT_NEAR(n, *last_m, 0.2) << s;
+    }
+    lowest_m = std::max(lowest_m, n);
+    last_m = n;
+    state = out.next;
+  }
+  EXPECT_GT(lowest_m, 2.0);
+  EXPECT_NEAR(*last_m, 0.0, 1e-9);
+}
+
 TEST(StopPlan, ConsecutivePlansAndTheChangeToTheStopAreContinuous) {
   const StopRig rig;
   for (const Followed followed : {Followed::kStop, Followed::kEmergency}) {
     State state;
-    double s = 300.0, v = 65.0;
+    double s = 300.0, v = 65.0, gone_m = 0.0;
     std::optional<world::TrajectoryPoint> last;
     double last_accel = 0.0;
     Instant now{};
     for (int i = 0; i < 900 && (i < 60 || v > 0.0); ++i, now += milliseconds(50)) {
-      const double n = state.started ? offset_at(rig.line, state.stop, s).n_m : 0.0;
+      const double n = state.started ? offset_at(state.stop, state.stop.gone_m + gone_m).n_m : 0.0;
       const bool stopping = i >= 40;
       const world::EgoState ego = ego_on(rig.line, s, stopping ? n : 0.0, v);
       const world::RaceControl rc = green(65.0);
@@ -180,7 +235,8 @@ TEST(StopPlan, ConsecutivePlansAndTheChangeToTheStopAreContinuous) {
       last_accel = out.next.accel_mps2;
       state = out.next;
       v = out.next.speed_mps;
-      s += v * 0.05;
+      gone_m = v * 0.05;
+      s += gone_m;
     }
     EXPECT_EQ(v, 0.0);
   }
