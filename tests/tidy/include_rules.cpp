@@ -132,7 +132,7 @@ const std::vector<Part> kParts{
      {"vehicle/world", "vehicle/pipeline", "protocol/vocabulary", "protocol/yaml"},
      {"yaml"}},
     {"vehicle/raceline",
-     {"vehicle/world", "protocol/bits", "protocol/json", "protocol/vocabulary"},
+     {"vehicle/world", "protocol/bits", "protocol/json", "protocol/yaml", "protocol/vocabulary"},
      {}},
     {"vehicle/io", {"vehicle", "protocol"}, rim_and({"cli"})},
     {"basestation/link", {"protocol"}, rim_and({})},
