@@ -6,7 +6,8 @@
 #include <string>
 #include <utility>
 
-#include "vehicle/raceline/apexes.hpp"
+#include "vehicle/raceline/lanes/apexes.hpp"
+#include "vehicle/raceline/optimum/minimum_curvature.hpp"
 #include "vehicle/raceline/track_fingerprint.hpp"
 
 namespace pitwall::raceline {
@@ -34,6 +35,10 @@ class BankBuilder {
 
   std::optional<Problem> add_pit() {
     return add(Region::kPitLane, "centre", pit_waypoints(lanes_, margin_m_));
+  }
+
+  std::optional<Problem> add_minimum_curvature() {
+    return add(Region::kTrack, "minimum_curvature", minimum_curvature(lanes_, margin_m_));
   }
 
   std::vector<Raceline> take() { return std::move(lines_); }
@@ -66,6 +71,7 @@ Result<RacelineBank, Problem> build_bank(const world::TrackDescription& descript
     return Unexpected{*std::move(problem)};
   if (auto problem = builder.add_lane(Region::kOuterLane, chosen.outer))
     return Unexpected{*std::move(problem)};
+  if (auto problem = builder.add_minimum_curvature()) return Unexpected{*std::move(problem)};
   if (track.pit())
     if (auto problem = builder.add_pit()) return Unexpected{*std::move(problem)};
   return RacelineBank{track.name(), fingerprint_of(description), builder.take()};

@@ -1,10 +1,11 @@
 // The bank of racelines of a track, made of nothing but its file: for each lane a line along its
-// inside, its centre and its outside and one by its apexes, and a line through the pit lane.
+// inside, its centre and its outside and one by its apexes; the line of minimum curvature between
+// the walls; a line through the pit lane.
 //   in     a track file and the map that is built of it; the car's width and its clearance; apexes
 //          that a person has chosen, for each lane
-//   out    lines named "inner/centre", "outer/apex", ..., "pit/centre"
+//   out    lines named "inner/centre", "outer/apex", ..., "track/minimum_curvature", "pit/centre"
 //   invariants
-//          each line keeps the clearance to the sides of its lane, beside half of the car's width
+//          each line keeps the clearance to the sides of its region, beside half of the car's width
 //   errors a lane that is too narrow, or a spline that cannot be kept within it, with the station
 //   cost   about 0.3 s for an oval
 // SPDX-License-Identifier: Apache-2.0
@@ -13,9 +14,9 @@
 #include <vector>
 
 #include "protocol/vocabulary/result.hpp"
-#include "vehicle/raceline/lanes.hpp"
-#include "vehicle/raceline/raceline.hpp"
-#include "vehicle/raceline/waypoints.hpp"
+#include "vehicle/raceline/lanes/lanes.hpp"
+#include "vehicle/raceline/lanes/raceline.hpp"
+#include "vehicle/raceline/lanes/waypoints.hpp"
 
 namespace pitwall::raceline {
 

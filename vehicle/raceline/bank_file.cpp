@@ -35,8 +35,8 @@ Result<Raceline, Problem> read_line(const json::JsonValue& value, const std::str
   if (line.name.empty()) return refuse(name, "a line without a name");
   const auto region = region_of(value.text("region"));
   if (!region)
-    return refuse(name + ": " + line.name, formatted("the region is \"%s\", expected inner, outer "
-                                                     "or pit",
+    return refuse(name + ": " + line.name, formatted("the region is \"%s\", expected inner, outer, "
+                                                     "pit or track",
                                                      value.text("region").c_str()));
   line.region = *region;
   line.length_m = value.number("length_m");

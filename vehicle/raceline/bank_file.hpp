@@ -16,8 +16,8 @@
 #include <string_view>
 
 #include "protocol/vocabulary/result.hpp"
+#include "vehicle/raceline/lanes/raceline.hpp"
 #include "vehicle/raceline/line_check.hpp"
-#include "vehicle/raceline/raceline.hpp"
 
 namespace pitwall::raceline {
 

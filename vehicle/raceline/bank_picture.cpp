@@ -5,6 +5,8 @@
 #include <array>
 #include <cctype>
 #include <cmath>
+#include <string_view>
+#include <vector>
 
 #include "protocol/vocabulary/text.hpp"
 
@@ -15,7 +17,7 @@ constexpr double kWidth_px = 1600.0, kMargin_px = 60.0, kMap_px = 800.0, kPanel_
 constexpr double kHead_px = 40.0, kGap_px = 50.0;
 constexpr double kStep_m = 3.0;  // between drawn points
 constexpr std::array kColours{"#c0392b", "#e67e22", "#b7950b", "#1e8449", "#117a65",
-                              "#2471a3", "#6c3483", "#d81b60", "#5d4037"};
+                              "#2471a3", "#6c3483", "#d81b60", "#000000", "#5d4037"};
 
 // What is drawn of a line: where it is on the map, beside the track, and how it bends.
 struct Drawn {
@@ -31,10 +33,12 @@ struct Panel {
 };
 
 // Names come from files: what could be markup is left out.
+constexpr std::string_view kPlain{"/-_"};
 std::string plain(const std::string& name) {
   std::string out;
   for (const char c : name)
-    out += std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '/' || c == '-' ? c : ' ';
+    out +=
+        std::isalnum(static_cast<unsigned char>(c)) != 0 || kPlain.find(c) != kPlain.npos ? c : ' ';
   return out;
 }
 
@@ -202,7 +206,7 @@ class Picture {
 
   void legend() {
     for (std::size_t i = 0; i < bank_.lines.size(); ++i)
-      text(kMargin_px + 260.0 + 130.0 * static_cast<double>(i), 26.0, plain(bank_.lines[i].name),
+      text(kMargin_px + 190.0 + 128.0 * static_cast<double>(i), 26.0, plain(bank_.lines[i].name),
            formatted("fill=\"%s\"", kColours[i % kColours.size()]).c_str());
   }
 

@@ -7,7 +7,7 @@
 
 #include <string>
 
-#include "vehicle/raceline/raceline.hpp"
+#include "vehicle/raceline/lanes/raceline.hpp"
 
 namespace pitwall::raceline {
 

@@ -7,8 +7,8 @@
 #include <span>
 #include <string>
 
+#include "vehicle/raceline/lanes/raceline.hpp"
 #include "vehicle/raceline/line_check.hpp"
-#include "vehicle/raceline/raceline.hpp"
 
 namespace pitwall::raceline {
 

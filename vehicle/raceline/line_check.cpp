@@ -113,9 +113,9 @@ class Check {
       note_least(figures_.room_least, room_m, s_m(i));
       if (!(room_m >= 0.0))
         return problem(
-            i, formatted("leaves the %s lane: the side of the car is %.2f m beyond it "
+            i, formatted("leaves the %s: the side of the car is %.2f m beyond it "
                          "(offset %.2f m, allowed %.2f to %.2f m)",
-                         text_of(line_.region), -room_m, place.n_m, free.right_m, free.left_m));
+                         words_of(line_.region), -room_m, place.n_m, free.right_m, free.left_m));
     }
     around_m += std::remainder(start.s_m - station_m, track.length_m());
     if (!(std::abs(around_m - track.length_m()) < 1.0))

@@ -17,8 +17,8 @@
 #include <string>
 
 #include "protocol/vocabulary/result.hpp"
-#include "vehicle/raceline/lanes.hpp"
-#include "vehicle/raceline/raceline.hpp"
+#include "vehicle/raceline/lanes/lanes.hpp"
+#include "vehicle/raceline/lanes/raceline.hpp"
 
 namespace pitwall::raceline {
 

@@ -12,7 +12,7 @@
 #include <span>
 #include <utility>
 
-#include "vehicle/raceline/raceline.hpp"
+#include "vehicle/raceline/lanes/raceline.hpp"
 
 namespace pitwall::raceline {
 

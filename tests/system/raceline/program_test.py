@@ -18,7 +18,7 @@ PROGRAM, TREE = sys.argv[1], Path(sys.argv[2])
 CAR = TREE / "vehicle/config/cars/av21.yaml"
 TRACKS = TREE / "vehicle/config/tracks"
 NAMES = ["inner/inside", "inner/centre", "inner/outside", "inner/apex", "outer/inside",
-         "outer/centre", "outer/outside", "outer/apex", "pit/centre"]
+         "outer/centre", "outer/outside", "outer/apex", "track/minimum_curvature", "pit/centre"]
 # A row of curvature at 1 m, integrated with its mean in between, is off by h^2/12 of its change.
 POSITION_OFF_M = 0.05
 
@@ -105,8 +105,8 @@ class ProgramTest(unittest.TestCase):
 
     def test_a_wider_car_leaves_its_lane(self):
         bank = self.make("lvms.yaml")
-        self.refuse(raceline("lvms.yaml", "--check", bank, "--car-width", "2.8"), "inner/inside: s = ",
-                    "leaves the inner lane: the side of the car is 0.")
+        self.refuse(raceline("lvms.yaml", "--check", bank, "--car-width", "2.8"),
+                    "inner/inside: s = ", "leaves the inner lane: the side of the car is 0.")
 
     def test_chosen_apexes_move_the_line(self):
         found = json.loads(self.make("lvms.yaml").read_text())

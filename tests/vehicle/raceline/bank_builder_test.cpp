@@ -15,7 +15,8 @@ namespace {
 
 const std::vector<std::string> kNames{"inner/inside",  "inner/centre", "inner/outside",
                                       "inner/apex",    "outer/inside", "outer/centre",
-                                      "outer/outside", "outer/apex",   "pit/centre"};
+                                      "outer/outside", "outer/apex",   "track/minimum_curvature",
+                                      "pit/centre"};
 constexpr double kSecondsMost = 1.0;  // of a processor, for the bank of a track
 constexpr double kExcess_m = 0.1;     // of a line over its clearance
 
@@ -83,6 +84,8 @@ TEST(BankBuilder, TakesChosenApexes) {
   const Waypoint early{700.0, 5.0};
   const RacelineBank bank =
       valid(build_bank(description, track, {}, {.inner = {early, {2050.0, 5.0}}, .outer = {}}));
+  const RacelineBank found = valid(build_bank(description, track, {}));
+  EXPECT_EQ(line_of(bank, "outer/apex").length_m, line_of(found, "outer/apex").length_m);
   const world::TrackPoint apex = track.offset(early.s_m, early.n_m);
   double nearest_m = 1e9;
   for (const RacelinePoint& p : line_of(bank, "inner/apex").points)

@@ -8,7 +8,7 @@
 #include <string>
 
 #include "vehicle/raceline/line_check.hpp"
-#include "vehicle/raceline/spiro_spline.hpp"
+#include "vehicle/raceline/spline/spiro_spline.hpp"
 #include "vehicle/world/track_map.hpp"
 
 namespace pitwall::raceline {

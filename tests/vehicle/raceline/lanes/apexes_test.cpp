@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "vehicle/raceline/apexes.hpp"
+#include "vehicle/raceline/lanes/apexes.hpp"
 
 #include <gtest/gtest.h>
 
@@ -58,6 +58,21 @@ TEST(Apexes, LineGoesFromTheOutsideToThemAndOut) {
   }
   const SpiroSpline line = valid(fit_between(lanes, Region::kInnerLane, kMargin_m, waypoints));
   EXPECT_LT(line.length_m(), centre.length_m);  // it is inside where the turns are
+}
+
+// Between a corner and one of the other direction the line finds its own way across the lane.
+TEST(Apexes, OnlyCornersOfOneDirectionHaveTheOutsideBetweenThem) {
+  const world::TrackDescription description = circuit();
+  const world::TrackMap track = valid(world::TrackMap::build(description));
+  const Lanes lanes{track};
+  const Raceline centre = centre_of(lanes, Region::kOuterLane);
+  const auto apexes = find_apexes(centre, track);
+  std::size_t pairs = 0;
+  for (std::size_t i = 0; i < apexes.size(); ++i)
+    if (apexes[i].is_left == apexes[(i + 1) % apexes.size()].is_left) ++pairs;
+  ASSERT_LT(pairs, apexes.size());
+  EXPECT_EQ(apex_waypoints(lanes, Region::kOuterLane, centre, kMargin_m, {}).size(),
+            apexes.size() + pairs);
 }
 
 TEST(Apexes, ThoseOfAPersonStandInstead) {

@@ -1,4 +1,5 @@
-// Lanes of a track: the halves of the road between its walls, and the way through the pit lane.
+// Lanes of a track: the halves of the road between its walls, the whole of it, and the way through
+// the pit lane.
 //   frames offset n from the track's reference line, positive left, as in world::TrackMap
 //   invariants
 //          the inner lane is the half on the side to which the lap turns as a whole. Where the pit
@@ -17,9 +18,10 @@
 
 namespace pitwall::raceline {
 
-enum class Region : std::uint8_t { kInnerLane, kOuterLane, kPitLane };
+enum class Region : std::uint8_t { kInnerLane, kOuterLane, kPitLane, kTrack };
 
-const char* text_of(Region region);
+const char* text_of(Region region);   // as files name it: "inner"
+const char* words_of(Region region);  // as people do: "inner lane"
 std::optional<Region> region_of(std::string_view text);
 
 // What lies between two offsets.
@@ -38,6 +40,8 @@ class Lanes {
   const world::TrackMap& track() const { return *track_; }
   bool turns_left() const { return turns_left_; }
   Band band(Region region, double s_m) const;
+  // What is free all the way from one station to another.
+  Band narrowest(Region region, double from_s_m, double to_s_m) const;
   // From 0 at the pit lane's entry to 1 at its exit; nothing elsewhere or without a pit lane.
   std::optional<double> along_pit(double s_m) const;
   Region lane_at_pit() const;  // of a track with a pit lane

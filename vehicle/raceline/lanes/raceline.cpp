@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "vehicle/raceline/raceline.hpp"
+#include "vehicle/raceline/lanes/raceline.hpp"
 
 #include <cmath>
 

@@ -9,9 +9,9 @@
 
 #include <vector>
 
-#include "vehicle/raceline/lanes.hpp"
-#include "vehicle/raceline/raceline.hpp"
-#include "vehicle/raceline/waypoints.hpp"
+#include "vehicle/raceline/lanes/lanes.hpp"
+#include "vehicle/raceline/lanes/raceline.hpp"
+#include "vehicle/raceline/lanes/waypoints.hpp"
 
 namespace pitwall::raceline {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "vehicle/raceline/lanes.hpp"
+#include "vehicle/raceline/lanes/lanes.hpp"
 
 #include <gtest/gtest.h>
 
@@ -22,6 +22,8 @@ TEST(Lanes, AreTheHalvesOfTheRoad) {
       EXPECT_DOUBLE_EQ(right.right_m, -p.width_right_m);
       EXPECT_DOUBLE_EQ(left.right_m, right.left_m);
       EXPECT_NEAR(inner.width_m(), outer.width_m(), 1e-12);
+      EXPECT_DOUBLE_EQ(lanes.band(Region::kTrack, s_m).left_m, left.left_m);
+      EXPECT_DOUBLE_EQ(lanes.band(Region::kTrack, s_m).right_m, right.right_m);
     }
   }
 }
@@ -35,6 +37,21 @@ TEST(Lanes, InnerLaneLiesWhereTheLapTurns) {
   EXPECT_LT(Lanes{right}.band(Region::kInnerLane, 10.0).middle_m(), 1.0);
   EXPECT_EQ(Lanes{left}.lane_at_pit(), Region::kInnerLane);
   EXPECT_EQ(Lanes{right}.lane_at_pit(), Region::kInnerLane);
+}
+
+TEST(Lanes, NarrowestIsWhatIsFreeAllTheWay) {
+  world::TrackDescription description = stadium();
+  description.knots[3].width_left_m = 5.0;  // alone, at the end of a turn
+  description.knots[3].width_right_m = 7.0;
+  const world::TrackMap track = valid(world::TrackMap::build(description));
+  const Lanes lanes{track};
+  const double narrow_m = description.knots[3].s_m;
+  const Band free = lanes.narrowest(Region::kTrack, narrow_m - 30.0, narrow_m + 30.0);
+  EXPECT_NEAR(free.left_m, 5.0, 0.1);
+  EXPECT_NEAR(free.right_m, -7.0, 0.1);
+  const Band before = lanes.narrowest(Region::kTrack, 100.0, 200.0);
+  EXPECT_DOUBLE_EQ(before.left_m, 8.0);
+  EXPECT_DOUBLE_EQ(before.right_m, -10.0);
 }
 
 TEST(Lanes, PitLaneReachesAcrossTheStart) {
@@ -55,9 +72,12 @@ TEST(Lanes, PitLaneReachesAcrossTheStart) {
 }
 
 TEST(Lanes, TextsReadBack) {
-  for (const Region region : {Region::kInnerLane, Region::kOuterLane, Region::kPitLane})
+  for (const Region region :
+       {Region::kInnerLane, Region::kOuterLane, Region::kPitLane, Region::kTrack})
     EXPECT_EQ(region_of(text_of(region)), region);
   EXPECT_FALSE(region_of("apron"));
+  EXPECT_STREQ(words_of(Region::kOuterLane), "outer lane");
+  EXPECT_STREQ(words_of(Region::kTrack), "track");
 }
 
 }  // namespace

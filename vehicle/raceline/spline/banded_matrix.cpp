@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "vehicle/raceline/banded_matrix.hpp"
+#include "vehicle/raceline/spline/banded_matrix.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "vehicle/raceline/waypoints.hpp"
+#include "vehicle/raceline/lanes/waypoints.hpp"
 
 #include <gtest/gtest.h>
 

@@ -16,7 +16,7 @@
 
 #include "protocol/vocabulary/result.hpp"
 #include "protocol/vocabulary/units.hpp"
-#include "vehicle/raceline/spiro_segment.hpp"
+#include "vehicle/raceline/spline/spiro_segment.hpp"
 
 namespace pitwall::raceline {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "vehicle/raceline/spiro_segment.hpp"
+#include "vehicle/raceline/spline/spiro_segment.hpp"
 
 #include <gtest/gtest.h>
 

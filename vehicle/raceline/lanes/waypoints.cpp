@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "vehicle/raceline/waypoints.hpp"
+#include "vehicle/raceline/lanes/waypoints.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -11,7 +11,7 @@
 namespace pitwall::raceline {
 namespace {
 
-constexpr double kStep_m = 1.0;              // of the walk along the track
+constexpr double kWalkStep_m = 1.0;          // of the walk along the track
 constexpr double kStraightSpacing_m = 60.0;  // of waypoints where the track is straight
 constexpr double kTurnSpacing_rad = 0.35;    // and at most so much turn between two
 constexpr double kPitRampShare = 0.25;       // of the pit lane, to get to its middle and back
@@ -22,7 +22,7 @@ constexpr int kRoundsMax = 60;
 
 // Stations at even distances, counted longer in turns.
 std::vector<double> stations_of(const world::TrackMap& track) {
-  const auto steps = static_cast<std::size_t>(std::ceil(track.length_m() / kStep_m));
+  const auto steps = static_cast<std::size_t>(std::ceil(track.length_m() / kWalkStep_m));
   const double step_m = track.length_m() / static_cast<double>(steps);
   std::vector<double> measure{0.0};
   for (std::size_t i = 0; i < steps; ++i) {
@@ -42,20 +42,10 @@ std::vector<double> stations_of(const world::TrackMap& track) {
   return stations;
 }
 
-// The offsets that are free from one station to another.
-Band narrowest(const Lanes& lanes, Region region, double from_m, double to_m) {
-  Band free = lanes.band(region, from_m);
-  for (double s_m = from_m; s_m < to_m; s_m += kStep_m) {
-    const Band here = lanes.band(region, s_m);
-    free = {std::max(free.right_m, here.right_m), std::min(free.left_m, here.left_m)};
-  }
-  return free;
-}
-
 Unexpected<Problem> too_narrow(const Lanes& lanes, Region region, double s_m, double margin_m) {
   const double width_m = lanes.band(region, s_m).width_m();
   return refuse(formatted("%s: s = %.1f m", lanes.track().name().c_str(), s_m),
-                formatted("the %s lane is %.2f m wide, at least %.2f m expected", text_of(region),
+                formatted("the %s is %.2f m wide, at least %.2f m expected", words_of(region),
                           width_m, 2.0 * margin_m));
 }
 
@@ -88,13 +78,16 @@ std::vector<Excess> excesses_of(const SpiroSpline& spline, const Lanes& lanes, R
   return worst;
 }
 
-// A waypoint near the excess gives way by it; where there is none, one is set at the bound.
+// The nearest waypoint gives way by the excess; where none is near, one is set at the bound.
 void pull_in(const world::TrackMap& track, const Excess& excess, std::vector<Waypoint>& waypoints) {
-  for (Waypoint& w : waypoints)
-    if (std::abs(std::remainder(w.s_m - excess.s_m, track.length_m())) < kNear_m) {
-      w.n_m -= excess.over_m;
-      return;
-    }
+  const auto apart_m = [&](const Waypoint& w) {
+    return std::abs(std::remainder(w.s_m - excess.s_m, track.length_m()));
+  };
+  const auto nearest = std::ranges::min_element(waypoints, {}, apart_m);
+  if (apart_m(*nearest) < kNear_m) {
+    nearest->n_m -= excess.over_m;
+    return;
+  }
   const auto after = std::ranges::upper_bound(waypoints, excess.s_m, {}, &Waypoint::s_m);
   waypoints.insert(after, {excess.s_m, excess.bound_m});
 }
@@ -119,7 +112,7 @@ Result<std::vector<Waypoint>, Problem> parallel_waypoints(const Lanes& lanes, Re
     const double lap_m = i == 0 ? lanes.track().length_m() : 0.0;
     const double before_m = stations[i == 0 ? stations.size() - 1 : i - 1] - lap_m;
     const double half_m = 0.5 * (s_m - before_m);
-    const Band free = narrowest(lanes, region, s_m - half_m, s_m + half_m).narrowed(margin_m);
+    const Band free = lanes.narrowest(region, s_m - half_m, s_m + half_m).narrowed(margin_m);
     if (!(free.width_m() >= 0.0)) return too_narrow(lanes, region, s_m, margin_m);
     const bool is_left = (side == Side::kInside) == lanes.turns_left();
     waypoints.push_back({s_m, side == Side::kCentre ? free.middle_m()
@@ -157,8 +150,8 @@ Result<SpiroSpline, Problem> fit_between(const Lanes& lanes, Region region, doub
     if (excesses.empty()) return spline;
     if (round == kRoundsMax)
       return refuse(formatted("%s: s = %.1f m", lanes.track().name().c_str(), excesses.front().s_m),
-                    formatted("the line comes %.2f m too close to a side of the %s lane",
-                              std::abs(excesses.front().over_m), text_of(region)));
+                    formatted("the line comes %.2f m too close to a side of the %s",
+                              std::abs(excesses.front().over_m), words_of(region)));
     for (const Excess& excess : excesses) pull_in(lanes.track(), excess, waypoints);
   }
 }

@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "protocol/vocabulary/result.hpp"
-#include "vehicle/raceline/lanes.hpp"
-#include "vehicle/raceline/spiro_spline.hpp"
+#include "vehicle/raceline/lanes/lanes.hpp"
+#include "vehicle/raceline/spline/spiro_spline.hpp"
 
 namespace pitwall::raceline {
 

@@ -9,7 +9,7 @@
 
 #include "protocol/json/json_value.hpp"
 #include "tests/support/public_data.hpp"
-#include "vehicle/raceline/spiro_spline.hpp"
+#include "vehicle/raceline/spline/spiro_spline.hpp"
 
 namespace pitwall::raceline {
 namespace {

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "vehicle/raceline/banded_matrix.hpp"
+#include "vehicle/raceline/spline/banded_matrix.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <set>
 
 #include "protocol/vocabulary/random.hpp"
 
@@ -38,6 +39,19 @@ TEST(BandedMatrix, AddsToWhatIsThere) {
   std::vector<double> b{4.0};
   ASSERT_TRUE(matrix.solve(b));
   EXPECT_DOUBLE_EQ(b[0], 2.0);
+}
+
+TEST(BandedMatrix, AFoldedRowIsAnOrderOfNearNeighbours) {
+  for (const std::size_t n : {1U, 2U, 3U, 8U, 9U}) {
+    std::set<std::size_t> places;
+    for (std::size_t i = 0; i < n; ++i) {
+      places.insert(folded(i, n));
+      EXPECT_LT(folded(i, n), n);
+      const std::size_t here = folded(i, n), next = folded((i + 1) % n, n);
+      EXPECT_LE(std::max(here, next) - std::min(here, next), 2U) << i << " of " << n;
+    }
+    EXPECT_EQ(places.size(), n);
+  }
 }
 
 TEST(BandedMatrix, TellsASingularOne) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "vehicle/raceline/apexes.hpp"
+#include "vehicle/raceline/lanes/apexes.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "vehicle/raceline/spiro_spline.hpp"
+#include "vehicle/raceline/spline/spiro_spline.hpp"
 
 #include <algorithm>
 #include <array>
@@ -7,7 +7,7 @@
 #include <optional>
 
 #include "protocol/vocabulary/text.hpp"
-#include "vehicle/raceline/banded_matrix.hpp"
+#include "vehicle/raceline/spline/banded_matrix.hpp"
 
 namespace pitwall::raceline {
 namespace {
@@ -44,11 +44,9 @@ class Continuity {
     return {order(), reach, reach};
   }
 
-  // Place of a segment's first coefficient. The lap is folded, 0, n-1, 1, n-2, ..., so that the
-  // last segment lies beside the first and the matrix stays a band.
+  // Place of a segment's first coefficient.
   std::size_t row_of(std::size_t segment) const {
-    const std::size_t n = segments_.size();
-    return kSpiroOrder * (2 * segment < n ? 2 * segment : 2 * (n - segment) - 1);
+    return kSpiroOrder * folded(segment, segments_.size());
   }
 
  private:

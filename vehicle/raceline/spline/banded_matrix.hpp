@@ -12,6 +12,12 @@
 
 namespace pitwall::raceline {
 
+// Place of element i of a closed row of n in a folded order, 0, n-1, 1, n-2, ...: the last element
+// lies beside the first, and elements k apart in the row are at most 2k apart in the order.
+inline std::size_t folded(std::size_t i, std::size_t n) {
+  return 2 * i < n ? 2 * i : 2 * (n - i) - 1;
+}
+
 class BandedMatrix {
  public:
   BandedMatrix(std::size_t order, std::size_t lower, std::size_t upper);

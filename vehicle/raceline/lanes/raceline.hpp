@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "protocol/vocabulary/units.hpp"
-#include "vehicle/raceline/lanes.hpp"
-#include "vehicle/raceline/spiro_spline.hpp"
+#include "vehicle/raceline/lanes/lanes.hpp"
+#include "vehicle/raceline/spline/spiro_spline.hpp"
 #include "vehicle/world/track_map.hpp"
 
 namespace pitwall::raceline {
