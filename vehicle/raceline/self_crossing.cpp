@@ -46,7 +46,7 @@ std::optional<std::pair<std::size_t, std::size_t>> self_crossing_of(
   const std::size_t n = points.size();
   const std::vector<Box> boxes = boxes_of(points);
   const auto pieces_cross = [&](std::size_t i, std::size_t j) {
-    if (j <= i + 1 || (i == 0 && j == n - 1)) return false;
+    if (j <= i) return false;  // neighbours share an end, which lies on neither side
     const RacelinePoint &a = points[i], &b = points[i + 1], &c = points[j],
                         &d = points[(j + 1) % n];
     return side_of(a, b, c) * side_of(a, b, d) < 0.0 && side_of(c, d, a) * side_of(c, d, b) < 0.0;

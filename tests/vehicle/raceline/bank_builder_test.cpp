@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <ctime>
 
 #include "tests/hil/track_file/shipped_track.hpp"
@@ -42,6 +43,24 @@ TEST(BankBuilder, MakesLinesThatPassTheirChecks) {
       const auto figures = check_raceline(bank.lines[i], Lanes{track}, car_limits());
       ASSERT_TRUE(figures) << track.name() << " " << to_string(figures.error());
       EXPECT_GT(figures->room_least.value, 0.3 - kExcess_m) << track.name() << " " << kNames[i];
+    }
+  }
+}
+
+TEST(BankBuilder, MakesBanksOfDrawnCircuits) {
+  CarLimits car = car_limits();
+  car.steer_max_rad = 0.3;  // corners of 10 m
+  car.corner_speed_mps = [](double curvature_per_m, double) {
+    return std::min(70.0, std::sqrt(15.0 / std::max(std::abs(curvature_per_m), 1e-6)));
+  };
+  for (std::uint64_t seed = 1; seed <= 30; ++seed) {
+    const world::TrackDescription description = drawn_circuit(seed);
+    const world::TrackMap track = valid(world::TrackMap::build(description));
+    const auto bank = build_bank(description, track, {.car_width_m = 2.0});
+    ASSERT_TRUE(bank) << seed << ": " << to_string(bank.error());
+    for (const Raceline& line : bank->lines) {
+      const auto figures = check_raceline(line, Lanes{track}, car);
+      ASSERT_TRUE(figures) << seed << ": " << to_string(figures.error());
     }
   }
 }

@@ -6,7 +6,9 @@
 #include <numbers>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
+#include "protocol/vocabulary/random.hpp"
 #include "vehicle/raceline/line_check.hpp"
 #include "vehicle/raceline/spline/spiro_spline.hpp"
 #include "vehicle/world/track_map.hpp"
@@ -87,6 +89,27 @@ inline world::TrackDescription circuit() {
   d.start_yaw_rad = spline.at(0.0).yaw_rad;
   for (double s_m = 0.0; s_m < d.length_m; s_m += 4.0)
     d.knots.push_back({s_m, spline.at(s_m).curvature_per_m, 0.0, 7.0, 7.0});
+  return d;
+}
+
+// A circuit of 1.5 to 7 km and 8 to 16 m of width through drawn points.
+inline world::TrackDescription drawn_circuit(std::uint64_t seed) {
+  Random random{seed};
+  const std::uint64_t count = 6 + random.below(10);
+  const double size_m = random.between(200.0, 700.0);
+  std::vector<Place> points;
+  for (std::uint64_t i = 0; i < count; ++i) {
+    const double angle_rad =
+        2.0 * std::numbers::pi * static_cast<double>(i) / static_cast<double>(count);
+    const double radius_m = size_m * random.between(0.68, 1.32);
+    points.push_back({1.5 * radius_m * std::cos(angle_rad), radius_m * std::sin(angle_rad)});
+  }
+  const SpiroSpline spline = valid(SpiroSpline::through(points));
+  world::TrackDescription d = described("drawn", spline.length_m());
+  d.start_yaw_rad = spline.at(0.0).yaw_rad;
+  const double left_m = random.between(4.0, 8.0), right_m = random.between(4.0, 8.0);
+  for (double s_m = 0.0; s_m < d.length_m - 2.0; s_m += 4.0)
+    d.knots.push_back({s_m, spline.at(s_m).curvature_per_m, 0.0, left_m, right_m});
   return d;
 }
 

@@ -130,9 +130,10 @@ std::vector<Waypoint> apex_waypoints(const Lanes& lanes, Region region, const Ra
   const std::vector<double> curvature = averaged(centre);
   for (std::size_t i = 0; i < apexes.size(); ++i) {
     const Apex &a = apexes[i], &b = apexes[(i + 1) % apexes.size()];
-    if (a.is_left != b.is_left) continue;
     const double s_m = straightest(centre, curvature, track, a.s_m, b.s_m);
-    waypoints.push_back({s_m, a.is_left ? free(s_m).right_m : free(s_m).left_m});
+    const Band between = free(s_m);
+    const double outside_m = a.is_left ? between.right_m : between.left_m;
+    waypoints.push_back({s_m, a.is_left == b.is_left ? outside_m : between.middle_m()});
   }
   // A lap with a single corner has too few of them for a closed line.
   for (double k = 0.0; waypoints.size() < kWaypointsMin; ++k) {

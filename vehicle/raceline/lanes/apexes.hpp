@@ -24,8 +24,9 @@ struct Apex {
 // falls by a fifth. Nothing that is straighter than a radius of 1500 m.
 std::vector<Apex> find_apexes(const Raceline& centre, const world::TrackMap& track);
 
-// At the inside of each apex, and where the centre line is straightest between two corners of one
-// direction at their outside. `given`, unless empty, stands in place of the waypoints of apexes.
+// At the inside of each apex; and where the centre line is straightest between two corners, at the
+// outside of both, or in the middle where one is left-hand and the other right-hand. `given` stands
+// in place of the waypoints of apexes, unless it is empty.
 std::vector<Waypoint> apex_waypoints(const Lanes& lanes, Region region, const Raceline& centre,
                                      double margin_m, const std::vector<Waypoint>& given);
 

@@ -14,7 +14,7 @@ constexpr int kIterationsMax = 100;
 constexpr double kCentring = 0.1;       // of the gap, that a step aims at
 constexpr double kToBoundary = 0.995;   // of the way to the nearest bound
 constexpr double kGapSettled = 1e-12;   // of the gap at the start
-constexpr double kSlopeSettled = 1e-9;  // of the largest gradient
+constexpr double kSlopeSettled = 1e-7;  // of the slope at the start; rounding leaves 1e-9 of it
 constexpr std::size_t kVariablesMin = 2 * kReach + 1;
 
 class InteriorPoint {
@@ -78,24 +78,37 @@ class InteriorPoint {
     return sum / static_cast<double>(2 * n_);
   }
 
-  // One step of Newton's method towards products of `target`.
-  bool step(double target) {
+  // The change of x by Newton's method towards products of `target`. Each variable is measured by
+  // the root of its diagonal element: at a bound that is larger by many orders than elsewhere.
+  std::optional<std::vector<double>> newton(double target) const {
     constexpr std::size_t kBand = 2 * kReach;  // of the folded row
+    std::vector<double> unit(n_), right = slopes();
+    for (std::size_t i = 0; i < n_; ++i) {
+      const double under = x_[i] - p_.low[i], over = p_.high[i] - x_[i];
+      unit[i] = 1.0 / std::sqrt(p_.hessian[i][0] + below_[i] / under + above_[i] / over);
+      right[i] = -right[i] + target / under - target / over;
+    }
     BandedMatrix matrix{n_, kBand, kBand};
-    const std::vector<double> slope = slopes();
-    std::vector<double> dx(n_);
+    std::vector<double> scaled(n_), dx(n_);
     for (std::size_t i = 0; i < n_; ++i) {
       const std::size_t row = folded(i, n_);
-      const double under_m = x_[i] - p_.low[i], over_m = p_.high[i] - x_[i];
-      matrix.add(row, row, p_.hessian[i][0] + below_[i] / under_m + above_[i] / over_m);
+      scaled[row] = unit[i] * right[i];
+      matrix.add(row, row, 1.0);
       for (std::size_t k = 1; k <= kReach; ++k) {
-        const std::size_t column = folded((i + k) % n_, n_);
-        matrix.add(row, column, p_.hessian[i][k]);
-        matrix.add(column, row, p_.hessian[i][k]);
+        const std::size_t j = (i + k) % n_, column = folded(j, n_);
+        matrix.add(row, column, unit[i] * unit[j] * p_.hessian[i][k]);
+        matrix.add(column, row, unit[i] * unit[j] * p_.hessian[i][k]);
       }
-      dx[row] = -slope[i] + target / under_m - target / over_m;
     }
-    if (!matrix.solve(dx)) return false;
+    if (!matrix.solve(scaled)) return std::nullopt;
+    for (std::size_t i = 0; i < n_; ++i) dx[i] = unit[i] * scaled[folded(i, n_)];
+    return dx;
+  }
+
+  // Along that change as far as everything stays positive.
+  bool step(double target) {
+    const auto dx = newton(target);
+    if (!dx) return false;
     std::vector<double> d_below(n_), d_above(n_);
     double share = 1.0;
     const auto keep_positive = [&](double value, double change) {
@@ -103,14 +116,14 @@ class InteriorPoint {
         share = -kToBoundary * value / change;
     };
     for (std::size_t i = 0; i < n_; ++i) {
-      const double under = x_[i] - p_.low[i], over = p_.high[i] - x_[i], d = dx[folded(i, n_)];
+      const double under = x_[i] - p_.low[i], over = p_.high[i] - x_[i], d = (*dx)[i];
       d_below[i] = (target - below_[i] * d) / under - below_[i];
       d_above[i] = (target + above_[i] * d) / over - above_[i];
       keep_positive(under, d), keep_positive(over, -d);
       keep_positive(below_[i], d_below[i]), keep_positive(above_[i], d_above[i]);
     }
     for (std::size_t i = 0; i < n_; ++i) {
-      x_[i] += share * dx[folded(i, n_)];
+      x_[i] += share * (*dx)[i];
       below_[i] += share * d_below[i], above_[i] += share * d_above[i];
     }
     return true;

@@ -60,19 +60,29 @@ TEST(Apexes, LineGoesFromTheOutsideToThemAndOut) {
   EXPECT_LT(line.length_m(), centre.length_m);  // it is inside where the turns are
 }
 
-// Between a corner and one of the other direction the line finds its own way across the lane.
-TEST(Apexes, OnlyCornersOfOneDirectionHaveTheOutsideBetweenThem) {
+// Between a corner and one of the other direction the line crosses the middle of the lane.
+TEST(Apexes, BetweenCornersOfBothDirectionsLiesTheMiddle) {
   const world::TrackDescription description = circuit();
   const world::TrackMap track = valid(world::TrackMap::build(description));
   const Lanes lanes{track};
   const Raceline centre = centre_of(lanes, Region::kOuterLane);
   const auto apexes = find_apexes(centre, track);
-  std::size_t pairs = 0;
-  for (std::size_t i = 0; i < apexes.size(); ++i)
-    if (apexes[i].is_left == apexes[(i + 1) % apexes.size()].is_left) ++pairs;
-  ASSERT_LT(pairs, apexes.size());
-  EXPECT_EQ(apex_waypoints(lanes, Region::kOuterLane, centre, kMargin_m, {}).size(),
-            apexes.size() + pairs);
+  const auto waypoints = apex_waypoints(lanes, Region::kOuterLane, centre, kMargin_m, {});
+  ASSERT_EQ(waypoints.size(), 2 * apexes.size());
+  int middles = 0;
+  for (std::size_t i = 0; i < apexes.size(); ++i) {
+    const Apex &a = apexes[i], &b = apexes[(i + 1) % apexes.size()];
+    const double span_m = track.station_ahead(a.s_m, b.s_m);
+    for (const Waypoint& w : waypoints) {
+      const double ahead_m = track.station_ahead(a.s_m, w.s_m);
+      if (ahead_m < 1.0 || ahead_m > span_m - 1.0) continue;
+      const Band free = lanes.band(Region::kOuterLane, w.s_m).narrowed(kMargin_m);
+      const double outside_m = a.is_left ? free.right_m : free.left_m;
+      EXPECT_NEAR(w.n_m, a.is_left == b.is_left ? outside_m : free.middle_m(), 1e-9) << w.s_m;
+      if (a.is_left != b.is_left) ++middles;
+    }
+  }
+  EXPECT_EQ(middles, 2);  // into the one corner to the right, and out of it
 }
 
 TEST(Apexes, ThoseOfAPersonStandInstead) {
