@@ -14,7 +14,7 @@ namespace pitwall::raceline {
 namespace {
 
 constexpr double kWidth_px = 1600.0, kMargin_px = 60.0, kMap_px = 800.0, kPanel_px = 260.0;
-constexpr double kHead_px = 40.0, kGap_px = 50.0;
+constexpr double kHead_px = 40.0, kGap_px = 50.0, kLetter_px = 8.0;
 constexpr double kStep_m = 3.0;  // between drawn points
 constexpr std::array kColours{"#c0392b", "#e67e22", "#b7950b", "#1e8449", "#117a65",
                               "#2471a3", "#6c3483", "#d81b60", "#000000", "#5d4037"};
@@ -96,6 +96,10 @@ class Picture {
         low_n = std::min(low_n, n_m), high_n = std::max(high_n, n_m);
       }
     }
+    if (const auto& pit = track_.pit()) {
+      low_n = std::min(low_n, pit->offset_m - 0.5 * pit->width_m);
+      high_n = std::max(high_n, pit->offset_m + 0.5 * pit->width_m);
+    }
     for (const auto& row : drawn_)
       for (const Drawn& d : row) {
         place(d.x_m, d.y_m);
@@ -158,8 +162,32 @@ class Picture {
           "class=\"lanes\" fill=\"none\" stroke=\"#909090\" stroke-dasharray=\"8 6\"");
   }
 
+  // The sides of the pit lane; on the unrolled road it may lie across the start.
+  void pit(bool is_map) {
+    if (!track_.pit()) return;
+    const world::PitLane& pit = *track_.pit();
+    for (const double side : {-0.5, 0.5}) {
+      const double n_m = pit.offset_m + side * pit.width_m;
+      std::string points;
+      const auto flush = [&] {
+        shape("polyline", points, "class=\"pit\" fill=\"none\" stroke=\"#a0a0a0\"");
+        points.clear();
+      };
+      const double length_m = track_.station_ahead(pit.entry_s_m, pit.exit_s_m);
+      for (double along_m = 0.0; along_m < length_m; along_m += kStep_m) {
+        const world::TrackPoint p = track_.offset(pit.entry_s_m + along_m, n_m);
+        const double s_m = track_.wrap_station(pit.entry_s_m + along_m);
+        if (!is_map && s_m < kStep_m && !points.empty()) flush();
+        points += is_map ? map_point(p.x_m, p.y_m)
+                         : formatted("%.1f,%.1f ", station_px(s_m), road_.y_px(n_m));
+      }
+      flush();
+    }
+  }
+
   void map() {
     road(true);
+    pit(true);
     for (std::size_t i = 0; i < drawn_.size(); ++i) {
       std::string points;
       for (const Drawn& d : drawn_[i]) points += map_point(d.x_m, d.y_m);
@@ -196,6 +224,7 @@ class Picture {
   void unrolled() {
     frame(road_, "offset from the reference line, m, left is up", 0, 1.0);
     road(false);
+    pit(false);
     rows([&](const Drawn& d) { return road_.y_px(d.offset_m); });
   }
 
@@ -205,9 +234,12 @@ class Picture {
   }
 
   void legend() {
-    for (std::size_t i = 0; i < bank_.lines.size(); ++i)
-      text(kMargin_px + 190.0 + 128.0 * static_cast<double>(i), 26.0, plain(bank_.lines[i].name),
-           formatted("fill=\"%s\"", kColours[i % kColours.size()]).c_str());
+    double x_px = kMargin_px + 190.0;
+    for (std::size_t i = 0; i < bank_.lines.size(); ++i) {
+      const std::string name = plain(bank_.lines[i].name);
+      text(x_px, 26.0, name, formatted("fill=\"%s\"", kColours[i % kColours.size()]).c_str());
+      x_px += kLetter_px * static_cast<double>(name.size()) + 24.0;
+    }
   }
 
   const RacelineBank& bank_;
