@@ -47,14 +47,18 @@ TEST(BankBuilder, MakesLinesThatPassTheirChecks) {
   }
 }
 
+// Circuits of 1.5 to 7 km, and of 0.4 to 1.5 km with corners as tight as a car can drive.
 TEST(BankBuilder, MakesBanksOfDrawnCircuits) {
   CarLimits car = car_limits();
-  car.steer_max_rad = 0.3;  // corners of 10 m
+  car.steer_max_rad = 0.8, car.steer_rate_max_rad_per_s = 3.0;
   car.corner_speed_mps = [](double curvature_per_m, double) {
     return std::min(70.0, std::sqrt(15.0 / std::max(std::abs(curvature_per_m), 1e-6)));
   };
-  for (std::uint64_t seed = 1; seed <= 30; ++seed) {
-    const world::TrackDescription description = drawn_circuit(seed);
+  for (std::uint64_t seed = 1; seed <= 32; ++seed) {
+    const bool is_small = seed % 2 == 0;
+    const world::TrackDescription description =
+        is_small ? drawn_circuit(seed, {60.0, 160.0}, {3.5, 5.0})
+                 : drawn_circuit(seed, {200.0, 700.0}, {4.0, 8.0});
     const world::TrackMap track = valid(world::TrackMap::build(description));
     const auto bank = build_bank(description, track, {.car_width_m = 2.0});
     ASSERT_TRUE(bank) << seed << ": " << to_string(bank.error());

@@ -92,11 +92,17 @@ inline world::TrackDescription circuit() {
   return d;
 }
 
-// A circuit of 1.5 to 7 km and 8 to 16 m of width through drawn points.
-inline world::TrackDescription drawn_circuit(std::uint64_t seed) {
+struct Range {
+  double least = 0.0, most = 0.0;
+  double draw(Random& random) const { return random.between(least, most); }
+};
+
+// A circuit through drawn points that lie about `size` from its middle, as wide to either wall as
+// drawn of `width`.
+inline world::TrackDescription drawn_circuit(std::uint64_t seed, Range size, Range width) {
   Random random{seed};
   const std::uint64_t count = 6 + random.below(10);
-  const double size_m = random.between(200.0, 700.0);
+  const double size_m = size.draw(random);
   std::vector<Place> points;
   for (std::uint64_t i = 0; i < count; ++i) {
     const double angle_rad =
@@ -107,7 +113,7 @@ inline world::TrackDescription drawn_circuit(std::uint64_t seed) {
   const SpiroSpline spline = valid(SpiroSpline::through(points));
   world::TrackDescription d = described("drawn", spline.length_m());
   d.start_yaw_rad = spline.at(0.0).yaw_rad;
-  const double left_m = random.between(4.0, 8.0), right_m = random.between(4.0, 8.0);
+  const double left_m = width.draw(random), right_m = width.draw(random);
   for (double s_m = 0.0; s_m < d.length_m - 2.0; s_m += 4.0)
     d.knots.push_back({s_m, spline.at(s_m).curvature_per_m, 0.0, left_m, right_m});
   return d;

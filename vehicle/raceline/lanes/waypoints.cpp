@@ -17,18 +17,22 @@ constexpr double kTurnSpacing_rad = 0.35;    // and at most so much turn between
 constexpr double kPitRampShare = 0.25;       // of the pit lane, to get to its middle and back
 constexpr double kSampleStep_m = 1.0;        // at which a spline is compared with its lane
 constexpr double kExcessAllowed_m = 0.02;    // of a spline over its margin
-constexpr double kNear_m = 25.0;             // a waypoint so near is moved: two would make waves
+constexpr double kNearShare = 0.4;  // of the spacing: a second waypoint so near would make waves
 constexpr int kRoundsMax = 60;
 
-// Stations at even distances, counted longer in turns.
+// Between waypoints: shorter in turns.
+double spacing_at(const world::TrackMap& track, double s_m) {
+  const double curvature = std::abs(track.at(s_m).curvature_per_m);
+  return 1.0 / (1.0 / kStraightSpacing_m + curvature / kTurnSpacing_rad);
+}
+
+// Stations at that spacing.
 std::vector<double> stations_of(const world::TrackMap& track) {
   const auto steps = static_cast<std::size_t>(std::ceil(track.length_m() / kWalkStep_m));
   const double step_m = track.length_m() / static_cast<double>(steps);
   std::vector<double> measure{0.0};
   for (std::size_t i = 0; i < steps; ++i) {
-    const double curvature = std::abs(track.at(static_cast<double>(i) * step_m).curvature_per_m);
-    measure.push_back(measure.back() +
-                      step_m * (1.0 / kStraightSpacing_m + curvature / kTurnSpacing_rad));
+    measure.push_back(measure.back() + step_m / spacing_at(track, static_cast<double>(i) * step_m));
   }
   const double count = std::ceil(measure.back());
   std::vector<double> stations;
@@ -84,7 +88,7 @@ void pull_in(const world::TrackMap& track, const Excess& excess, std::vector<Way
     return std::abs(std::remainder(w.s_m - excess.s_m, track.length_m()));
   };
   const auto nearest = std::ranges::min_element(waypoints, {}, apart_m);
-  if (apart_m(*nearest) < kNear_m) {
+  if (apart_m(*nearest) < kNearShare * spacing_at(track, excess.s_m)) {
     nearest->n_m -= excess.over_m;
     return;
   }
