@@ -52,6 +52,10 @@ inline constexpr Recording kCanLogs{"can_logs",
                                     "https://github.com/hardbyte/python-can (test/data), "
                                     "https://github.com/canboat/canboat (samples) and kCandump's"};
 
+inline constexpr Recording kSpiro{
+    "spiro/libspiro_call_test_vectors.json",
+    "https://github.com/fontforge/libspiro (tests/call-test.c, its points and figures as JSON)"};
+
 inline std::filesystem::path path_of(const Recording& recording) {
   return folder() / recording.path;
 }

@@ -13,8 +13,10 @@ import sys
 from pathlib import Path
 
 TREE, BUILD = Path(sys.argv[1]), Path(sys.argv[2])
-PROGRAMS = {"pitwall-hil": "hil", "pitwall-base": "basestation", "pitwall-vehicle": "vehicle"}
-SUBCOMMANDS = {"pitwall-hil": 2, "pitwall-base": 1, "pitwall-vehicle": 0}  # words at most
+PROGRAMS = {"pitwall-hil": "hil", "pitwall-base": "basestation", "pitwall-vehicle": "vehicle",
+            "pitwall-raceline": "vehicle/raceline"}
+# Words at most.
+SUBCOMMANDS = {"pitwall-hil": 2, "pitwall-base": 1, "pitwall-vehicle": 0, "pitwall-raceline": 0}
 README_LINES_AT_MOST = 150
 TOP_FOLDERS = r"(?:protocol|vehicle|basestation|hil|tests)/"
 OF_OTHERS = {"public_recordings"}  # pages that name files of other projects

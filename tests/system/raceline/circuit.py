@@ -1,0 +1,36 @@
+"""A circuit for the tests of racelines: straights, hairpins and corners to both sides.
+
+Its second half is the first turned by half a turn, so that it closes exactly. Curvature is linear
+between knots; corners have ramps.
+"""
+# SPDX-License-Identifier: Apache-2.0
+import math
+
+RAMP_M = 30.0
+LEFT_M, RIGHT_M = 6.0, 5.0  # from the reference line to the walls
+# Straight before the corner, m; turn, degrees, positive left; radius, m.
+HALF = [(350.0, 150.0, 35.0), (150.0, -60.0, 60.0), (120.0, 90.0, 45.0)]
+
+
+def knots():
+    """Station and curvature of each knot, and the length of the lap."""
+    rows, s = [], 0.0
+    for straight, turn_deg, radius in HALF + HALF:
+        curvature = math.copysign(1.0 / radius, turn_deg)
+        arc = abs(math.radians(turn_deg)) * radius - RAMP_M  # the ramps turn half as much
+        for length, here in ((straight, 0.0), (RAMP_M, curvature), (arc, curvature), (RAMP_M, 0.0)):
+            s += length
+            rows.append((s, here))
+    length = rows.pop()[0]
+    return [(0.0, 0.0)] + rows, length
+
+
+def yaml_text():
+    rows, length = knots()
+    lines = ["name: circuit", f"length_m: {length!r}",
+             "datum: {latitude_deg: 45.0, longitude_deg: 9.0, height_m: 100.0}",
+             "start: {x_m: 0.0, y_m: 0.0, yaw_deg: 0.0}", "knots:"]
+    for s, curvature in rows:
+        lines.append(f"  - {{s_m: {s!r}, curvature_per_m: {curvature!r}, bank_deg: 0.0, "
+                     f"width_left_m: {LEFT_M}, width_right_m: {RIGHT_M}}}")
+    return "\n".join(lines) + "\n"

@@ -1,0 +1,146 @@
+// pitwall-raceline: makes the bank of racelines of a track, offline, or checks one that there is.
+// Wires files to the builder, the checks, the report and the picture.
+// SPDX-License-Identifier: Apache-2.0
+#include <CLI/CLI.hpp>
+#include <cmath>
+#include <cstdio>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "protocol/transport/file.hpp"
+#include "vehicle/autonomy/planning/friction.hpp"
+#include "vehicle/parameters/car_file.hpp"
+#include "vehicle/parameters/track_file.hpp"
+#include "vehicle/raceline/apex_file.hpp"
+#include "vehicle/raceline/bank_builder.hpp"
+#include "vehicle/raceline/bank_file.hpp"
+#include "vehicle/raceline/bank_picture.hpp"
+#include "vehicle/raceline/bank_report.hpp"
+#include "vehicle/raceline/line_check.hpp"
+
+namespace pitwall {
+namespace {
+
+constexpr int kExitDone = 0, kExitRefused = 2;
+
+struct Arguments {
+  std::string track_file, car_file, out_file, check_file, apex_file, picture_file, report_file;
+  raceline::BankParams bank;
+};
+
+int refuse(const Problem& problem) {
+  std::fprintf(stderr, "pitwall-raceline: %s\n", to_string(problem).c_str());
+  return kExitRefused;
+}
+
+void add_options(CLI::App& app, Arguments& args) {
+  app.add_option("TRACK", args.track_file, "track file (vehicle/config/tracks/*.yaml)")->required();
+  app.add_option("--car", args.car_file, "car file (vehicle/config/cars/*.yaml)")->required();
+  auto* out = app.add_option("--out", args.out_file, "make the bank and write it here (.json)");
+  auto* check = app.add_option("--check", args.check_file, "check this bank instead");
+  check->excludes(out);
+  app.add_option("--apexes", args.apex_file, "apexes chosen by a person (.yaml)")->excludes(check);
+  app.add_option("--picture", args.picture_file, "write a picture here (.svg)");
+  app.add_option("--report", args.report_file, "write the figures of the checks here (.json)");
+  app.add_option("--car-width", args.bank.car_width_m, "over the wheels, m")
+      ->check(CLI::Range(0.5, 3.0))
+      ->capture_default_str();
+  app.add_option("--clearance", args.bank.clearance_m, "beside the car to the sides of a lane, m")
+      ->check(CLI::Range(0.0, 5.0))
+      ->excludes(check)
+      ->capture_default_str();
+}
+
+raceline::CarLimits limits_of(const pipeline::CarParams& car, double width_m) {
+  const planning::LineParams& line = car.planning.line;
+  const double ratio = car.outbound.steering_ratio;
+  constexpr double kStanding_mps = 0.0;  // where the steering reaches furthest
+  return {.width_m = width_m,
+          .wheelbase_m = car.control.steering.bicycle.wheelbase_m,
+          .steer_max_rad = from_deg(safety::steer_limit_deg(car.gate, kStanding_mps)) / ratio,
+          .steer_rate_max_rad_per_s = from_deg(car.gate.steer_slew_deg_per_s) / ratio,
+          .corner_speed_mps = [line](double curvature_per_m, double bank_rad) {
+            const double speed_mps = planning::corner_speed_mps(
+                line.friction, {.curvature_per_m = curvature_per_m, .bank_rad = bank_rad},
+                line.grip_share);
+            return std::min(speed_mps, line.speed_max_mps);
+          }};
+}
+
+Result<raceline::RacelineBank, Problem> make(const Arguments& args,
+                                             const world::TrackDescription& description,
+                                             const world::TrackMap& map) {
+  raceline::ChosenApexes chosen;
+  if (!args.apex_file.empty()) {
+    const auto text = transport::read_file(args.apex_file);
+    if (!text) return Unexpected{text.error()};
+    auto apexes = raceline::read_apexes(*text, args.apex_file, map);
+    if (!apexes) return Unexpected{apexes.error()};
+    chosen = *std::move(apexes);
+  }
+  return raceline::build_bank(description, map, args.bank, chosen);
+}
+
+Result<raceline::RacelineBank, Problem> load(const Arguments& args,
+                                             const world::TrackDescription& description,
+                                             const world::TrackMap& map,
+                                             const raceline::CarLimits& limits) {
+  const auto text = transport::read_file(args.check_file, raceline::kMaxBankBytes);
+  if (!text) return Unexpected{text.error()};
+  return raceline::read_bank(*text, args.check_file, description, map, limits);
+}
+
+std::optional<Problem> write(const std::string& path, const std::string& text) {
+  if (path.empty()) return std::nullopt;
+  const auto written = transport::write_file(path, text);
+  if (!written) return written.error();
+  std::printf("%s written\n", path.c_str());
+  return std::nullopt;
+}
+
+int run(const Arguments& args) {
+  const auto track_text = transport::read_file(args.track_file);
+  if (!track_text) return refuse(track_text.error());
+  const auto description = parameters::read_track(*track_text, args.track_file);
+  if (!description) return refuse(description.error());
+  const auto map = world::TrackMap::build(*description);
+  if (!map) return refuse(map.error());
+  const auto car_text = transport::read_file(args.car_file);
+  if (!car_text) return refuse(car_text.error());
+  const auto car = parameters::read_car(*car_text, args.car_file);
+  if (!car) return refuse(car.error());
+  const raceline::CarLimits limits = limits_of(car->params, args.bank.car_width_m);
+  const auto bank = args.check_file.empty() ? make(args, *description, *map)
+                                            : load(args, *description, *map, limits);
+  if (!bank) return refuse(bank.error());
+  const raceline::Lanes lanes{*map};
+  std::vector<raceline::LineFigures> figures;
+  for (const raceline::Raceline& line : bank->lines) {
+    const auto checked = raceline::check_raceline(line, lanes, limits);
+    if (!checked) return refuse(checked.error());
+    figures.push_back(*checked);
+  }
+  std::printf("%s", raceline::report_text(*bank, figures).c_str());
+  if (const auto problem = write(args.out_file, raceline::to_json(*bank))) return refuse(*problem);
+  if (const auto problem = write(args.picture_file, raceline::picture_of(*bank, *map)))
+    return refuse(*problem);
+  if (const auto problem = write(args.report_file, raceline::report_json(*bank, figures)))
+    return refuse(*problem);
+  return kExitDone;
+}
+
+}  // namespace
+}  // namespace pitwall
+
+int main(int argc, char** argv) {
+  CLI::App app{"pitwall-raceline: the bank of racelines of a track, made or checked offline"};
+  pitwall::Arguments args;
+  pitwall::add_options(app, args);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : pitwall::kExitRefused;
+  }
+  return pitwall::run(args);
+}
