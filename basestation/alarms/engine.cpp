@@ -46,7 +46,7 @@ void Engine::step(const std::vector<Reading>& readings, Situations situations, I
     Entry& entry = entries_[i];
     const State before = entry.alarm.state();
     const std::uint32_t count_before = entry.alarm.count();
-    const bool silent = row.silent_in.meets(situations) || overruled(i);
+    const bool silent = row.silent_in.overlaps(situations) || overruled(i);
     const bool came = entry.alarm.update(row, settings_.of(i), readings[i], silent, now);
     const State after = entry.alarm.state();
     if (came && after != State::kShelved) {

@@ -24,7 +24,6 @@ namespace pitwall::link {
 
 struct BulkTally {
   std::uint64_t objects = 0, bytes = 0;
-  std::optional<Instant> last;
 };
 
 class Station {

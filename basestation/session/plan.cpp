@@ -173,7 +173,7 @@ std::string reported(const Arguments& car) { return "car " + std::to_string(car.
 
 Result<bool, Problem> use_tokens(const std::string& file, web::AccessRules& access) {
   if (file.empty()) return true;
-  auto tokens = web::TokenBook::open(file);
+  auto tokens = web::TokenStore::open(file);
   if (!tokens) return Unexpected{tokens.error()};
   access.tokens = *std::move(tokens);
   return true;

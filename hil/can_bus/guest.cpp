@@ -152,7 +152,8 @@ Result<bool, Problem> Guest::start(const GuestPlan& plan, int line_end, int cloc
        .own_group = true});
   pinned.reset();
   if (!machine) return Unexpected{machine.error()};
-  transport::prefer(machine->pid());  // where it may not, the bench tells what it waited for
+  transport::raise_priority(
+      machine->pid());  // where it may not, the bench tells what it waited for
   machine_.process = *std::move(machine);
   output_ = std::move(output->first);
   errors_ = std::move(errors->first);

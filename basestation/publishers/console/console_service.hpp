@@ -15,7 +15,7 @@
 #include "basestation/publishers/bench/bench_link.hpp"
 #include "basestation/publishers/console/client_registry.hpp"
 #include "basestation/publishers/console/pause_report.hpp"
-#include "basestation/publishers/web/admission/token_book.hpp"
+#include "basestation/publishers/web/admission/token_store.hpp"
 #include "basestation/publishers/web/web_server.hpp"
 #include "basestation/service/publisher.hpp"
 
@@ -23,8 +23,8 @@ namespace pitwall::publishers::console {
 
 struct ConsoleConfig {
   std::size_t place = 0;  // of this car among the cars of the server
-  std::shared_ptr<web::TokenBook> tokens =
-      std::make_shared<web::TokenBook>();  // identify the second person of an override
+  std::shared_ptr<web::TokenStore> tokens =
+      std::make_shared<web::TokenStore>();  // identify the second person of an override
 };
 
 class ConsoleService : public service::Publisher, private StateSource {

@@ -196,7 +196,7 @@ RecordingList::~RecordingList() {
 }
 
 void RecordingList::look_again_and_again() {
-  transport::give_way();
+  transport::lower_priority();
   std::unique_lock lock{mutex_};
   while (!ends_) {
     lock.unlock();

@@ -126,7 +126,7 @@ class RosPublisher : public service::Publisher {
   }
 
   void serve_readers() {
-    transport::give_way();
+    transport::lower_priority();
     const ros_view::Sink sink = [this](const ros_view::Message& message) { write(message); };
     view_.statics(transport::monotonic_now(), transport::realtime_minus_monotonic(), sink);
     Instant look_at = transport::monotonic_now();
@@ -203,7 +203,7 @@ Result<Distribution, Problem> distribution_named(const std::string& name) {
 Result<std::unique_ptr<service::Publisher>, Problem> start(RosConfig config) {
   // Fast DDS starts threads of its own, which take after the one that starts them.
   auto domain = std::async(std::launch::async, [&] {
-                  transport::give_way();
+                  transport::lower_priority();
                   return Domain::join(config.domain);
                 }).get();
   if (!domain) return Unexpected{domain.error()};

@@ -43,7 +43,7 @@ void FoxglovePublisher::publish(const service::CarService&, Instant now) {
 }
 
 void FoxglovePublisher::run() {
-  transport::give_way();
+  transport::lower_priority();
   const std::array<int, 2> watched{feed_.fd(), server_->fd()};
   while (!feed_.closed()) {
     transport::wait_readable(watched, server_->due());

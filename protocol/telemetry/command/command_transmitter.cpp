@@ -12,7 +12,7 @@ CommandTransmitterOf<Kept>::CommandTransmitterOf(std::uint64_t own_boot)
     : run_(short_boot(own_boot)) {}
 
 template <std::size_t Kept>
-void CommandTransmitterOf<Kept>::meets(std::uint64_t car_boot, Instant now) {
+void CommandTransmitterOf<Kept>::set_peer_boot(std::uint64_t car_boot, Instant now) {
   const std::uint32_t boot = short_boot(car_boot);
   if (car_boot_ && *car_boot_ != boot) car_restarted(now);
   car_boot_ = boot;

@@ -47,7 +47,7 @@ class CommandTransmitterOf {
   explicit CommandTransmitterOf(std::uint64_t own_boot);
 
   // Call at each new session, with the car's Greeting::boot; a new value means a restart.
-  void meets(std::uint64_t car_boot, Instant now);
+  void set_peer_boot(std::uint64_t car_boot, Instant now);
   // The car restarted: every open command ends with kOtherRun.
   void car_restarted(Instant now);
 

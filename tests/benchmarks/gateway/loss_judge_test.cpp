@@ -83,7 +83,7 @@ TEST(LossJudge, AnOmissionThatNoGapBetraysIsHiddenUnlessACounterTells) {
     const auto next = std::lower_bound(arrived.begin(), arrived.end(), run.omitted_at[gone]);
     if (next == arrived.begin() || next == arrived.end()) continue;
     run.reports.erase(run.reports.begin() + static_cast<std::ptrdiff_t>(gone));
-    const Instant latest = *next - row.period - can::slack_of(row);
+    const Instant latest = *next - row.period - can::tolerance_of(row);
     *(next - 1) = latest - milliseconds(1);
     EXPECT_EQ(run.judged().missed, 1u) << gone;
     *(next - 1) = latest;
@@ -114,7 +114,7 @@ TEST(LossJudge, AReportOfAFrameThatCameIsFalseAndOfOneThatCameLateIsNot) {
   run.reports.push_back({.id = row.id, .frames = 1, .due = arrived[2], .noticed = arrived[3]});
   EXPECT_EQ(run.judged().false_reports, 1u);
   EXPECT_EQ(run.judged().complaints.size(), 1u);
-  arrived[2] += can::slack_of(row) + milliseconds(1);
+  arrived[2] += can::tolerance_of(row) + milliseconds(1);
   EXPECT_EQ(run.judged().false_reports, 0u);
   EXPECT_EQ(run.judged().late_on_bus, 1u);
 }

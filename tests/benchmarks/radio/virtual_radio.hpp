@@ -47,8 +47,8 @@ struct RadioSetup {
   Duration to_utc{};        // UTC minus the car's clock
   std::array<telemetry::Address, telemetry::kPaths> spare{};  // further base addresses of the car
   // Registries that the ends announce; nullptr: the real one. They outlive the radio.
-  const telemetry::SchemaClaim* schema_of_car = nullptr;
-  const telemetry::SchemaClaim* schema_of_base = nullptr;
+  const telemetry::SchemaDescription* schema_of_car = nullptr;
+  const telemetry::SchemaDescription* schema_of_base = nullptr;
 };
 
 // A datagram that left an end; the size includes IP and UDP.

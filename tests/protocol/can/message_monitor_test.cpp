@@ -50,7 +50,7 @@ void expect_every_loss_once(const SenderHabits& habits, bool has_counter, Random
     if (losses_before(sends, index) >= 5) continue;  // past the timeout: by the frame that ends it
     EXPECT_LE(r.due - due, habits.delay_max);
     EXPECT_LE(due - r.due, habits.delay_max);
-    EXPECT_LE(r.noticed - r.due, slack_of(row) + kTick + habits.delay_max);
+    EXPECT_LE(r.noticed - r.due, tolerance_of(row) + kTick + habits.delay_max);
   }
   EXPECT_EQ(received.monitor.late, 0U);
   EXPECT_GE(received.monitor.lost, lost);  // and those that were due after the end
@@ -67,7 +67,7 @@ TEST(MessageMonitor, EveryLossIsReportedOnceAndNothingElse) {
                             .loss = loss,
                             .sends = 300};
         for (const int percent : {0, 50, 99}) {
-          habits.delay_max = slack_of(row_of(habits, true)) * percent / 100;
+          habits.delay_max = tolerance_of(row_of(habits, true)) * percent / 100;
           expect_every_loss_once(habits, true, noise);
           if (cycle.top == 7) expect_every_loss_once(habits, false, noise);
           if (HasFatalFailure()) return;

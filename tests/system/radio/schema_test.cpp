@@ -15,16 +15,16 @@ namespace {
 
 using telemetry::Direction;
 using telemetry::Group;
-using telemetry::SchemaClaim;
+using telemetry::SchemaDescription;
 
 constexpr std::size_t kMany = 40;  // more than any group
 
 // A version of the registry: what is otherwise in it than in ours.
 struct Version {
-  SchemaClaim claim = telemetry::own_claim();
+  SchemaDescription claim = telemetry::own_schema();
   std::string text = telemetry::safety_text();
 
-  SchemaClaim::Place& place(Group group) {
+  SchemaDescription::Place& place(Group group) {
     for (auto* places : {&claim.down, &claim.up}) {
       for (auto& place : *places) {
         if (place.group.own == group) return place;
@@ -39,9 +39,9 @@ struct Version {
     return *this;
   }
   Version& remove(Group group) {
-    SchemaClaim::Places& places =
+    SchemaDescription::Places& places =
         telemetry::row_of(group).direction == Direction::kDown ? claim.down : claim.up;
-    SchemaClaim::Places rest;
+    SchemaDescription::Places rest;
     for (const auto& place : places) {
       if (place.group.own == group) continue;
       EXPECT_TRUE(rest.push(place));
@@ -55,7 +55,7 @@ struct Version {
     claim.whole_hash ^= 0x77;
     return *this;
   }
-  const SchemaClaim* done() {
+  const SchemaDescription* done() {
     claim.safety_text = text;
     return &claim;
   }
@@ -77,7 +77,7 @@ struct Seen {
   std::uint64_t falsehoods = 0, bad_bodies = 0;
 };
 
-Seen look(const SchemaClaim* car, const SchemaClaim* base) {
+Seen look(const SchemaDescription* car, const SchemaDescription* base) {
   RadioSetup setup = lossy(0.2, 11);
   setup.schema_of_car = car;
   setup.schema_of_base = base;
@@ -111,7 +111,7 @@ telemetry::GroupSet all_but(std::initializer_list<Group> missing) {
 
 // Both ways: the car is the one of the other version, or the base is.
 void expect_both_ways(Version version, const telemetry::GroupSet& groups, bool agree) {
-  const SchemaClaim* other = version.done();
+  const SchemaDescription* other = version.done();
   for (const bool at_car : {true, false}) {
     const Seen seen = look(at_car ? other : nullptr, at_car ? nullptr : other);
     EXPECT_EQ(seen.groups.bits, groups.bits) << at_car;

@@ -50,7 +50,7 @@ World::World(const Budget& budget, Planted planted, PlantedRoam roam)
       transmitter_(kRunBoots + 1),
       ledger_(kCarBoots + 1),
       where_(roam) {
-  transmitter_.meets(kCarBoots + boot_, now_);
+  transmitter_.set_peer_boot(kCarBoots + boot_, now_);
   authority_.take(kA, now_);
   note_holders();
 }
@@ -297,7 +297,7 @@ void World::car_sends(bool to_trial) {
 }
 
 void World::meet(std::uint8_t run) {
-  ledger_.meets(kRunBoots + run);
+  ledger_.set_peer_boot(kRunBoots + run);
   view_.base_restarted();
   latch_.base_restarted();
   run_met_ = run;
@@ -336,7 +336,7 @@ Broken World::deliver_up(const UpPacket& packet, bool relayed) {
   const std::uint64_t run_word = kRunBoots + packet.run;
   if (planted_ == Planted::kForgetfulLedger && packet.run == run_met_) {
     ledger_ = telemetry::CommandLedgerOf<4>{kCarBoots + boot_};
-    ledger_.meets(run_word);
+    ledger_.set_peer_boot(run_word);
   }
   hear_state(packet);
   const auto body = telemetry::parse_body(packet.body.span(), Direction::kUp);
@@ -356,7 +356,7 @@ Broken World::deliver_down(const DownPacket& packet) {
   if (!where_.base_hears(packet.route)) return Broken::kNothing;
   if (packet.run != run_ || packet.boot < boot_met_) return Broken::kNothing;
   boot_met_ = packet.boot;
-  transmitter_.meets(kCarBoots + packet.boot, now_);
+  transmitter_.set_peer_boot(kCarBoots + packet.boot, now_);
   challenge_known_ = packet.challenge;
   const auto body = telemetry::parse_body(packet.body.span(), Direction::kDown);
   CHECK(body.has_value());
@@ -452,7 +452,7 @@ void World::restart_base() {
   ++run_;
   transmitter_ = telemetry::CommandTransmitterOf<4>{kRunBoots + run_};
   boot_met_ = boot_;
-  transmitter_.meets(kCarBoots + boot_, now_);
+  transmitter_.set_peer_boot(kCarBoots + boot_, now_);
   authority_ = {};
   stop_ = {};
   challenge_known_ = 0;

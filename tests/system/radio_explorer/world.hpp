@@ -99,8 +99,7 @@ enum class Planted : std::uint8_t {
   kRenewalAtReception,  // any received packet renews the authority
   kLatchFollows,        // the stop ends when the base sends no stop
   kReleaseAfterPress,   // a release issued before the press cancels the press at the base
-  kAnyConsole,          // the ledger does not check the issuer of a command
-  kOldRunsCount         // the ledger keeps its numbers after a restart of the base
+  kAnyConsole           // the ledger does not check the issuer of a command
 };
 
 enum class Broken : std::uint8_t {

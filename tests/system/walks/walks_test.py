@@ -37,16 +37,16 @@ SIDE = {
         "transport::realtime_minus", "transport::utc_now", "transport::wait_readable",
         "transport::sleep_until"],
     "how a link is kept: receipts, budget, paths, keys, what else is in a packet": [
-        "telemetry::ReceiptBook", "telemetry::SentBook", "telemetry::ClockSync",
+        "telemetry::ReceivedPackets", "telemetry::SentPackets", "telemetry::ClockSync",
         "telemetry::LinkStats", "telemetry::PathBudget", "telemetry::RateControl",
-        "telemetry::PathChoice", "telemetry::ThreatMonitor", "telemetry::SchemaTalk",
+        "telemetry::PathChoice", "telemetry::ThreatMonitor", "telemetry::SchemaExchange",
         "telemetry::Joystick", "telemetry::PathLane", "telemetry::Responder", "telemetry::put",
         "telemetry::Bulk", "telemetry::EventReceiver", "telemetry::EventSender",
         "telemetry::LinkEndpoint::add_path_records", "telemetry::LinkEndpoint::path_records_size",
         "telemetry::LinkEndpoint::take_path_records", "telemetry::LinkEndpoint::take_ack",
         "telemetry::LinkEndpoint::report", "telemetry::LinkEndpoint::plan",
         "telemetry::LinkEndpoint::begin", "telemetry::LinkEndpoint::note_session",
-        "telemetry::LinkEndpoint::exchange", "telemetry::LinkEndpoint::peer_knows",
+        "telemetry::LinkEndpoint::exchange", "telemetry::LinkEndpoint::sendable_groups",
         "telemetry::LinkEndpoint::round_trip", "telemetry::Association::probe",
         "telemetry::Association::opening_due", "telemetry::Association::poll_size",
         "telemetry::Association::heard", "telemetry::Association::note_sent",
@@ -59,7 +59,7 @@ SIDE = {
         "publishers::console::ClientRegistry::identify",
         "publishers::console::ClientRegistry::welcome", "publishers::console::PauseReport",
         "publishers::web::memory_use", "publishers::web::short_of_memory",
-        "publishers::web::reserve_is_held", "publishers::web::TokenBook"],
+        "publishers::web::reserve_is_held", "publishers::web::TokenStore"],
 }
 # A walk's own: what goes the other way, or somewhere else.
 OTHER_WAY = {

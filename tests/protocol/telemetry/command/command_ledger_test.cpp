@@ -120,7 +120,7 @@ TEST(CommandLedger, TheAgeIsLookedAtWhenTheConsumerAsksAndToTheNanosecond) {
   const Instant expires = sent - reported + row_of(CommandType::kSendParameters).time_to_live;
   for (const Duration past : {Duration{}, nanoseconds(1)}) {
     CommandLedger ledger(5);
-    ledger.meets(9);
+    ledger.set_peer_boot(9);
     ASSERT_TRUE(ledger.take({RecordType::kCommand, bytes}, received, {}));
     EXPECT_EQ(ledger.take_due(expires + past, {}).has_value(), past == Duration{});
   }
@@ -129,7 +129,7 @@ TEST(CommandLedger, TheAgeIsLookedAtWhenTheConsumerAsksAndToTheNanosecond) {
 // What memory no longer holds is not begun anew.
 TEST(CommandLedger, ANumberOlderThanMemoryIsNeverHandedOut) {
   CommandLedger ledger(5);
-  ledger.meets(9);
+  ledger.set_peer_boot(9);
   const Instant now{seconds(50).ns};
   Received received;
   received.at = now;
@@ -161,12 +161,12 @@ TEST(CommandLedger, ACommandForTheRunBeforeIsAnsweredByItsName) {
   rig.run(milliseconds(100));
   // The car begins anew; the base does not know it yet.
   rig.ledger = CommandLedger{TwoEnds::kCarBoot + 1};
-  rig.ledger.meets(TwoEnds::kBaseBoot);
+  rig.ledger.set_peer_boot(TwoEnds::kBaseBoot);
   rig.up.cut = false;
   rig.run(milliseconds(200));
   EXPECT_EQ(fate(rig, *old), Outcome::kOtherRun);
   EXPECT_EQ(rig.stories[*old].applied, 0);
-  rig.transmitter.meets(TwoEnds::kCarBoot + 1, rig.now);
+  rig.transmitter.set_peer_boot(TwoEnds::kCarBoot + 1, rig.now);
   const auto fresh = rig.issue(CommandType::kArm, 1.0);
   rig.run(milliseconds(200));
   EXPECT_EQ(fate(rig, *fresh), Outcome::kApplied);
@@ -182,12 +182,12 @@ TEST(CommandLedger, ABaseThatBeginsAgainIsNotMistakenForTheOneBefore) {
   const auto due = rig.ledger.take_due(rig.car_now(), rig.view);  // handed out, not yet answered
   ASSERT_TRUE(due);
   rig.transmitter = CommandTransmitter{TwoEnds::kBaseBoot + 1};
-  rig.transmitter.meets(TwoEnds::kCarBoot, rig.now);
+  rig.transmitter.set_peer_boot(TwoEnds::kCarBoot, rig.now);
   const auto before = rig.ledger.counters().other_base;
   ASSERT_EQ(rig.issue(CommandType::kSpeedLimit, 99.0), CommandId{1});
   rig.run(milliseconds(100));
   EXPECT_GT(rig.ledger.counters().other_base, before) << "before the sessions say so it is ignored";
-  rig.ledger.meets(TwoEnds::kBaseBoot + 1);
+  rig.ledger.set_peer_boot(TwoEnds::kBaseBoot + 1);
   rig.run(milliseconds(100));
   const auto now_due = rig.ledger.take_due(rig.car_now(), rig.view);  // both are in its hands
   ASSERT_TRUE(now_due);
@@ -202,7 +202,7 @@ TEST(CommandLedger, ABaseThatBeginsAgainIsNotMistakenForTheOneBefore) {
 
 TEST(CommandLedger, AnUnknownTypeIsAnsweredUnsupported) {
   CommandLedger ledger(5);
-  ledger.meets(9);
+  ledger.set_peer_boot(9);
   const auto bytes = to_bytes(CommandRecord{
       .number = 1, .base_run = short_boot(9), .car_boot = short_boot(5), .type = 200});
   Received received;
@@ -212,7 +212,7 @@ TEST(CommandLedger, AnUnknownTypeIsAnsweredUnsupported) {
 
 TEST(CommandLedger, MalformedRecordsHaveNoEffectAndAreCounted) {
   CommandLedger ledger(5);
-  ledger.meets(9);
+  ledger.set_peer_boot(9);
   const std::vector<std::uint8_t> bytes(300, 0xFF);
   for (std::size_t size = 0; size < bytes.size(); ++size) {
     const auto payload = std::span<const std::uint8_t>{bytes}.first(size);

@@ -142,8 +142,8 @@ class TwoEnds {
   explicit TwoEnds(const AirParams& params)
       : air(params), up(params, 17), down(params, 29), random_(params.seed) {
     authority.take(kOperator, now);
-    transmitter.meets(kCarBoot, now);
-    ledger.meets(kBaseBoot);
+    transmitter.set_peer_boot(kCarBoot, now);
+    ledger.set_peer_boot(kBaseBoot);
   }
 
   std::optional<CommandId> issue(CommandType type, double argument) {

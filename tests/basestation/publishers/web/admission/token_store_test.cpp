@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "basestation/publishers/web/admission/token_book.hpp"
+#include "basestation/publishers/web/admission/token_store.hpp"
 
 #include <gtest/gtest.h>
 
@@ -21,7 +21,7 @@ class TokenBookTest : public testing::Test {
 
 TEST_F(TokenBookTest, ALineThatIsTakenAwayHoldsNoLonger) {
   write(std::string{"operator "} + kTokenOfAnna + " Anna\nviewer " + kTokenOfGarage + " Garage\n");
-  const auto book = TokenBook::open(file_);
+  const auto book = TokenStore::open(file_);
   ASSERT_TRUE(book);
   const auto anna = (*book)->find(kTokenOfAnna);
   ASSERT_TRUE(anna);
@@ -36,7 +36,7 @@ TEST_F(TokenBookTest, ALineThatIsTakenAwayHoldsNoLonger) {
 
 TEST_F(TokenBookTest, AFileWithAMistakeChangesNothingAndIsToldOnce) {
   write(std::string{"operator "} + kTokenOfAnna + " Anna\n");
-  const auto book = TokenBook::open(file_);
+  const auto book = TokenStore::open(file_);
   ASSERT_TRUE(book);
   write("operator short Anna and more than before\n");
   const auto again = (*book)->look_again();
@@ -48,7 +48,7 @@ TEST_F(TokenBookTest, AFileWithAMistakeChangesNothingAndIsToldOnce) {
 
 TEST_F(TokenBookTest, AFileThatOthersReadIsRefused) {
   ASSERT_TRUE(transport::write_file(file_, "", 0644));
-  EXPECT_FALSE(TokenBook::open(file_));
+  EXPECT_FALSE(TokenStore::open(file_));
 }
 
 }  // namespace

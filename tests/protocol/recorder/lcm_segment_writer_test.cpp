@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "protocol/recorder/lcm_twin.hpp"
+#include "protocol/recorder/lcm_segment_writer.hpp"
 
 #include <gtest/gtest.h>
 
@@ -57,7 +57,7 @@ std::uint64_t events_of(const MemoryDisk& disk) {
   return events;
 }
 
-TEST(LcmTwin, EverySegmentHasItsLogUnderTheSameNameWithTheSameRecords) {
+TEST(LcmSegmentWriter, EverySegmentHasItsLogUnderTheSameNameWithTheSameRecords) {
   TwinSource source;
   source.run(seconds(130));
   source.chain.close();
@@ -69,7 +69,7 @@ TEST(LcmTwin, EverySegmentHasItsLogUnderTheSameNameWithTheSameRecords) {
     recording::McapReader messages{segment->second};
     recording::LcmLogReader events{log->second};
     while (const auto message = messages.next()) {
-      if (message->channel == kPictureChannel) continue;
+      if (message->channel == kSnapshotChannel) continue;
       const auto event = events.next();
       ASSERT_TRUE(event);
       EXPECT_EQ(event->at.ns, static_cast<std::int64_t>(message->logged_ns));
@@ -81,7 +81,7 @@ TEST(LcmTwin, EverySegmentHasItsLogUnderTheSameNameWithTheSameRecords) {
   EXPECT_EQ(source.chain.figures().lcm.lost, 0U);
 }
 
-TEST(LcmTwin, AGroupIsItsFingerprintItsSampleTimeAndItsFields) {
+TEST(LcmSegmentWriter, AGroupIsItsFingerprintItsSampleTimeAndItsFields) {
   TwinSource source;
   source.run(kTick);
   source.chain.close();
@@ -99,7 +99,7 @@ TEST(LcmTwin, AGroupIsItsFingerprintItsSampleTimeAndItsFields) {
   }
 }
 
-TEST(LcmTwin, TextsDatagramsAndFramesHaveTheirLength) {
+TEST(LcmSegmentWriter, TextsDatagramsAndFramesHaveTheirLength) {
   TwinSource source;
   const std::vector<std::uint8_t> text{'{', '}'};
   source.give(channel_of(Topic::kMark), text);
@@ -122,7 +122,7 @@ TEST(LcmTwin, TextsDatagramsAndFramesHaveTheirLength) {
   EXPECT_EQ(frame->data.size(), kHead + 4 + 3 + 4 + 3);
 }
 
-TEST(LcmTwin, WhereItsDiskIsFullTheSegmentGoesOnAndTheNextOneHasALogAgain) {
+TEST(LcmSegmentWriter, WhereItsDiskIsFullTheSegmentGoesOnAndTheNextOneHasALogAgain) {
   TwinSource source;
   source.run(seconds(10));
   source.lcm_disk.capacity = source.lcm_disk.used() + 5'000;
@@ -139,7 +139,7 @@ TEST(LcmTwin, WhereItsDiskIsFullTheSegmentGoesOnAndTheNextOneHasALogAgain) {
   EXPECT_EQ(figures.events + figures.lost, source.given);
 }
 
-TEST(LcmTwin, ASegmentThatIsGivenUpTakesItsLogWithIt) {
+TEST(LcmSegmentWriter, ASegmentThatIsGivenUpTakesItsLogWithIt) {
   TwinSource source;
   source.disk.capacity = 1'000;
   source.run(seconds(2));

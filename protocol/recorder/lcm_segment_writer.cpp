@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "protocol/recorder/lcm_twin.hpp"
+#include "protocol/recorder/lcm_segment_writer.hpp"
 
 namespace pitwall::recorder {
 namespace {
@@ -8,11 +8,12 @@ constexpr std::size_t kRoom = std::size_t{1} << 20;
 
 }  // namespace
 
-LcmTwin::LcmTwin(Disk& disk, const ClockMap& clock) : disk_(disk), encoder_(clock) {
+LcmSegmentWriter::LcmSegmentWriter(Disk& disk, const ClockMap& clock)
+    : disk_(disk), encoder_(clock) {
   waiting_.reserve(kRoom);
 }
 
-void LcmTwin::begin(const std::string& name) {
+void LcmSegmentWriter::begin(const std::string& name) {
   if (disk_.begin(name + ".lcm")) return;
   log_.emplace([this](std::span<const std::uint8_t> event) {
     waiting_.insert(waiting_.end(), event.begin(), event.end());
@@ -20,7 +21,7 @@ void LcmTwin::begin(const std::string& name) {
   });
 }
 
-void LcmTwin::take(const Record& record) {
+void LcmSegmentWriter::take(const Record& record) {
   if (!encoder_.has(record.channel)) return;
   if (!log_) {
     ++figures_.lost;
@@ -35,7 +36,7 @@ void LcmTwin::take(const Record& record) {
   if (waiting_.size() >= kRoom) flush();
 }
 
-void LcmTwin::flush() {
+void LcmSegmentWriter::flush() {
   if (!log_ || waiting_.empty()) return;
   const bool taken = disk_.append(waiting_);
   (taken ? figures_.events : figures_.lost) += waiting_events_;
@@ -47,7 +48,7 @@ void LcmTwin::flush() {
   disk_.end(true);
 }
 
-void LcmTwin::end(bool keep) {
+void LcmSegmentWriter::end(bool keep) {
   if (keep) flush();
   if (!log_) return;
   figures_.lost += waiting_events_;

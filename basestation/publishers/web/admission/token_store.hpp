@@ -18,11 +18,11 @@
 
 namespace pitwall::publishers::web {
 
-class TokenBook {
+class TokenStore {
  public:
-  explicit TokenBook(Tokens tokens = {}) : tokens_(std::move(tokens)) {}
+  explicit TokenStore(Tokens tokens = {}) : tokens_(std::move(tokens)) {}
   // Problem also if other users can read or change the file.
-  static Result<std::shared_ptr<TokenBook>, Problem> open(const std::string& file);
+  static Result<std::shared_ptr<TokenStore>, Problem> open(const std::string& file);
 
   std::optional<Identity> find(std::string_view token) const;
   std::string session(std::string_view token, UtcTime end) const;

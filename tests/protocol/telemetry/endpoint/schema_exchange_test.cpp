@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "protocol/telemetry/endpoint/schema_talk.hpp"
+#include "protocol/telemetry/endpoint/schema_exchange.hpp"
 
 #include <gtest/gtest.h>
 
@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::uint64_t kOther = kSchemaHash ^ 1;
 
-std::vector<std::vector<std::uint8_t>> records_of(SchemaTalk& talk, int packets) {
+std::vector<std::vector<std::uint8_t>> records_of(SchemaExchange& talk, int packets) {
   std::vector<std::vector<std::uint8_t>> records;
   for (int i = 0; i < packets; ++i) {
     std::array<std::uint8_t, kMaxBody> buffer{};
@@ -31,8 +31,8 @@ std::vector<std::vector<std::uint8_t>> records_of(SchemaTalk& talk, int packets)
   return records;
 }
 
-TEST(SchemaTalk, TheSameRegistryIsNotTalkedAbout) {
-  SchemaTalk car(own_claim(), Direction::kDown);
+TEST(SchemaExchange, TheSameRegistryIsNotTalkedAbout) {
+  SchemaExchange car(own_schema(), Direction::kDown);
   car.begin(kSchemaHash);
   EXPECT_TRUE(car.may_send());
   EXPECT_EQ(car.size(), 0u);
@@ -40,8 +40,8 @@ TEST(SchemaTalk, TheSameRegistryIsNotTalkedAbout) {
   EXPECT_EQ(car.reading().size(), groups_of(Direction::kUp).count());
 }
 
-TEST(SchemaTalk, NothingIsReadBeforeAllIsKnownWhateverTheOrder) {
-  SchemaTalk car(own_claim(), Direction::kDown), base(own_claim(), Direction::kUp);
+TEST(SchemaExchange, NothingIsReadBeforeAllIsKnownWhateverTheOrder) {
+  SchemaExchange car(own_schema(), Direction::kDown), base(own_schema(), Direction::kUp);
   car.begin(kOther);
   base.begin(kOther);
   EXPECT_FALSE(car.may_send());
@@ -61,27 +61,27 @@ TEST(SchemaTalk, NothingIsReadBeforeAllIsKnownWhateverTheOrder) {
   EXPECT_FALSE(base.may_send());
 }
 
-TEST(SchemaTalk, AGroupOfAnotherHashIsSkippedByItsSize) {
-  SchemaClaim other = own_claim();
+TEST(SchemaExchange, AGroupOfAnotherHashIsSkippedByItsSize) {
+  SchemaDescription other = own_schema();
   other.down[3].hash ^= 1;
-  SchemaTalk car(other, Direction::kDown), base(own_claim(), Direction::kUp);
+  SchemaExchange car(other, Direction::kDown), base(own_schema(), Direction::kUp);
   car.begin(kSchemaHash ^ 5);
   base.begin(kOther);
   for (const auto& record : records_of(car, 3)) EXPECT_TRUE(base.take(record));
   for (std::size_t k = 0; k < base.reading().size(); ++k) {
     EXPECT_EQ(base.reading()[k].own.has_value(), k != 3);
-    EXPECT_EQ(base.reading()[k].bits, own_claim().down[k].group.bits);
+    EXPECT_EQ(base.reading()[k].bits, own_schema().down[k].group.bits);
   }
 }
 
-TEST(SchemaTalk, WhatIsNoListIsRefused) {
-  SchemaTalk car(own_claim(), Direction::kDown), base(own_claim(), Direction::kUp);
+TEST(SchemaExchange, WhatIsNoListIsRefused) {
+  SchemaExchange car(own_schema(), Direction::kDown), base(own_schema(), Direction::kUp);
   car.begin(kOther);
   base.begin(kOther);
   const auto good = records_of(car, 1).front();
   for (std::size_t size = 0; size < good.size(); ++size) {
     const bool whole = size >= 3 && (size - 3) % 6 == 0;
-    SchemaTalk fresh(own_claim(), Direction::kUp);
+    SchemaExchange fresh(own_schema(), Direction::kUp);
     fresh.begin(kOther);
     EXPECT_EQ(fresh.take(std::span(good).first(size)), whole) << size;
   }
@@ -91,7 +91,7 @@ TEST(SchemaTalk, WhatIsNoListIsRefused) {
     bad[at] = value;
     EXPECT_FALSE(base.take(bad)) << at << " " << int{value};
   }
-  SchemaTalk same(own_claim(), Direction::kUp);
+  SchemaExchange same(own_schema(), Direction::kUp);
   same.begin(kSchemaHash);
   EXPECT_FALSE(same.take(good));
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "protocol/telemetry/endpoint/schema_talk.hpp"
+#include "protocol/telemetry/endpoint/schema_exchange.hpp"
 
 #include <algorithm>
 
@@ -9,10 +9,10 @@
 namespace pitwall::telemetry {
 namespace {
 
-SchemaClaim make_own_claim() {
-  SchemaClaim claim;
+SchemaDescription make_own_claim() {
+  SchemaDescription claim;
   for (const Direction direction : {Direction::kDown, Direction::kUp}) {
-    SchemaClaim::Places& places = direction == Direction::kDown ? claim.down : claim.up;
+    SchemaDescription::Places& places = direction == Direction::kDown ? claim.down : claim.up;
     for (const GroupPlace& place : own_layout(direction)) {
       CHECK(places.push({static_cast<std::uint32_t>(group_hash(*place.own)), place}));
     }
@@ -22,9 +22,9 @@ SchemaClaim make_own_claim() {
   return claim;
 }
 
-Layout layout_of(const SchemaClaim::Places& places) {
+Layout layout_of(const SchemaDescription::Places& places) {
   Layout layout;
-  for (const SchemaClaim::Place& place : places) CHECK(layout.push(place.group));
+  for (const SchemaDescription::Place& place : places) CHECK(layout.push(place.group));
   return layout;
 }
 
@@ -34,19 +34,19 @@ Direction other(Direction direction) {
 
 }  // namespace
 
-const SchemaClaim& own_claim() {
-  static const SchemaClaim kClaim = make_own_claim();
+const SchemaDescription& own_schema() {
+  static const SchemaDescription kClaim = make_own_claim();
   return kClaim;
 }
 
-SchemaTalk::SchemaTalk(const SchemaClaim& own, Direction sends)
+SchemaExchange::SchemaExchange(const SchemaDescription& own, Direction sends)
     : own_(&own),
       sends_(sends),
       sending_(layout_of(own.of(sends))),
       own_reading_(layout_of(own.of(other(sends)))),
       reading_(own_reading_) {}
 
-void SchemaTalk::begin(std::uint64_t peer_whole_hash) {
+void SchemaExchange::begin(std::uint64_t peer_whole_hash) {
   differs_ = peer_whole_hash != own_->whole_hash;
   peer_has_ours_ = false;
   next_ = 0;
@@ -56,12 +56,12 @@ void SchemaTalk::begin(std::uint64_t peer_whole_hash) {
   if (differs_) reading_.clear();  // nothing is read before the list is here
 }
 
-bool SchemaTalk::complete() const {
+bool SchemaExchange::complete() const {
   return total_ > 0 &&
          received_ == (total_ < 64 ? (std::uint64_t{1} << total_) - 1 : ~std::uint64_t{0});
 }
 
-bool SchemaTalk::take(std::span<const std::uint8_t> payload) {
+bool SchemaExchange::take(std::span<const std::uint8_t> payload) {
   if (!differs_ || payload.size() < kHead || (payload.size() - kHead) % kEntry != 0) return false;
   const std::size_t count = (payload.size() - kHead) / kEntry, first = payload[2];
   const std::uint8_t total = payload[1];
@@ -73,7 +73,7 @@ bool SchemaTalk::take(std::span<const std::uint8_t> payload) {
     const auto hash = load<std::uint32_t>(payload, kHead + i * kEntry);
     const auto bits = load<std::uint16_t>(payload, kHead + i * kEntry + 4);
     GroupPlace place{.own = {}, .bits = bits};
-    for (const SchemaClaim::Place& ours : own_->of(other(sends_))) {
+    for (const SchemaDescription::Place& ours : own_->of(other(sends_))) {
       if (ours.hash == hash && ours.group.bits == bits) place = ours.group;
     }
     places_[first + i] = place;
@@ -84,7 +84,7 @@ bool SchemaTalk::take(std::span<const std::uint8_t> payload) {
   return true;
 }
 
-std::size_t SchemaTalk::size() const {
+std::size_t SchemaExchange::size() const {
   if (!differs_) return 0;
   const std::size_t rest = own_->of(sends_).size() - next_;
   const std::size_t entries = peer_has_ours_ ? 0 : std::min(kPerRecord, rest);
@@ -92,9 +92,9 @@ std::size_t SchemaTalk::size() const {
 }
 
 // The list in turns until the peer has it; that we have his, in every packet.
-void SchemaTalk::write(BodyWriter& body) {
+void SchemaExchange::write(BodyWriter& body) {
   if (!differs_) return;
-  const SchemaClaim::Places& places = own_->of(sends_);
+  const SchemaDescription::Places& places = own_->of(sends_);
   std::array<std::uint8_t, kHead + kPerRecord * kEntry> bytes{};
   bytes[0] = complete() ? 1 : 0;
   bytes[1] = static_cast<std::uint8_t>(places.size());

@@ -21,7 +21,7 @@
 namespace pitwall::telemetry {
 
 // Description of one end's registry. Tests build descriptions of other versions.
-struct SchemaClaim {
+struct SchemaDescription {
   struct Place {
     std::uint32_t hash = 0;
     GroupPlace group;
@@ -34,11 +34,11 @@ struct SchemaClaim {
 
   const Places& of(Direction direction) const { return direction == Direction::kDown ? down : up; }
 };
-const SchemaClaim& own_claim();
+const SchemaDescription& own_schema();
 
-class SchemaTalk {
+class SchemaExchange {
  public:
-  SchemaTalk(const SchemaClaim& own, Direction sends);
+  SchemaExchange(const SchemaDescription& own, Direction sends);
 
   // Starts a session with a peer whose registry has this hash.
   void begin(std::uint64_t peer_whole_hash);
@@ -53,7 +53,7 @@ class SchemaTalk {
  private:
   static constexpr std::size_t kHead = 3, kEntry = 6, kPerRecord = 12;
 
-  const SchemaClaim* own_;
+  const SchemaDescription* own_;
   Direction sends_;
   Layout sending_, own_reading_, reading_;
   bool differs_ = false, peer_has_ours_ = false;

@@ -2,8 +2,8 @@
 // tools.
 //   in     the records of an open segment
 //   out    NAME.lcm: one event per record, with the channel name of the segment and the time of
-//          reception. Types: `pitwall-base export lcm`. The picture of all known values and the
-//          tick records are left out; the groups have the values of the picture
+//          reception. Types: `pitwall-base export lcm`. The snapshot of all known values and the
+//          tick records are left out; the groups have the values of the snapshot
 //   invariants
 //          the segment does not depend on it: if the disk fails, this log ends after a whole event,
 //          and the next segment begins a new one
@@ -29,9 +29,9 @@ struct LcmFigures {
   std::uint64_t lost = 0;  // events that could not be written
 };
 
-class LcmTwin {
+class LcmSegmentWriter {
  public:
-  LcmTwin(Disk& disk, const ClockMap& clock);
+  LcmSegmentWriter(Disk& disk, const ClockMap& clock);
 
   void begin(const std::string& name);  // without .lcm
   void take(const Record& record);

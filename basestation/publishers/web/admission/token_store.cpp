@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "basestation/publishers/web/admission/token_book.hpp"
+#include "basestation/publishers/web/admission/token_store.hpp"
 
 #include <sys/stat.h>
 
@@ -16,7 +16,7 @@ Result<Tokens, Problem> read_tokens(const std::string& file) {
 
 }  // namespace
 
-TokenBook::Mark TokenBook::mark_of(const std::string& file) {
+TokenStore::Mark TokenStore::mark_of(const std::string& file) {
   struct stat seen {};
   if (::stat(file.c_str(), &seen) != 0) return {};
   return {.changed_ns = seen.st_mtim.tv_sec * kNanosecondsPerSecond + seen.st_mtim.tv_nsec,
@@ -24,37 +24,37 @@ TokenBook::Mark TokenBook::mark_of(const std::string& file) {
           .inode = seen.st_ino};
 }
 
-Result<std::shared_ptr<TokenBook>, Problem> TokenBook::open(const std::string& file) {
+Result<std::shared_ptr<TokenStore>, Problem> TokenStore::open(const std::string& file) {
   const Mark mark = mark_of(file);  // before it is read: what changes meanwhile is read again
   auto tokens = read_tokens(file);
   if (!tokens) return Unexpected{tokens.error()};
-  auto book = std::make_shared<TokenBook>(*std::move(tokens));
+  auto book = std::make_shared<TokenStore>(*std::move(tokens));
   book->file_ = file;
   book->mark_ = mark;
   return book;
 }
 
-std::optional<Identity> TokenBook::find(std::string_view token) const {
+std::optional<Identity> TokenStore::find(std::string_view token) const {
   const std::lock_guard hold(lock_);
   return tokens_.find(token);
 }
 
-std::string TokenBook::session(std::string_view token, UtcTime end) const {
+std::string TokenStore::session(std::string_view token, UtcTime end) const {
   const std::lock_guard hold(lock_);
   return tokens_.session(token, end);
 }
 
-std::optional<Identity> TokenBook::find_session(std::string_view value, UtcTime now) const {
+std::optional<Identity> TokenStore::find_session(std::string_view value, UtcTime now) const {
   const std::lock_guard hold(lock_);
   return tokens_.find_session(value, now);
 }
 
-bool TokenBook::may_stay(const Identity& who) const {
+bool TokenStore::may_stay(const Identity& who) const {
   const std::lock_guard hold(lock_);
   return who.token_id.empty() || tokens_.knows(who.token_id);
 }
 
-Result<bool, Problem> TokenBook::look_again() {
+Result<bool, Problem> TokenStore::look_again() {
   if (file_.empty()) return false;
   const Mark mark = mark_of(file_);
   if (mark == mark_) return false;
