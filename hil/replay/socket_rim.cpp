@@ -136,14 +136,14 @@ void SocketRim::serve_until(Instant give_up, Done&& done) {
 
 void SocketRim::look_for_signals(Instant deadline) {
   const bool idle = deadline - read_ > kIdle;
-  if (!idle && deadline - looked_ <= kSignalPeriod) return;
+  if (!idle && deadline - polled_at_ <= kSignalPeriod) return;
   if (idle) {
     serve_until(deadline - kExactWait, [] { return false; });
   } else {
     serve_streams();
   }
   stopped_ = stopped_ || stop_.raised();
-  looked_ = deadline;
+  polled_at_ = deadline;
 }
 
 bool SocketRim::is_awaited(const Sender& sender) {

@@ -131,7 +131,7 @@ class SocketRim {
   Duration lead_{};
   Duration half_look_{};  // half the duration of one clock reading
   Instant read_{};        // the last clock reading
-  Instant looked_{};      // time of the last poll for signals
+  Instant polled_at_{};      // time of the last poll for signals
   BusyBudget budget_;
   bool stopped_ = false;
   int last_error_ = 0;

@@ -47,7 +47,7 @@ class ConsoleService : public service::Publisher, private StateSource {
 
  private:
   state::FieldView view(state::FieldId field, Instant now) const override;
-  alarms::Judgement judge(state::FieldId field, const state::FieldView& v) const override;
+  alarms::Evaluation evaluate(state::FieldId field, const state::FieldView& v) const override;
   std::vector<state::TrendPoint> past(state::FieldId field, Instant from, Instant to,
                                       std::size_t points) const override;
 

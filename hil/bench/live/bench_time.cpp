@@ -38,10 +38,10 @@ void BenchTime::begin() {
 bool BenchTime::advance(Instant limit) {
   if (!line_) return keeper_.advance(limit);
   const Instant now = keeper_.now();
-  if (now - reported_ >= kWordEvery) {
+  if (now - reported_ >= kReportPeriod) {
     receive();
     publish(now);
-  } else if (now - followed_ >= kBehind - kWordEvery) {
+  } else if (now - followed_ >= kBehind - kReportPeriod) {
     receive();
   }
   return keeper_.advance(std::min(limit, followed_ + kBehind));

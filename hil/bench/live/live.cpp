@@ -40,7 +40,7 @@ constexpr std::size_t kReadBatch = 256;
 // One wake-up per step of the rig: frames sent later than half their period would seem lost to the
 // car. A system call costs 16 us in the guest, so what is slow anyway is looked at once per tick.
 constexpr Duration kWake = milliseconds(1);
-constexpr Duration kLook = milliseconds(10);
+constexpr Duration kPollPeriod = milliseconds(10);
 constexpr Duration kCarry = milliseconds(2);  // how often the radio is served
 
 // Everything that a run is made of, opened before anything is started.
@@ -79,7 +79,7 @@ class Live {
       step(now);
       if (auto problem = parts_.processes.advance(now)) return Unexpected{*problem};
       if ((now - Instant{}).ns % kCarry.ns == 0) parts_.radio.serve(now);
-      if ((now - Instant{}).ns % kLook.ns != 0) continue;
+      if ((now - Instant{}).ns % kPollPeriod.ns != 0) continue;
       if (auto problem = look(now)) return Unexpected{*problem};
       if (!has_contact(result_.outcome)) continue;
       length_ = now - Instant{};

@@ -28,7 +28,7 @@ using transport::CanSocket;
 
 constexpr int kPriority = 60;  // as the live bench: below the car
 constexpr Duration kStartLimit = seconds(15), kStopLimit = seconds(5);
-constexpr Duration kLook = milliseconds(1);         // bench time goes on at least so often
+constexpr Duration kPollPeriod = milliseconds(1);         // bench time goes on at least so often
 constexpr Duration kLookAgain = microseconds(200);  // at somebody who is held up
 constexpr Duration kLookAtCar = milliseconds(10);
 constexpr Duration kSettle = milliseconds(100);  // for the last ticks
@@ -84,7 +84,7 @@ class BenchRim {
   void wait_until(Instant deadline) {
     for (Instant at = now(); at < deadline && !stopped(); at = now()) {
       look(at);
-      const Duration left = std::min(deadline - at, kLook);
+      const Duration left = std::min(deadline - at, kPollPeriod);
       if (!time_) {
         transport::sleep_until(at + left);
         continue;
@@ -106,8 +106,8 @@ class BenchRim {
   void look(Instant at) {
     base_.carry(at);
     base_.say(at - first_tick_);
-    if (at - looked_ < kLookAtCar) return;
-    looked_ = at;
+    if (at - polled_at_ < kLookAtCar) return;
+    polled_at_ = at;
     sockets_.now();
     sockets_.wait_until(at);  // has passed: it looks for a signal, nothing else
     missing_ = processes_.missing();
@@ -117,7 +117,7 @@ class BenchRim {
   ProcessSupervisor& processes_;
   BaseSide base_;
   std::optional<BenchTime> time_;
-  Instant first_tick_{}, looked_{};
+  Instant first_tick_{}, polled_at_{};
   std::optional<Problem> missing_;
 };
 
@@ -131,7 +131,7 @@ Result<Instant, Problem> start_car(ProcessSupervisor& processes, CanSocket& bus,
     if (bus.receive(inbox) > 0) return inbox.front().at;
     if (auto problem = processes.missing()) return Unexpected{*problem};
     base.carry(transport::monotonic_now());
-    transport::sleep_until(transport::monotonic_now() + kLook);
+    transport::sleep_until(transport::monotonic_now() + kPollPeriod);
   }
   return Unexpected{Problem{interface, "no frame of the car has arrived"}};
 }

@@ -116,8 +116,8 @@ void StationEndpoint::Parts::take(const Record& record, const Received& received
 void StationEndpoint::Parts::note_release() {
   if (!release) return;
   const CommandProgress* progress = transmitter.progress(*release);
-  if (progress && !progress->fate) return;
-  if (progress && progress->fate == Outcome::kApplied) stop.released(*release);
+  if (progress && !progress->outcome) return;
+  if (progress && progress->outcome == Outcome::kApplied) stop.released(*release);
   release.reset();
 }
 
@@ -193,7 +193,7 @@ bool StationEndpoint::clock_known() const { return parts_->endpoint.clock().know
 
 std::optional<CommandId> StationEndpoint::issue(const Command& command, Instant now) {
   const bool releases = command.type == CommandType::kReleaseStop;
-  if (releases && parts_->release) return {};  // of two, the fate of the first would be missed
+  if (releases && parts_->release) return {};  // of two, the outcome of the first would be missed
   const auto id = parts_->transmitter.issue(command, now);
   if (id && releases) {
     parts_->release = id;

@@ -1,5 +1,5 @@
-// Acknowledgement state of one end: ReceivedPackets for the packets received, whose Ack goes into each
-// packet; SentPackets for the packets sent and their acknowledgements.
+// Acknowledgement state of one end: ReceivedPackets for the packets received, whose Ack goes into
+// each packet; SentPackets for the packets sent and their acknowledgements.
 //   invariants
 //          a packet is acknowledged at most once; a packet that an Ack does not name has an unknown
 //          state, it is not lost

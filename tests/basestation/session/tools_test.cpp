@@ -107,7 +107,7 @@ TEST_F(SessionTools, WhatTheBaseFindsIsLookedAt) {
   begin();
   serve_all();
   publishers::ros_view::BaseStatus base_status;
-  look_of(session_->service())(base_status, transport::monotonic_now());
+  status_reader_of(session_->service())(base_status, transport::monotonic_now());
   EXPECT_EQ(base_status.values[state::index_of(state::BaseField::kLinkState)], 0.0) << "none yet";
 }
 

@@ -204,7 +204,7 @@ ComparisonRow best_possible(const ComparisonCase& of_case, const ComparisonPlan&
   const link::LinkTrace fades = link_of(of_case, plan).trace;
   Arrivals arrivals;
   const Instant end = Instant{} + plan.warm_up + plan.length;
-  for (Instant at{}; at < end; at += link::kLook)
+  for (Instant at{}; at < end; at += link::kSamplePeriod)
     if (link::loss_over_time(fades, at) == 0.0)
       arrivals.states.push_back({at, at + plan.link.delay});
   ComparisonRow row = judge(arrivals, {}, plan);

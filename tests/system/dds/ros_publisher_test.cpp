@@ -12,7 +12,7 @@
 
 #include "protocol/transport/process.hpp"
 #include "protocol/transport/udp_socket.hpp"
-#include "tests/basestation/publishers/ros_view/some_state.hpp"
+#include "tests/basestation/publishers/ros_view/sample_state.hpp"
 #include "tests/basestation/radio_rig.hpp"
 #include "tests/system/dds/cyclone_peer.hpp"
 

@@ -50,7 +50,7 @@ SIDE = {
         "telemetry::LinkEndpoint::round_trip", "telemetry::Association::probe",
         "telemetry::Association::opening_due", "telemetry::Association::poll_size",
         "telemetry::Association::heard", "telemetry::Association::note_sent",
-        "telemetry::StationEndpoint::due", "telemetry::CarEndpoint::due", "link::AgeBook",
+        "telemetry::StationEndpoint::due", "telemetry::CarEndpoint::due", "link::AgeStatistics",
         "link::LinkMeter", "service::LinkMonitor"],
     "what else a turn of the base does": [
         "service::CarService::advance", "service::CarService::identity", "session::", "inputs::",

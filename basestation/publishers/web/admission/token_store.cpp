@@ -28,10 +28,10 @@ Result<std::shared_ptr<TokenStore>, Problem> TokenStore::open(const std::string&
   const Mark mark = mark_of(file);  // before it is read: what changes meanwhile is read again
   auto tokens = read_tokens(file);
   if (!tokens) return Unexpected{tokens.error()};
-  auto book = std::make_shared<TokenStore>(*std::move(tokens));
-  book->file_ = file;
-  book->mark_ = mark;
-  return book;
+  auto store = std::make_shared<TokenStore>(*std::move(tokens));
+  store->file_ = file;
+  store->mark_ = mark;
+  return store;
 }
 
 std::optional<Identity> TokenStore::find(std::string_view token) const {
@@ -54,7 +54,7 @@ bool TokenStore::may_stay(const Identity& who) const {
   return who.token_id.empty() || tokens_.knows(who.token_id);
 }
 
-Result<bool, Problem> TokenStore::look_again() {
+Result<bool, Problem> TokenStore::refresh() {
   if (file_.empty()) return false;
   const Mark mark = mark_of(file_);
   if (mark == mark_) return false;

@@ -3,7 +3,7 @@
 //   invariants
 //          threads may share it
 //          a file that cannot be read, or has an error, leaves the tokens as they are
-//   errors open(), look_again(): Problem with file and line
+//   errors open(), refresh(): Problem with file and line
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -31,7 +31,7 @@ class TokenStore {
   bool may_stay(const Identity& who) const;
 
   // Returns true if the file was read again.
-  Result<bool, Problem> look_again();
+  Result<bool, Problem> refresh();
 
  private:
   // File attributes that show a change.

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "tests/basestation/publishers/ros_view/some_state.hpp"
+#include "tests/basestation/publishers/ros_view/sample_state.hpp"
 
 namespace pitwall::publishers::ros_view {
 namespace {

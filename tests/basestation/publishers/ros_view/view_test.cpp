@@ -10,7 +10,7 @@
 #include "basestation/publishers/ros_view/group_message.hpp"
 #include "protocol/ros/cdr.hpp"
 #include "protocol/ros/names.hpp"
-#include "tests/basestation/publishers/ros_view/some_state.hpp"
+#include "tests/basestation/publishers/ros_view/sample_state.hpp"
 #include "tests/protocol/ros/sample_messages.hpp"
 #include "tests/support/ros_oracle.hpp"
 

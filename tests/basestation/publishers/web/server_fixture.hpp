@@ -41,11 +41,11 @@ class WebServerTest : public testing::Test {
     port_ = server_->local().port;
   }
   // Waits for the next event of this kind; other events before it are dropped.
-  std::optional<ClientNews> wait_for(ClientNews::Kind kind) {
+  std::optional<ClientEvent> wait_for(ClientEvent::Kind kind) {
     constexpr Duration kPatience = seconds(20);
     const Instant end = transport::monotonic_now() + kPatience;
     while (transport::monotonic_now() < end) {
-      while (auto news = server_->next_news()) {
+      while (auto news = server_->next_event()) {
         if (news->kind == kind) return news;
       }
       const int fd = server_->fd();
@@ -55,7 +55,7 @@ class WebServerTest : public testing::Test {
   }
   ClientId join(Browser& browser, const Browser::Fields& fields = {}) {
     EXPECT_EQ(browser.open(port_, "/ws", fields), 101u);
-    const auto news = wait_for(ClientNews::Kind::kJoined);
+    const auto news = wait_for(ClientEvent::Kind::kJoined);
     EXPECT_TRUE(news);
     return news ? news->client : ClientId{0};
   }

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "basestation/publishers/web/admission/pace.hpp"
-#include "basestation/publishers/web/admission/waiting_room.hpp"
+#include "basestation/publishers/web/admission/pending_connections.hpp"
 #include "tests/basestation/publishers/web/server_fixture.hpp"
 
 namespace pitwall::publishers::web {
@@ -44,7 +44,7 @@ TEST_F(WebEngine, WhenAllPlacesAreTakenTheNextIsRefusedUntilOneIsFree) {
   EXPECT_TRUE(bare(port_, opening("/ws", "127.0.0.1", as_operator)).starts_with("HTTP/1.1 503"));
   EXPECT_EQ(server_->counters().refused_places, 2u);
   consoles.erase(consoles.begin() + 7);
-  const auto left = wait_for(ClientNews::Kind::kLeft);
+  const auto left = wait_for(ClientEvent::Kind::kLeft);
   ASSERT_TRUE(left);
   EXPECT_EQ(join_as_operator(next()), left->client) << "the only number that is free";
 }
@@ -52,7 +52,7 @@ TEST_F(WebEngine, WhenAllPlacesAreTakenTheNextIsRefusedUntilOneIsFree) {
 // Nobody needs a token to open connections and say nothing.
 TEST_F(WebEngine, WhoSaysNothingCostsNoPlaceToWhoHasAToken) {
   std::vector<std::unique_ptr<Silent>> silent;
-  for (std::size_t i = 0; i < WaitingRoom::kPerAddress + 20; ++i)
+  for (std::size_t i = 0; i < PendingConnections::kPerAddress + 20; ++i)
     silent.push_back(std::make_unique<Silent>(port_));
   Browser comes;
   EXPECT_GE(join_as_operator(comes), kFirstClient);
@@ -68,7 +68,7 @@ TEST_F(WebEngine, OneThatSpeaksTooFastIsHeardAtItsPace) {
   for (std::int64_t i = 0; i < Pace::kAtOnce + kMore; ++i) fast.say(std::to_string(i));
   const Instant begun = transport::monotonic_now();
   for (std::int64_t i = 0; i < Pace::kAtOnce + kMore; ++i) {
-    const auto received = wait_for(ClientNews::Kind::kText);
+    const auto received = wait_for(ClientEvent::Kind::kText);
     ASSERT_TRUE(received);
     EXPECT_EQ(received->text, std::to_string(i)) << "in order, and nothing is lost";
   }
@@ -89,12 +89,12 @@ TEST_F(WebEngine, AnOperatorIsHeardBeforeACrowdThatSpokeEarlier) {
   wait_for_texts(5);
   operates.say("stop");
   wait_for_texts(6);
-  const auto first = server_->next_news();
+  const auto first = server_->next_event();
   ASSERT_TRUE(first);
   EXPECT_EQ(first->client, stops);
   EXPECT_EQ(first->text, "stop");
   for (int i = 0; i < 5; ++i) {
-    const auto next = server_->next_news();
+    const auto next = server_->next_event();
     ASSERT_TRUE(next);
     EXPECT_EQ(next->client, other);
     EXPECT_EQ(next->text, std::to_string(i)) << "of one client in order";

@@ -18,7 +18,7 @@ TEST_F(WebServerTest, TextsAndFramesGoBothWays) {
   const ClientId client = join(browser);
   EXPECT_GE(client, kFirstClient);
   browser.say("{\"type\": \"x\"}");
-  EXPECT_EQ(wait_for(ClientNews::Kind::kText)->text, "{\"type\": \"x\"}");
+  EXPECT_EQ(wait_for(ClientEvent::Kind::kText)->text, "{\"type\": \"x\"}");
   server_->send(only(client), text("hello"));
   server_->send(only(client), vehicle(7, 8));
   EXPECT_EQ(browser.receive()->bytes, "hello");
@@ -35,7 +35,7 @@ TEST_F(WebServerTest, OneThatLeavesIsToldAndItsNumberIsNotSoonAnothers) {
     Browser browser;
     first = join(browser);
   }
-  EXPECT_EQ(wait_for(ClientNews::Kind::kLeft)->client, first);
+  EXPECT_EQ(wait_for(ClientEvent::Kind::kLeft)->client, first);
   Browser next;
   EXPECT_NE(join(next), first);
 }
@@ -50,19 +50,19 @@ TEST_F(WebServerTest, AConsoleIsOfTheCarItCameTo) {
   EXPECT_EQ(first.open(port, "/ws"), 101u);
   EXPECT_NE(nobody.open(port, "/ws?car=9"), 101u);
   second.say("{\"type\": \"stop\"}");
-  std::array<std::vector<ClientNews>, 2> received;
+  std::array<std::vector<ClientEvent>, 2> received;
   const Instant end = transport::monotonic_now() + seconds(20);
   while ((received[0].empty() || received[1].size() < 2) && transport::monotonic_now() < end) {
     const std::array<int, 2> fds{server.fd(0), server.fd(1)};
     transport::wait_readable(fds, end);
     for (std::size_t car = 0; car < received.size(); ++car) {
-      while (auto news = server.next_news(car)) received[car].push_back(*std::move(news));
+      while (auto news = server.next_event(car)) received[car].push_back(*std::move(news));
     }
   }
   ASSERT_EQ(received[0].size(), 1u);
   ASSERT_EQ(received[1].size(), 2u);
   EXPECT_NE(received[0][0].client, received[1][0].client) << "one numbering for all";
-  EXPECT_EQ(received[1][1].kind, ClientNews::Kind::kText);
+  EXPECT_EQ(received[1][1].kind, ClientEvent::Kind::kText);
   EXPECT_EQ(received[1][1].client, received[1][0].client);
 }
 
@@ -107,7 +107,7 @@ TEST_F(WebServerTest, BytesAreToldAsSuch) {
   Browser browser;
   join(browser);
   browser.say_bytes("abc");
-  EXPECT_EQ(wait_for(ClientNews::Kind::kBinary)->text, "abc");
+  EXPECT_EQ(wait_for(ClientEvent::Kind::kBinary)->text, "abc");
 }
 
 SharedMessage headed_bytes(std::uint32_t tag, std::size_t size) {
@@ -119,7 +119,7 @@ SharedMessage headed_bytes(std::uint32_t tag, std::size_t size) {
 TEST_F(WebServerTest, BytesGoOutBehindTheirHeadAndWhatIsLostIsKnownByItsTag) {
   Browser slow;
   ASSERT_EQ(slow.open(port_, "/ws", {}, 4'096), 101u);
-  const ClientId client = wait_for(ClientNews::Kind::kJoined)->client;
+  const ClientId client = wait_for(ClientEvent::Kind::kJoined)->client;
   constexpr std::uint64_t kSent = 400;
   for (std::uint64_t i = 0; i < kSent; ++i) server_->send(only(client), headed_bytes(5, 10'000));
   server_->send(only(client), text("end"));
@@ -155,7 +155,7 @@ TEST(WebServerOfAnotherProtocol, TheSubprotocolIsNegotiated) {
 TEST_F(WebServerTest, AClientThatDoesNotReadLosesItsOwnOldestAndSeesHowMuch) {
   Browser slow, quick;
   ASSERT_EQ(slow.open(port_, "/ws", {}, 4'096), 101u);
-  const ClientId stopped = wait_for(ClientNews::Kind::kJoined)->client;
+  const ClientId stopped = wait_for(ClientEvent::Kind::kJoined)->client;
   const ClientId reading = join(quick);
   constexpr std::uint32_t kFrames = 2'000;
   for (std::uint32_t i = 1; i <= kFrames; ++i) {
@@ -180,10 +180,10 @@ TEST_F(WebServerTest, AClientThatDoesNotReadLosesItsOwnOldestAndSeesHowMuch) {
 TEST_F(WebServerTest, AClientThatLeavesTooMuchUnreadIsClosed) {
   Browser slow;
   ASSERT_EQ(slow.open(port_, "/ws", {}, 4'096), 101u);
-  const ClientId stopped = wait_for(ClientNews::Kind::kJoined)->client;
+  const ClientId stopped = wait_for(ClientEvent::Kind::kJoined)->client;
   const auto long_text = text(std::string(256 * 1'024, 'x'));
   for (int i = 0; i < 40; ++i) server_->send(only(stopped), long_text);
-  EXPECT_TRUE(wait_for(ClientNews::Kind::kLeft));
+  EXPECT_TRUE(wait_for(ClientEvent::Kind::kLeft));
   EXPECT_EQ(server_->counters().closed_unread, 1u);
 }
 
@@ -192,7 +192,7 @@ TEST_F(WebServerTest, WhoSaysMoreThanIsHandledIsReadNoFurther) {
   join(browser);
   for (int i = 0; i < 100; ++i) browser.say(std::to_string(i));
   int texts = 0;
-  while (texts < 100 && wait_for(ClientNews::Kind::kText)) ++texts;
+  while (texts < 100 && wait_for(ClientEvent::Kind::kText)) ++texts;
   EXPECT_EQ(texts, 100) << "nothing is lost";
 }
 

@@ -16,7 +16,7 @@ constexpr Duration kTick = milliseconds(100);
 
 // A car at 60 m/s, heard ten times a second.
 struct Race {
-  AttemptBook book;
+  AttemptTracker book;
   RaceSample sample{.track_flag = kGreen,
                     .vehicle_flag = kAttacker,
                     .lap = 3,

@@ -10,7 +10,7 @@ namespace {
 
 // A car that burns so much per lap, heard twice in each lap's second.
 struct Car {
-  FuelBook book;
+  FuelEstimator book;
   double level_l, used_l = 0.0, lap = 0.0, slosh_l = 0.0;
   bool counts_used = true;
 
@@ -77,7 +77,7 @@ TEST(Fuel, TheThirstiestOfTheLastLapsCounts) {
 }
 
 TEST(Fuel, ALapThatWasNotDrivenWholeDoesNotCount) {
-  FuelBook book;
+  FuelEstimator book;
   book.receive(30.0, 10.0, 5.0);  // heard for the first time somewhere in lap 5
   book.receive(29.9, 10.1, 6.0);
   EXPECT_FALSE(book.left({}).measured);
@@ -108,7 +108,7 @@ TEST(Fuel, ASloshingTankIsNoFilling) {
 }
 
 TEST(Fuel, NothingHeardNothingKnown) {
-  FuelBook book;
+  FuelEstimator book;
   EXPECT_EQ(book.left({}).state, FuelState::kUnknown);
   EXPECT_TRUE(std::isnan(book.left({}).laps));
   book.receive(kUnset, 1.0, 1.0);

@@ -51,7 +51,7 @@ TEST(BenchTime, GoesNoFartherThanItsHostHasFollowed) {
   time->begin();
   go(*time, host, milliseconds(150), [](Instant) {});
   EXPECT_LE(now() - begun, BenchTime::kBehind + milliseconds(1)) << "nobody answers";
-  EXPECT_GE(now() - begun, BenchTime::kBehind - BenchTime::kWordEvery);
+  EXPECT_GE(now() - begun, BenchTime::kBehind - BenchTime::kReportPeriod);
   EXPECT_FALSE(time->advance());
   std::uint64_t words = 0;
   go(*time, host, milliseconds(300), [&](Instant at) {

@@ -25,9 +25,9 @@ TEST_F(TokenBookTest, ALineThatIsTakenAwayHoldsNoLonger) {
   ASSERT_TRUE(book);
   const auto anna = (*book)->find(kTokenOfAnna);
   ASSERT_TRUE(anna);
-  EXPECT_FALSE(*(*book)->look_again()) << "nothing has changed";
+  EXPECT_FALSE(*(*book)->refresh()) << "nothing has changed";
   write(std::string{"viewer "} + kTokenOfGarage + " Garage\n");
-  EXPECT_TRUE(*(*book)->look_again());
+  EXPECT_TRUE(*(*book)->refresh());
   EXPECT_FALSE((*book)->find(kTokenOfAnna));
   EXPECT_FALSE((*book)->may_stay(*anna));
   EXPECT_TRUE((*book)->may_stay(*(*book)->find(kTokenOfGarage)));
@@ -39,10 +39,10 @@ TEST_F(TokenBookTest, AFileWithAMistakeChangesNothingAndIsToldOnce) {
   const auto book = TokenStore::open(file_);
   ASSERT_TRUE(book);
   write("operator short Anna and more than before\n");
-  const auto again = (*book)->look_again();
+  const auto again = (*book)->refresh();
   ASSERT_FALSE(again);
   EXPECT_EQ(again.error().place, file_ + ":1");
-  EXPECT_FALSE(*(*book)->look_again());
+  EXPECT_FALSE(*(*book)->refresh());
   EXPECT_TRUE((*book)->find(kTokenOfAnna));
 }
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "basestation/link/age_book.hpp"
+#include "basestation/link/age_statistics.hpp"
 
 namespace pitwall::link {
 
-void AgeBook::advance(Instant now) {
+void AgeStatistics::advance(Instant now) {
   const Duration length = now - counted_to_;
   if (length.ns <= 0) return;
   for (const telemetry::GroupRow& row : telemetry::kGroupTable) {
@@ -16,7 +16,7 @@ void AgeBook::advance(Instant now) {
   counted_to_ = now;
 }
 
-void AgeBook::show(const telemetry::Snapshot& state, Instant now) {
+void AgeStatistics::show(const telemetry::Snapshot& state, Instant now) {
   advance(now);
   for (std::size_t g = 0; g < telemetry::kGroups; ++g) {
     // A car that restarted has told nothing yet: what was shown stays, and ages.

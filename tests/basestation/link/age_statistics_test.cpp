@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Against one who really looks each millisecond.
-#include "basestation/link/age_book.hpp"
+#include "basestation/link/age_statistics.hpp"
 
 #include <gtest/gtest.h>
 
@@ -15,9 +15,9 @@ namespace {
 using telemetry::Class;
 using telemetry::Group;
 
-TEST(AgeBook, SaysWhatOneWhoLooksEachMillisecondSees) {
+TEST(AgeStatistics, SaysWhatOneWhoLooksEachMillisecondSees) {
   std::mt19937_64 random(3);
-  const auto book = std::make_unique<AgeBook>();
+  const auto book = std::make_unique<AgeStatistics>();
   telemetry::Snapshot state;
   std::vector<Duration> looks;
   Instant next{seconds(1).ns};
@@ -40,8 +40,8 @@ TEST(AgeBook, SaysWhatOneWhoLooksEachMillisecondSees) {
   EXPECT_EQ(book->of(Class::kSafety).largest(), Duration{});
 }
 
-TEST(AgeBook, ACarThatRestartedLeavesWhatIsShownToAge) {
-  const auto book = std::make_unique<AgeBook>();
+TEST(AgeStatistics, ACarThatRestartedLeavesWhatIsShownToAge) {
+  const auto book = std::make_unique<AgeStatistics>();
   telemetry::Snapshot state;
   state.at(Group::kMode) = Instant{seconds(1).ns};
   book->show(state, Instant{seconds(1).ns});

@@ -16,7 +16,7 @@
 
 namespace pitwall::link {
 
-class AgeBook {
+class AgeStatistics {
  public:
   // advance() counts up to now with the samples shown so far; show() then takes the new ones.
   void advance(Instant now);

@@ -33,7 +33,7 @@ struct BenchCounters {
   std::uint64_t taken = 0, refused = 0;  // lines of the server
 };
 
-class BenchBook {
+class BenchState {
  public:
   static constexpr std::size_t kMaxScenarios = 1'000, kListMax_bytes = 1 << 20;
   static constexpr std::size_t kEventsMax = 2'000;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "basestation/publishers/bench/bench_book.hpp"
+#include "basestation/publishers/bench/bench_state.hpp"
 
 #include <gtest/gtest.h>
 
@@ -30,7 +30,7 @@ std::string at(int number) {
 }
 
 struct Reading {
-  BenchBook book;
+  BenchState book;
 
   void says(const std::string& line) {
     const auto taken = book.take(line);
@@ -51,7 +51,7 @@ struct Reading {
   }
 };
 
-TEST(BenchBook, TheListIsToldWhenItIsWhole) {
+TEST(BenchState, TheListIsToldWhenItIsWhole) {
   Reading reading;
   reading.says(hello(2));
   reading.says(scenario("a"));
@@ -67,7 +67,7 @@ TEST(BenchBook, TheListIsToldWhenItIsWhole) {
   EXPECT_EQ(reading.place_of(scenario("c")), "scenario");
 }
 
-TEST(BenchBook, ANewRunTakesAwayWhatWasOfTheOneBefore) {
+TEST(BenchState, ANewRunTakesAwayWhatWasOfTheOneBefore) {
   Reading reading;
   reading.says(hello(0));
   reading.says(run(1));
@@ -81,7 +81,7 @@ TEST(BenchBook, ANewRunTakesAwayWhatWasOfTheOneBefore) {
   EXPECT_EQ(reading.news(), "bench_at");  // the newest replaces the one before it
 }
 
-TEST(BenchBook, AfterAReconnectionNoEventIsToldTwice) {
+TEST(BenchState, AfterAReconnectionNoEventIsToldTwice) {
   Reading reading;
   reading.says(hello(0));
   reading.says(run(1));
@@ -97,7 +97,7 @@ TEST(BenchBook, AfterAReconnectionNoEventIsToldTwice) {
   EXPECT_EQ(reading.news(), "bench_event");
 }
 
-TEST(BenchBook, ADeskThatWasStartedAnewBeginsItsRunsAnew) {
+TEST(BenchState, ADeskThatWasStartedAnewBeginsItsRunsAnew) {
   Reading reading;
   reading.says(hello(0));
   reading.says(run(1));
@@ -109,7 +109,7 @@ TEST(BenchBook, ADeskThatWasStartedAnewBeginsItsRunsAnew) {
   EXPECT_EQ(reading.news(), "bench_event");
 }
 
-TEST(BenchBook, WhatIsNoLineOfTheProtocolIsCountedAndTheNextIsTaken) {
+TEST(BenchState, WhatIsNoLineOfTheProtocolIsCountedAndTheNextIsTaken) {
   Reading reading;
   EXPECT_TRUE(reading.place_of("nonsense").starts_with("line:"));
   EXPECT_EQ(reading.place_of(R"({"type": "dance"})"), "type");
@@ -131,7 +131,7 @@ TEST(BenchBook, WhatIsNoLineOfTheProtocolIsCountedAndTheNextIsTaken) {
   EXPECT_EQ(reading.book.counters().taken, 2U);
 }
 
-TEST(BenchBook, ListsAndEventsHaveABound) {
+TEST(BenchState, ListsAndEventsHaveABound) {
   Reading reading;
   reading.says(hello(1'000));
   const std::string long_one = scenario(std::string(200'000, 'x'));
@@ -139,11 +139,11 @@ TEST(BenchBook, ListsAndEventsHaveABound) {
   EXPECT_EQ(reading.place_of(long_one), "scenario");
   reading.says(hello(0));
   reading.says(run(1));
-  for (std::size_t i = 0; i < BenchBook::kEventsMax; ++i) reading.says(event(1, 0));
+  for (std::size_t i = 0; i < BenchState::kEventsMax; ++i) reading.says(event(1, 0));
   EXPECT_EQ(reading.place_of(event(1, 0)), "event");
 }
 
-TEST(BenchBook, ARefusalIsHandedOnOnce) {
+TEST(BenchState, ARefusalIsHandedOnOnce) {
   Reading reading;
   reading.says(R"({"type": "error", "place": "start", "what": "no"})");
   const auto refusal = reading.book.refusal();

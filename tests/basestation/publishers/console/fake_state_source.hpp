@@ -8,9 +8,9 @@
 
 namespace pitwall::publishers::console {
 
-struct Looking : StateSource {
+struct FakeStateSource : StateSource {
   state::VehicleState vehicle;
-  alarms::Judgement judgement = alarms::Judgement::kNone;
+  alarms::Evaluation evaluation = alarms::Evaluation::kNone;
   telemetry::Snapshot state;
 
   void show(telemetry::FieldIndex field, double value, Instant at) {
@@ -24,8 +24,8 @@ struct Looking : StateSource {
   state::FieldView view(state::FieldId field, Instant now) const override {
     return state::is_base(field) ? state::FieldView{} : vehicle.view(field, now);
   }
-  alarms::Judgement judge(state::FieldId, const state::FieldView&) const override {
-    return judgement;
+  alarms::Evaluation evaluate(state::FieldId, const state::FieldView&) const override {
+    return evaluation;
   }
   std::vector<state::TrendPoint> past(state::FieldId, Instant from, Instant,
                                       std::size_t) const override {

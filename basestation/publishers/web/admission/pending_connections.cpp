@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "basestation/publishers/web/admission/waiting_room.hpp"
+#include "basestation/publishers/web/admission/pending_connections.hpp"
 
 #include <algorithm>
 
 namespace pitwall::publishers::web {
 
-std::optional<WaitingRoom::Connection> WaitingRoom::enter(Connection connection,
-                                                          std::uint32_t address) {
+std::optional<PendingConnections::Connection> PendingConnections::add(Connection connection,
+                                                                      std::uint32_t address) {
   const auto of_address = [&](const Entry& entry) { return entry.address == address; };
   const auto of_it = static_cast<std::size_t>(std::ranges::count_if(waiting_, of_address));
   auto goes = waiting_.end();
@@ -24,12 +24,12 @@ std::optional<WaitingRoom::Connection> WaitingRoom::enter(Connection connection,
   return gone;
 }
 
-void WaitingRoom::receive(Connection connection) {
+void PendingConnections::receive(Connection connection) {
   const auto found = std::ranges::find(waiting_, connection, &Entry::connection);
   if (found != waiting_.end()) waiting_.splice(waiting_.end(), waiting_, found);
 }
 
-void WaitingRoom::leave(Connection connection) {
+void PendingConnections::leave(Connection connection) {
   waiting_.remove_if([&](const Entry& entry) { return entry.connection == connection; });
 }
 

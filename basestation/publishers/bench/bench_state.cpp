@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "basestation/publishers/bench/bench_book.hpp"
+#include "basestation/publishers/bench/bench_state.hpp"
 
 #include <algorithm>
 #include <array>
@@ -50,21 +50,21 @@ Result<bool, Problem> fits(const JsonValue& value) {
 
 }  // namespace
 
-void BenchBook::connected() {
+void BenchState::connected() {
   complete_ = false;
   list_.clear();
   scenarios_ = announced_ = 0;
   events_again_ = 0;
 }
 
-Result<bool, Problem> BenchBook::take(std::string_view line) {
+Result<bool, Problem> BenchState::take(std::string_view line) {
   const auto value = JsonValue::parse(line, "line");
   auto kept = value ? keep(*value, line) : Result<bool, Problem>{Unexpected{value.error()}};
   ++(kept ? counters_.taken : counters_.refused);
   return kept;
 }
 
-Result<bool, Problem> BenchBook::keep(const JsonValue& value, std::string_view line) {
+Result<bool, Problem> BenchState::keep(const JsonValue& value, std::string_view line) {
   if (auto fit = fits(value); !fit) return fit;
   const std::string type = value.text("type");
   if (type == "hello") return keep_hello(value);
@@ -81,7 +81,7 @@ Result<bool, Problem> BenchBook::keep(const JsonValue& value, std::string_view l
   return true;
 }
 
-Result<bool, Problem> BenchBook::keep_hello(const JsonValue& value) {
+Result<bool, Problem> BenchState::keep_hello(const JsonValue& value) {
   if (value.number("protocol") != kProtocol) return refuse("protocol", "expected version 1");
   if (!value.flag("simulation")) return refuse("simulation", "expected true");
   const double count = value.number("scenarios");
@@ -99,7 +99,7 @@ Result<bool, Problem> BenchBook::keep_hello(const JsonValue& value) {
   return true;
 }
 
-Result<bool, Problem> BenchBook::keep_scenario(std::string_view line) {
+Result<bool, Problem> BenchState::keep_scenario(std::string_view line) {
   if (scenarios_ >= announced_) return refuse("scenario", "more scenarios than hello announced");
   if (list_.size() + line.size() > kListMax_bytes)
     return refuse("scenario", "the list is too long");
@@ -110,7 +110,7 @@ Result<bool, Problem> BenchBook::keep_scenario(std::string_view line) {
   return true;
 }
 
-Result<bool, Problem> BenchBook::keep_run(const JsonValue& value, std::string_view line) {
+Result<bool, Problem> BenchState::keep_run(const JsonValue& value, std::string_view line) {
   if (value.number("run") != run_) {
     run_ = value.number("run");
     events_ = events_again_ = 0;
@@ -121,7 +121,7 @@ Result<bool, Problem> BenchBook::keep_run(const JsonValue& value, std::string_vi
   return true;
 }
 
-Result<bool, Problem> BenchBook::keep_event(const JsonValue& value, std::string_view line) {
+Result<bool, Problem> BenchState::keep_event(const JsonValue& value, std::string_view line) {
   if (value.find("text") == nullptr) return refuse("text", "expected a text");
   if (events_again_ < events_) {
     ++events_again_;
@@ -134,12 +134,12 @@ Result<bool, Problem> BenchBook::keep_event(const JsonValue& value, std::string_
   return true;
 }
 
-void BenchBook::publish(const std::string& type, std::string_view of, bool line) {
+void BenchState::publish(const std::string& type, std::string_view of, bool line) {
   std::string text = json::Object{}.text("type", type).text("server", server_).json("of", of).str();
   if (!line) std::erase_if(news_, [&](const Reported& older) { return older.type == type; });
   news_.push_back({.type = type, .text = std::move(text), .line = line});
 }
 
-std::vector<Reported> BenchBook::news() { return std::exchange(news_, {}); }
+std::vector<Reported> BenchState::news() { return std::exchange(news_, {}); }
 
 }  // namespace pitwall::publishers::bench

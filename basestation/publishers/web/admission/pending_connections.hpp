@@ -14,12 +14,12 @@
 
 namespace pitwall::publishers::web {
 
-class WaitingRoom {
+class PendingConnections {
  public:
   using Connection = std::uint64_t;
   static constexpr std::size_t kPerAddress = 64, kInAll = 128;
 
-  std::optional<Connection> enter(Connection connection, std::uint32_t address);
+  std::optional<Connection> add(Connection connection, std::uint32_t address);
   void receive(Connection connection);
   void leave(Connection connection);
   std::size_t size() const { return waiting_.size(); }
