@@ -188,21 +188,21 @@ Drawn draw(const Panel& panel, const SignalPlot& plot) {
   const double height =
       std::clamp(kFrame + kRow * static_cast<double>(names.size()), kHeight, kMaxHeight);
   const PanelText text = text_of(panel);
-  Plot plot("signals", text.title, Plot::Kind::kTime, {kPageWidth, height},
-            {plot.from_s, plot.to_s, "time from the start of the log, s"},
-            axis_over(lines, text.label, least_span_of(lines, first.layout.scale)));
-  plot.y_names(std::move(names));
+  Plot drawing("signals", text.title, Plot::Kind::kTime, {kPageWidth, height},
+               {plot.from_s, plot.to_s, "time from the start of the log, s"},
+               axis_over(lines, text.label, least_span_of(lines, first.layout.scale)));
+  drawing.y_names(std::move(names));
   for (std::size_t i = 0; i < lines.size(); ++i) {
     const SignalSeries& series = *panel.series[i];
     const can::Signal& signal = *series.chosen.signal;
     const Colour colour = kColours[i];
-    plot.line(lines[i], {.colour = colour,
-                         .name = text.has_short_names ? signal.name : series.name(),
-                         .unit = signal.unit});
+    drawing.line(lines[i], {.colour = colour,
+                            .name = text.has_short_names ? signal.name : series.name(),
+                            .unit = signal.unit});
     if (series.points.size() <= kDottedPoints)
-      plot.dots(series.points, {.colour = colour, .name = {}, .unit = {}}, 5.0);
+      drawing.dots(series.points, {.colour = colour, .name = {}, .unit = {}}, 5.0);
   }
-  return {plot.svg(), height};
+  return {drawing.svg(), height};
 }
 
 }  // namespace

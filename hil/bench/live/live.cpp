@@ -142,7 +142,8 @@ class Live {
   }
 
   void publish_done() {
-    for (const std::vector<Done>* list : {&parts_.processes.done(), &parts_.machine.done()}) {
+    for (const std::vector<CompletedAction>* list :
+         {&parts_.processes.done(), &parts_.machine.done()}) {
       std::size_t& next = list == &parts_.processes.done() ? actions_published_ : steps_published_;
       for (; next < list->size(); ++next) {
         result_.done.push_back((*list)[next]);
@@ -209,7 +210,7 @@ class Live {
     grading::add(result_.cross_track, parts_.rig.truth().speed_mps,
                  cross_track_m(parts_.rig, offset_m));
     result_.speed_max_mps = std::max(result_.speed_max_mps, parts_.rig.truth().speed_mps);
-    follow(result_.outcome, whereabouts(parts_.rig, offset_m, now));
+    follow(result_.outcome, vehicle_place(parts_.rig, offset_m, now));
     if (record_) record_->truth(parts_.rig, now, cross_track_m(parts_.rig, offset_m));
     if (plan_.follow) plan_.follow({now, parts_.rig, car.mode, parts_.grader, result_});
   }

@@ -13,7 +13,7 @@ constexpr Duration kTick = milliseconds(10);
 
 // A car that lifts so long after it is told, then brakes at 10 m/s2.
 struct Drive {
-  ReactionBook book;
+  ReactionMonitor book;
   ReactionTick tick{.restriction = kGreen,
                     .flag = "green",
                     .stop = {},
@@ -110,13 +110,13 @@ TEST(Reaction, GreenAgainBeforeTheCarStoodEndsTheCount) {
 
 TEST(Reaction, ManyAreCountedAndTheFirstKept) {
   Drive drive;
-  for (std::size_t i = 0; i < ReactionBook::kKept + 5; ++i) {
+  for (std::size_t i = 0; i < ReactionMonitor::kKept + 5; ++i) {
     drive.flag(kGreen, "green");
     drive.go(milliseconds(20));
     drive.flag(kYellow, "yellow");
     drive.go(milliseconds(20));
   }
-  EXPECT_EQ(drive.book.reactions().size(), ReactionBook::kKept);
+  EXPECT_EQ(drive.book.reactions().size(), ReactionMonitor::kKept);
   EXPECT_EQ(drive.book.left_out(), 5U);
 }
 

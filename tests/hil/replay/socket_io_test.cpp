@@ -1,6 +1,6 @@
 // What needs no CAN in the kernel; playing is tested in tests/system/vcan.
 // SPDX-License-Identifier: Apache-2.0
-#include "hil/replay/socket_rim.hpp"
+#include "hil/replay/socket_io.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,37 +9,37 @@
 namespace pitwall::replay {
 namespace {
 
-TEST(SocketRim, AnInterfaceThatIsNotThereIsNamed) {
+TEST(SocketIo, AnInterfaceThatIsNotThereIsNamed) {
   Timeline timeline;
   timeline.tracks.push_back({.target = "nosuchcan0"});
-  const auto rim = SocketRim::open(timeline);
-  ASSERT_FALSE(rim.has_value());
-  EXPECT_EQ(rim.error().place, "nosuchcan0");
+  const auto io = SocketIo::open(timeline);
+  ASSERT_FALSE(io.has_value());
+  EXPECT_EQ(io.error().place, "nosuchcan0");
 }
 
-TEST(SocketRim, TheLeadIsWhatSleepsAreLateHereWithinItsBound) {
-  const Duration lead = SocketRim::measured_lead();
+TEST(SocketIo, TheLeadIsWhatSleepsAreLateHereWithinItsBound) {
+  const Duration lead = SocketIo::measured_lead();
   EXPECT_GT(lead, Duration{});  // no sleep ends before its deadline
   EXPECT_LE(lead, kMaxLead);
 }
 
-// A rim without buses still waits: never shorter than to the look that is nearest to the deadline.
-TEST(SocketRim, WaitsEndAtTheDeadlineWithAndWithoutALead) {
-  auto rim = SocketRim::open(Timeline{});
-  ASSERT_TRUE(rim.has_value()) << to_string(rim.error());
+// A io without buses still waits: never shorter than to the look that is nearest to the deadline.
+TEST(SocketIo, WaitsEndAtTheDeadlineWithAndWithoutALead) {
+  auto io = SocketIo::open(Timeline{});
+  ASSERT_TRUE(io.has_value()) << to_string(io.error());
   for (const Duration lead : {Duration{}, microseconds(50), kMaxLead}) {
-    rim->set_lead(lead);
+    io->set_lead(lead);
     for (const Duration wait : {microseconds(30), microseconds(900), milliseconds(12)}) {
-      const Instant deadline = rim->now() + wait;
-      rim->wait_until(deadline);
-      EXPECT_GE(rim->now(), deadline - kGroup / 2);
+      const Instant deadline = io->now() + wait;
+      io->wait_until(deadline);
+      EXPECT_GE(io->now(), deadline - kGroup / 2);
     }
   }
-  EXPECT_FALSE(rim->stopped());
-  EXPECT_EQ(rim->last_error(), "");
+  EXPECT_FALSE(io->stopped());
+  EXPECT_EQ(io->last_error(), "");
 }
 
-TEST(SocketRim, DatagramsOfOneCallComeInOrderWithTheirBytes) {
+TEST(SocketIo, DatagramsOfOneCallComeInOrderWithTheirBytes) {
   auto port = transport::UdpSocket::bind({});
   ASSERT_TRUE(port);
   Timeline timeline;
@@ -47,9 +47,9 @@ TEST(SocketRim, DatagramsOfOneCallComeInOrderWithTheirBytes) {
                              .due = std::vector<Duration>(4),
                              .to = port->local(),
                              .datagrams = {.bytes = {1, 2, 3, 4, 5, 6, 7}, .ends = {1, 3, 6, 7}}});
-  auto rim = SocketRim::open(timeline);
-  ASSERT_TRUE(rim.has_value()) << to_string(rim.error());
-  const TrackOutcome outcome = rim->send(0, 1, 3);
+  auto io = SocketIo::open(timeline);
+  ASSERT_TRUE(io.has_value()) << to_string(io.error());
+  const TrackOutcome outcome = io->send(0, 1, 3);
   EXPECT_EQ(outcome.taken, 3U);
   EXPECT_FALSE(outcome.full);
   std::vector<transport::UdpDatagram> got(8);
@@ -58,14 +58,14 @@ TEST(SocketRim, DatagramsOfOneCallComeInOrderWithTheirBytes) {
   for (std::size_t i = 0; i < 3; ++i)
     bytes.emplace_back(got[i].payload().begin(), got[i].payload().end());
   EXPECT_EQ(bytes, (std::vector<std::vector<std::uint8_t>>{{2, 3}, {4, 5, 6}, {7}}));
-  EXPECT_EQ(rim->unheard(0), 0U);
+  EXPECT_EQ(io->undelivered(0), 0U);
 }
 
 // A caller that connects and never reads.
-transport::FileDescriptor deaf_caller(SocketRim& rim, transport::TcpAddress to) {
+transport::FileDescriptor deaf_caller(SocketIo& io, transport::TcpAddress to) {
   auto caller = transport::begin_connect(to);
   EXPECT_TRUE(caller);
-  rim.wait_for_callers(seconds(10));
+  io.wait_for_clients(seconds(10));
   return caller ? *std::move(caller) : transport::FileDescriptor{};
 }
 
@@ -94,20 +94,20 @@ Timeline stream_and_datagrams(std::uint16_t tcp, transport::UdpAddress udp, std:
   return timeline;
 }
 
-TEST(SocketRim, WhoDoesNotReadAStreamHoldsNobodyUpAndIsCounted) {
+TEST(SocketIo, WhoDoesNotReadAStreamHoldsNobodyUpAndIsCounted) {
   constexpr std::size_t kRecords = 300;
   auto port = transport::UdpSocket::bind({});
   ASSERT_TRUE(port);
   const std::uint16_t tcp = free_port();
   const Timeline timeline = stream_and_datagrams(tcp, port->local(), kRecords);
-  auto rim = SocketRim::open(timeline);
-  ASSERT_TRUE(rim.has_value()) << to_string(rim.error());
-  const auto caller = deaf_caller(*rim, {.port = tcp});
-  Player player(timeline, {}, *rim);
-  const PlayReport report = player.play(rim->now());
-  rim->finish(milliseconds(1));
+  auto io = SocketIo::open(timeline);
+  ASSERT_TRUE(io.has_value()) << to_string(io.error());
+  const auto caller = deaf_caller(*io, {.port = tcp});
+  Player player(timeline, {}, *io);
+  const PlayReport report = player.play(io->now());
+  io->finish(milliseconds(1));
   EXPECT_EQ(report.retries, 0U);  // no wait for a queue
-  const transport::StreamSenderCounters counters = rim->streams().at(0).counters;
+  const transport::StreamSenderCounters counters = io->streams().at(0).counters;
   EXPECT_GT(counters.dropped_full, 0U);
   EXPECT_EQ(report.datagrams.dropped_refused, counters.dropped_full);
   EXPECT_EQ(report.datagrams.sent + report.datagrams.dropped(), 2 * kRecords);
@@ -118,27 +118,27 @@ TEST(SocketRim, WhoDoesNotReadAStreamHoldsNobodyUpAndIsCounted) {
   EXPECT_EQ(got, kRecords);
 }
 
-TEST(SocketRim, WithoutACallerTheRecordsOfAStreamAreDroppedAndCounted) {
+TEST(SocketIo, WithoutACallerTheRecordsOfAStreamAreDroppedAndCounted) {
   auto port = transport::UdpSocket::bind({});
   ASSERT_TRUE(port);
   const Timeline timeline = stream_and_datagrams(free_port(), port->local(), 20);
-  auto rim = SocketRim::open(timeline);
-  ASSERT_TRUE(rim.has_value());
-  rim->wait_for_callers(milliseconds(1));
-  Player player(timeline, {}, *rim);
-  const PlayReport report = player.play(rim->now());
+  auto io = SocketIo::open(timeline);
+  ASSERT_TRUE(io.has_value());
+  io->wait_for_clients(milliseconds(1));
+  Player player(timeline, {}, *io);
+  const PlayReport report = player.play(io->now());
   EXPECT_EQ(report.datagrams.sent, 20U);
   EXPECT_EQ(report.datagrams.dropped_refused, 20U);
-  EXPECT_EQ(rim->streams().at(0).counters.dropped_absent, 20U);
+  EXPECT_EQ(io->streams().at(0).counters.dropped_absent, 20U);
 }
 
-TEST(SocketRim, AnAddressWithoutAWayIsNamed) {
+TEST(SocketIo, AnAddressWithoutAWayIsNamed) {
   Timeline timeline;
   timeline.tracks.push_back(
       {.target = "255.255.255.255:9", .to = transport::UdpAddress{.ip = 0xFFFF'FFFF, .port = 9}});
-  const auto rim = SocketRim::open(timeline);
-  ASSERT_FALSE(rim.has_value());
-  EXPECT_EQ(rim.error().place, "255.255.255.255:9");
+  const auto io = SocketIo::open(timeline);
+  ASSERT_FALSE(io.has_value());
+  EXPECT_EQ(io.error().place, "255.255.255.255:9");
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "hil/replay/socket_rim.hpp"
+#include "hil/replay/socket_io.hpp"
 
 #include <algorithm>
 #include <array>
@@ -32,7 +32,7 @@ bool is_topic(const Track& track) {
 
 }  // namespace
 
-Result<SocketRim, Problem> SocketRim::open(const Timeline& timeline) {
+Result<SocketIo, Problem> SocketIo::open(const Timeline& timeline) {
   auto stop = transport::StopSignal::install();  // before threads of DDS, which would get it
   if (!stop) return Unexpected{stop.error()};
   std::unique_ptr<dds::Domain> domain;
@@ -51,10 +51,10 @@ Result<SocketRim, Problem> SocketRim::open(const Timeline& timeline) {
   const auto is_stream = [](const Sender& one) { return std::holds_alternative<Stream>(one); };
   if (std::ranges::count_if(senders, is_stream) > std::ptrdiff_t{kMaxStreams})
     return Unexpected{Problem{"--receiver", "expected at most 16 TCP ports and serial devices"}};
-  return SocketRim{std::move(domain), std::move(senders), *std::move(stop)};
+  return SocketIo{std::move(domain), std::move(senders), *std::move(stop)};
 }
 
-Result<SocketRim::Sender, Problem> SocketRim::open_receiver(const Track& track) {
+Result<SocketIo::Sender, Problem> SocketIo::open_receiver(const Track& track) {
   if (const auto* udp = std::get_if<transport::UdpAddress>(&*track.to)) {
     const bool stays_here = udp->ip >> kNetworkShift == transport::kLoopbackIp >> kNetworkShift;
     auto socket = transport::UdpSocket::bind(
@@ -71,14 +71,14 @@ Result<SocketRim::Sender, Problem> SocketRim::open_receiver(const Track& track) 
   return Sender{Stream{track.target, *std::move(sender), &track.datagrams}};
 }
 
-Result<SocketRim::Sender, Problem> SocketRim::open_topic(const Track& track, dds::Domain& domain) {
+Result<SocketIo::Sender, Problem> SocketIo::open_topic(const Track& track, dds::Domain& domain) {
   const RosTopic& names = std::get<RosTopic>(*track.to);
   auto writer = domain.write_to({.topic = names.topic, .type = names.type}, kTopicQuality);
   if (!writer) return Unexpected{writer.error()};
   return Sender{Topic{track.target, *writer, &track.datagrams}};
 }
 
-Result<SocketRim::Sender, Problem> SocketRim::open(const Track& track, dds::Domain* domain) {
+Result<SocketIo::Sender, Problem> SocketIo::open(const Track& track, dds::Domain* domain) {
   if (is_topic(track)) return open_topic(track, *domain);
   if (track.to) return open_receiver(track);
   auto sender = transport::CanSender::open(track.target);
@@ -88,7 +88,7 @@ Result<SocketRim::Sender, Problem> SocketRim::open(const Track& track, dds::Doma
   return Sender{Bus{*std::move(sender), *std::move(frames), &track}};
 }
 
-Duration SocketRim::measured_lead() {
+Duration SocketIo::measured_lead() {
   std::array<Duration, kSamples> late{};
   for (Duration& sample : late) {
     const Instant deadline = transport::monotonic_now() + kSampleSleep;
@@ -99,24 +99,24 @@ Duration SocketRim::measured_lead() {
   return std::min(late[kUsual], kMaxLead);
 }
 
-void SocketRim::set_lead(Duration lead) {
+void SocketIo::set_lead(Duration lead) {
   lead_ = lead;
   const Instant begin = transport::monotonic_now();
   for (std::size_t i = 0; i < kSamples; ++i) static_cast<void>(transport::monotonic_now());
-  half_look_ = (transport::monotonic_now() - begin) / (2 * static_cast<std::int64_t>(kSamples));
-  half_look_ = std::min(half_look_, kGroup / 2);
+  half_reading_ = (transport::monotonic_now() - begin) / (2 * static_cast<std::int64_t>(kSamples));
+  half_reading_ = std::min(half_reading_, kGroup / 2);
 }
 
-Instant SocketRim::now() { return read_ = transport::monotonic_now(); }
+Instant SocketIo::now() { return read_ = transport::monotonic_now(); }
 
 // Callers come and go, and queues are written, while there is time for it.
-void SocketRim::serve_streams() {
+void SocketIo::serve_streams() {
   for (const std::size_t i : streams_) std::get<Stream>(senders_[i]).sender.service();
 }
 
 // Until it is done, the time has come, or a signal.
 template <class Done>
-void SocketRim::serve_until(Instant give_up, Done&& done) {
+void SocketIo::serve_until(Instant give_up, Done&& done) {
   while (!stopped_ && now() < give_up) {
     serve_streams();
     if (done()) return;
@@ -134,7 +134,7 @@ void SocketRim::serve_until(Instant give_up, Done&& done) {
   }
 }
 
-void SocketRim::look_for_signals(Instant deadline) {
+void SocketIo::poll_signals(Instant deadline) {
   const bool idle = deadline - read_ > kIdle;
   if (!idle && deadline - polled_at_ <= kSignalPeriod) return;
   if (idle) {
@@ -146,36 +146,36 @@ void SocketRim::look_for_signals(Instant deadline) {
   polled_at_ = deadline;
 }
 
-bool SocketRim::is_awaited(const Sender& sender) {
+bool SocketIo::is_awaited(const Sender& sender) {
   if (const auto* stream = std::get_if<Stream>(&sender)) return stream->sender.is_open();
   const auto* topic = std::get_if<Topic>(&sender);
   return topic == nullptr || topic->writer->readers() > 0;
 }
 
 // Readers of topics are no descriptors: they are looked for.
-void SocketRim::wait_for_callers(Duration patience) {
-  const Instant give_up = now() + patience;
+void SocketIo::wait_for_clients(Duration timeout) {
+  const Instant give_up = now() + timeout;
   while (!stopped_ && now() < give_up && !std::ranges::all_of(senders_, is_awaited))
     serve_until(std::min(give_up, read_ + kLookPeriod), [] { return false; });
   if (domain_ != nullptr) serve_until(now() + kAcquaintance, [] { return false; });
 }
 
-void SocketRim::finish(Duration patience) {
-  serve_until(now() + patience, [&] {
+void SocketIo::finish(Duration timeout) {
+  serve_until(now() + timeout, [&] {
     return std::ranges::all_of(streams_, [&](std::size_t i) {
       return std::get<Stream>(senders_[i]).sender.queued_bytes() == 0;
     });
   });
   for (const std::size_t i : streams_) std::get<Stream>(senders_[i]).sender.close();
   if (domain_ == nullptr) return;
-  const Instant give_up = now() + patience;
+  const Instant give_up = now() + timeout;
   for (Sender& sender : senders_)
     if (Topic* topic = std::get_if<Topic>(&sender)) topic->writer->settle(give_up - now());
   serve_until(now() + kSettle, [] { return false; });  // of readers that acknowledge nothing
 }
 
-void SocketRim::wait_until(Instant deadline) {
-  look_for_signals(deadline);
+void SocketIo::wait_until(Instant deadline) {
+  poll_signals(deadline);
   if (stopped_) return;
   if (lead_.ns == 0 || !budget_.has_credit(read_)) return transport::sleep_until(deadline);
   Instant busy_from = read_;
@@ -184,30 +184,30 @@ void SocketRim::wait_until(Instant deadline) {
     busy_from = now();
   }
   // The look that comes nearest to the deadline is the last one.
-  while (read_ < deadline - half_look_) now();
+  while (read_ < deadline - half_reading_) now();
   budget_.spend(read_ - busy_from);
 }
 
-transport::SendOutcome SocketRim::send(Line& line, std::size_t first, std::size_t count) {
+transport::SendOutcome SocketIo::send(Line& line, std::size_t first, std::size_t count) {
   for (std::size_t i = 0; i < count; ++i)
     if (!line.socket.send((*line.datagrams)[first + i]))
       return {.taken = i, .error = line.socket.send_error()};
   return {.taken = count, .error = 0};
 }
 
-TrackOutcome SocketRim::send(Stream& stream, std::size_t first, std::size_t count) {
+TrackOutcome SocketIo::send(Stream& stream, std::size_t first, std::size_t count) {
   for (std::size_t i = 0; i < count; ++i)
     if (!stream.sender.send((*stream.datagrams)[first + i])) return {.taken = i};
   return {.taken = count};
 }
 
-TrackOutcome SocketRim::send(Topic& topic, std::size_t first, std::size_t count) {
+TrackOutcome SocketIo::send(Topic& topic, std::size_t first, std::size_t count) {
   for (std::size_t i = 0; i < count; ++i)
     if (!topic.writer->write((*topic.datagrams)[first + i])) return {.taken = i};
   return {.taken = count};
 }
 
-TrackOutcome SocketRim::send(std::size_t track, std::size_t first, std::size_t count) {
+TrackOutcome SocketIo::send(std::size_t track, std::size_t first, std::size_t count) {
   Sender& sender = senders_[track];
   if (Stream* stream = std::get_if<Stream>(&sender)) return send(*stream, first, count);
   if (Topic* topic = std::get_if<Topic>(&sender)) return send(*topic, first, count);
@@ -221,7 +221,7 @@ TrackOutcome SocketRim::send(std::size_t track, std::size_t first, std::size_t c
   return {.taken = outcome.taken, .full = outcome.full()};
 }
 
-void SocketRim::prepare(std::size_t track, std::size_t end, unsigned pass) {
+void SocketIo::prepare(std::size_t track, std::size_t end, unsigned pass) {
   Bus* bus = std::get_if<Bus>(&senders_[track]);
   if (bus == nullptr) return;
   if (bus->pass != pass) {
@@ -235,7 +235,7 @@ void SocketRim::prepare(std::size_t track, std::size_t end, unsigned pass) {
   }
 }
 
-std::vector<StreamReport> SocketRim::streams() const {
+std::vector<StreamReport> SocketIo::streams() const {
   std::vector<StreamReport> reports;
   for (const std::size_t i : streams_) {
     const Stream& stream = std::get<Stream>(senders_[i]);
@@ -244,7 +244,7 @@ std::vector<StreamReport> SocketRim::streams() const {
   return reports;
 }
 
-std::vector<std::string> SocketRim::unread_topics() const {
+std::vector<std::string> SocketIo::unread_topics() const {
   std::vector<std::string> topics;
   for (const Sender& sender : senders_)
     if (const auto* topic = std::get_if<Topic>(&sender); topic && topic->writer->readers() == 0)
@@ -252,12 +252,12 @@ std::vector<std::string> SocketRim::unread_topics() const {
   return topics;
 }
 
-std::uint64_t SocketRim::unheard(std::size_t track) const {
+std::uint64_t SocketIo::undelivered(std::size_t track) const {
   const Line* line = std::get_if<Line>(&senders_[track]);
   return line == nullptr ? 0 : line->socket.counters().rx_refused;
 }
 
-std::string SocketRim::last_error() const {
+std::string SocketIo::last_error() const {
   if (last_error_ == 0) return {};
   return transport::PosixOutcome{.value = -1, .error = last_error_}.reason();
 }

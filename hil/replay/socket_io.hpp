@@ -13,16 +13,16 @@
 // Each track of frames has a CAN socket of its own, each track of datagrams a UDP socket, a TCP
 // port or a serial device; ROS 2 topics share a participant. A stream takes a record whole or
 // refuses it at once. Bytes that it could not write yet go out with the next record, or while the
-// rim waits.
+// player waits.
 //
-//   in     timeline, which must not move while the rim exists; the lead (measured, or given;
+//   in     timeline, which must not move while this object exists; the lead (measured, or given;
 //          0: plain sleeps)
 //   out    now(), wait_until(), send(), stopped(), as Player requires
 //   errors open(): Problem. While playing: SendOutcome only
 //   bound  a datagram that the kernel took may still be lost in a full receive queue, which only
 //          the owner of the queue can count. If no socket listens, the kernel reports it, and
-//          unheard() counts it. DDS keeps the newest 64 messages of a topic for a slow reader; only
-//          the reader can count what it misses
+//          undelivered() counts it. DDS keeps the newest 64 messages of a topic for a slow reader;
+//          only the reader can count what it misses
 //   cost   one lead of busy waiting per wake-up; if that would exceed a quarter of all time
 //          (BusyBudget), sleeps are plain for a while
 // SPDX-License-Identifier: Apache-2.0
@@ -54,20 +54,20 @@ struct StreamReport {
   transport::StreamSenderCounters counters;
 };
 
-class SocketRim {
+class SocketIo {
  public:
   // Prepares all sockets and frames, and installs the stop signal.
-  static Result<SocketRim, Problem> open(const Timeline& timeline);
+  static Result<SocketIo, Problem> open(const Timeline& timeline);
 
   // Usual upper limit of the lateness of a sleep of this thread, at most kMaxLead; takes 40 ms.
   static Duration measured_lead();
   void set_lead(Duration lead);
 
-  // Waits until each TCP port has a client and each topic a reader, at most `patience`.
-  void wait_for_callers(Duration patience);
+  // Waits until each TCP port has a client and each topic a reader, at most `timeout`.
+  void wait_for_clients(Duration timeout);
   // Waits until the streams have written their bytes and the readers of topics have received
-  // theirs, at most `patience`; what a stream has left then is lost.
-  void finish(Duration patience);
+  // theirs, at most `timeout`; what a stream has left then is lost.
+  void finish(Duration timeout);
 
   Instant now();
   void wait_until(Instant deadline);
@@ -78,7 +78,7 @@ class SocketRim {
   // Text of the last kernel error other than a full queue; empty if there was none.
   std::string last_error() const;
   // Datagrams of a track that no socket received, as far as the kernel reported it.
-  std::uint64_t unheard(std::size_t track) const;
+  std::uint64_t undelivered(std::size_t track) const;
   std::vector<StreamReport> streams() const;
   // The topics that have no reader now.
   std::vector<std::string> unread_topics() const;
@@ -112,13 +112,13 @@ class SocketRim {
   static transport::SendOutcome send(Line& line, std::size_t first, std::size_t count);
   static TrackOutcome send(Stream& stream, std::size_t first, std::size_t count);
   static TrackOutcome send(Topic& topic, std::size_t first, std::size_t count);
-  SocketRim(std::unique_ptr<dds::Domain> domain, std::vector<Sender> senders,
-            transport::StopSignal stop)
+  SocketIo(std::unique_ptr<dds::Domain> domain, std::vector<Sender> senders,
+           transport::StopSignal stop)
       : domain_(std::move(domain)), senders_(std::move(senders)), stop_(std::move(stop)) {
     for (std::size_t i = 0; i < senders_.size(); ++i)
       if (std::holds_alternative<Stream>(senders_[i])) streams_.push_back(i);
   }
-  void look_for_signals(Instant deadline);
+  void poll_signals(Instant deadline);
   static bool is_awaited(const Sender& sender);
   void serve_streams();
   template <class Done>
@@ -129,8 +129,8 @@ class SocketRim {
   std::vector<std::size_t> streams_;     // indices of the senders that are streams
   transport::StopSignal stop_;
   Duration lead_{};
-  Duration half_look_{};  // half the duration of one clock reading
-  Instant read_{};        // the last clock reading
+  Duration half_reading_{};  // half the duration of one clock reading
+  Instant read_{};           // the last clock reading
   Instant polled_at_{};      // time of the last poll for signals
   BusyBudget budget_;
   bool stopped_ = false;
