@@ -21,7 +21,8 @@ Result<std::unique_ptr<BusWatch>, Problem> BusWatch::start(std::string_view inte
   if (!opened) return Unexpected{opened.error()};
   transport::FileDescriptor wake_fd(
       transport::posix_call([] { return eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK); }));
-  if (!wake_fd.valid()) return Unexpected{Problem{std::string(interface), "cannot be added to epoll"}};
+  if (!wake_fd.valid())
+    return Unexpected{Problem{std::string(interface), "cannot be added to epoll"}};
   return std::unique_ptr<BusWatch>(new BusWatch(*std::move(opened), std::move(wake_fd)));
 }
 

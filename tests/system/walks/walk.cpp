@@ -39,12 +39,12 @@
 #include "tests/support/browser.hpp"
 #include "vehicle/io/black_box.hpp"
 #include "vehicle/io/radio.hpp"
-#include "vehicle/io/rim.hpp"
+#include "vehicle/io/car_io.hpp"
 #include "vehicle/parameters/car_file.hpp"
 #include "vehicle/parameters/track_file.hpp"
 #include "vehicle/pipeline/radio_adapter.hpp"
 #include "vehicle/pipeline/step.hpp"
-#include "vehicle/pipeline/telemetry_tap.hpp"
+#include "vehicle/pipeline/telemetry_mapper.hpp"
 #include "vehicle/pipeline/tick_log.hpp"
 
 namespace pitwall {
@@ -112,7 +112,7 @@ class Car {
       : hub_(had(transport::UnixCanHub::open("unix:" + folder + "/bus"))),
         wheels_(had(transport::CanSocket::open("unix:" + folder + "/bus"))),
         setup_(made_setup()),
-        rim_(had(io::Rim::open(arguments(folder), setup_.params.receivers))),
+        car_io_(had(io::CarIo::open(arguments(folder), setup_.params.receivers))),
         box_(had(io::BlackBox::open("", "", ""))),
         radio_(had(
             io::Radio::open({{base}, folder + "/" + link::kCarKeys}, setup_.params.radio, true))) {}
@@ -129,28 +129,28 @@ class Car {
   }
 
   void tick() {
-    const io::Rim::Received received = rim_.read(box_);
-    radio_.listen(box_);
+    const io::CarIo::Received received = car_io_.read(box_);
+    radio_.receive(box_);
     const Instant now = transport::monotonic_now();
     pipeline::Inputs in{.now = now,
                         .dt = now - last_,
                         .can = received.can,
                         .sensors = received.sensors,
                         .requests = {},
-                        .may_arm = !rim_.listen_only(),
+                        .may_arm = !car_io_.listen_only(),
                         .link = received.link};
     adapter_.fill(radio_.endpoint(), in);
     const pipeline::Outputs out = pipeline::step(setup_, *car_, in);
-    rim_.write(out.passed.frames.span(), now);
+    car_io_.write(out.passed.frames.span(), now);
     last_ = now;
     log_->note(in, out, setup_.track.length_m());
     adapter_.take(radio_.endpoint(), setup_, *car_, out, now);
     if (!radio_.due(now)) return;
-    pipeline::RimCounters counters;
+    pipeline::IoCounters counters;
     adapter_.show(radio_.endpoint(), counters, now);
-    radio_.speak(
-        pipeline::tap(
-            {.setup = setup_, .car = *car_, .out = out, .log = *log_, .rim = counters, .now = now}),
+    radio_.send(
+        pipeline::map_telemetry(
+            {.setup = setup_, .car = *car_, .out = out, .log = *log_, .io = counters, .now = now}),
         now, box_);
   }
   bool due() const { return radio_.due(transport::monotonic_now()); }
@@ -174,7 +174,7 @@ class Car {
   std::unique_ptr<transport::UnixCanHub> hub_;
   transport::CanSocket wheels_;
   pipeline::Setup setup_;
-  io::Rim rim_;
+  io::CarIo car_io_;
   io::BlackBox box_;
   io::Radio radio_;
   pipeline::RadioAdapter adapter_;

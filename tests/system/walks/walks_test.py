@@ -27,10 +27,10 @@ SIDE = {
     "what else a tick does": [
         "localization::", "planning::", "control::", "steering::", "safety::", "gateway::encode",
         "gateway::handshake", "gateway::identify", "gateway::store_command",
-        "gateway::observe_link", "gateway::judge_frozen", "pipeline::tap_health",
+        "gateway::observe_link", "gateway::judge_frozen", "pipeline::map_health",
         "pipeline::conclude", "pipeline::TickLog", "pipeline::RadioAdapter::take",
         "pipeline::RadioAdapter::show", "io::BusWatch", "io::LinkObserver", "io::ReceiverPort",
-        "io::Rim::write", "io::Rim::look_at_bus"],
+        "io::CarIo::write", "io::CarIo::poll_bus"],
     "how sockets and clocks are kept": [
         "transport::CanSocket::follow_clock", "transport::CanSocket::poll_drops",
         "transport::CanSocket::arrival", "transport::CanInterface", "transport::monotonic_now",
@@ -64,11 +64,11 @@ SIDE = {
 # A walk's own: what goes the other way, or somewhere else.
 OTHER_WAY = {
     "frame": [
-        "telemetry::CommandLedger", "link::Station::poll", "io::Radio::listen",
+        "telemetry::CommandLedger", "link::Station::poll", "io::Radio::receive",
         "pipeline::RadioAdapter::fill", "pipeline::execute",
         "publishers::console::ConsoleService::submit"],
     "command": [
-        "gateway::decode", "pipeline::tap", "io::Radio::speak", "io::Rim::read",
+        "gateway::decode", "pipeline::map_telemetry", "io::Radio::send", "io::CarIo::read",
         "service::CarService::receive", "publishers::console::ConsoleService::publish",
         "publishers::console::ConsoleService::packet",
         "publishers::web::WebServer::Engine::deliver",

@@ -136,9 +136,9 @@ Ticked tick_until(Radio& radio, Base& base, const std::function<bool()>& conditi
   while (!(out.held = condition()) && transport::monotonic_now() < limit) {
     base.serve();
     out.allocations += testing::allocations_of([&] {
-      radio.listen(box);
+      radio.receive(box);
       const Instant now = transport::monotonic_now();
-      if (radio.due(now)) radio.speak(driving_at(61.5, now), now, box);
+      if (radio.due(now)) radio.send(driving_at(61.5, now), now, box);
     });
     transport::sleep_until(transport::monotonic_now() + milliseconds(2));
   }

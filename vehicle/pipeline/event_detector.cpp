@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "vehicle/pipeline/event_tap.hpp"
+#include "vehicle/pipeline/event_detector.hpp"
 
 #include <cmath>
 
@@ -17,9 +17,9 @@ float value_of(double value) { return std::isfinite(value) ? static_cast<float>(
 
 }  // namespace
 
-const TickEvents& EventTap::look(const Car& car, const Outputs& out, Instant now) {
+const TickEvents& EventDetector::detect(const Car& car, const Outputs& out, Instant now) {
   events_.clear();
-  look_at_faults(car.supervisor.log, out.chosen.causes, now);
+  detect_faults(car.supervisor.log, out.chosen.causes, now);
   if (out.chosen.mode != mode_) {
     add(make_event(
         telemetry::ModeEvent{byte_of(mode_), byte_of(out.chosen.mode), byte_of(out.chosen.cause)},
@@ -30,11 +30,12 @@ const TickEvents& EventTap::look(const Car& car, const Outputs& out, Instant now
     arming_ = out.chosen.arming;
     add(make_event(telemetry::ArmingEvent{byte_of(arming_)}, now));
   }
-  look_at_flags(out.received.race_control, now);
+  detect_flags(out.received.race_control, now);
   return events_;
 }
 
-void EventTap::look_at_faults(const safety::FaultLog& log, safety::CauseSet causes, Instant now) {
+void EventDetector::detect_faults(const safety::FaultLog& log, safety::CauseSet causes,
+                                  Instant now) {
   const std::uint64_t fresh = log.total - faults_;
   if (fresh > log.size()) missed_ += fresh - log.size();
   const std::size_t listed = fresh > log.size() ? log.size() : static_cast<std::size_t>(fresh);
@@ -52,7 +53,7 @@ void EventTap::look_at_faults(const safety::FaultLog& log, safety::CauseSet caus
   reported_ = reported_.without(ended);
 }
 
-void EventTap::look_at_flags(const world::RaceControl& race, Instant now) {
+void EventDetector::detect_flags(const world::RaceControl& race, Instant now) {
   if (!race.ever_received) return;
   const auto flag = [&](telemetry::FlagKind which, auto& was, auto is) {
     if (is == was) return;
@@ -70,7 +71,7 @@ void EventTap::look_at_flags(const world::RaceControl& race, Instant now) {
   lap_at_ = now;
 }
 
-void EventTap::add(const telemetry::Event& event) {
+void EventDetector::add(const telemetry::Event& event) {
   if (!events_.push(event)) ++missed_;
 }
 

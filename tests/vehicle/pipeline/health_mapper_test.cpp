@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "vehicle/pipeline/health_tap.hpp"
+#include "vehicle/pipeline/health_mapper.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <string>
 
-#include "tests/vehicle/pipeline/tapped_car.hpp"
+#include "tests/vehicle/pipeline/mapped_car.hpp"
 #include "vehicle/safety/watchdog.hpp"
 
 namespace pitwall::pipeline {
@@ -125,7 +125,7 @@ TEST(HealthTap, EachFieldSaysWhatTheTickSays) { expect(kHealthRows); }
 
 TEST(HealthTap, EveryStreamOfTheWatchdogIsInItsPlace) {
   const Outputs out = full();
-  const auto snapshot = tapped(out);
+  const auto snapshot = mapped(out);
   const auto [first, count] = telemetry::fields_of(Group::kStreams);
   ASSERT_EQ(count, safety::kStreams);
   for (std::size_t i = 0; i < count; ++i) {
@@ -139,7 +139,7 @@ TEST(HealthTap, EveryStreamOfTheWatchdogIsInItsPlace) {
 
 // A receiver that is silent says nothing, and its group is never sent.
 TEST(HealthTap, OfASilentReceiverNothingIsKnown) {
-  const auto snapshot = tapped(full());
+  const auto snapshot = mapped(full());
   EXPECT_FALSE(snapshot.ever(Group::kGnss0));
   const auto [first, count] = telemetry::fields_of(Group::kGnss0);
   for (std::size_t i = first; i < first + count; ++i)
@@ -153,7 +153,7 @@ TEST(HealthTap, APositionFromTheFutureIsShownAsOfNow) {
   (void)sensors.positions.push({.unit = 0, .at = kNow + seconds(2)});
   log.note({.now = kNow, .can = {}, .sensors = sensors, .requests = {}}, {}, 1200.0);
   const auto snapshot =
-      tap({.setup = setup(), .car = *car, .out = {}, .log = log, .rim = {}, .now = kNow});
+      map_telemetry({.setup = setup(), .car = *car, .out = {}, .log = log, .io = {}, .now = kNow});
   EXPECT_EQ(snapshot.at(Group::kGnss0), kNow);
   EXPECT_EQ(snapshot.values[field("gnss0.position_age")], 0.0);
 }
@@ -168,7 +168,7 @@ TEST(HealthTap, OfAReceiverThatFellSilentTheVerdictIsOfNow) {
   car->localization.streams[static_cast<std::size_t>(Source::kPosition)][1].verdict =
       localization::Gate::kSilent;
   const auto snapshot =
-      tap({.setup = setup(), .car = *car, .out = {}, .log = log, .rim = {}, .now = later});
+      map_telemetry({.setup = setup(), .car = *car, .out = {}, .log = log, .io = {}, .now = later});
   EXPECT_EQ(snapshot.at(Group::kGnss1), later);
   EXPECT_EQ(snapshot.values[field("gnss1.position_verdict")],
             static_cast<double>(localization::Gate::kSilent));

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "vehicle/pipeline/telemetry_tap.hpp"
+#include "vehicle/pipeline/telemetry_mapper.hpp"
 
 #include <array>
 
 #include "protocol/telemetry/registry/labels.hpp"
-#include "vehicle/pipeline/health_tap.hpp"
+#include "vehicle/pipeline/health_mapper.hpp"
 #include "vehicle/safety/fault_log.hpp"
 
 namespace pitwall::pipeline {
@@ -149,7 +149,7 @@ void put_health(Values& v, const world::VehicleSignals& s) {
   v[field("engine.coolant")] = s.engine.value.coolant_c;
 }
 
-void put_dynamics(Values& v, const TapInputs& in) {
+void put_dynamics(Values& v, const TelemetryInputs& in) {
   const world::EgoState& ego = in.out.ego;
   v[field("dynamics.forward")] = ego.ax_mps2;
   v[field("dynamics.left")] = ego.ay_mps2;
@@ -180,7 +180,7 @@ double role_of(const world::RaceControl& race) {
   return race.vehicle == world::VehicleFlag::kAttacker ? 2.0 : 0.0;
 }
 
-void put_plan(Values& v, const TapInputs& in) {
+void put_plan(Values& v, const TelemetryInputs& in) {
   const Plan& plan = in.car.plan;
   if (!plan.ever) return;
   v[field("planner.primitive")] = number_of(primitive_of(in.car));
@@ -196,8 +196,8 @@ void put_plan(Values& v, const TapInputs& in) {
   v[field("flags.vehicle_acted_on")] = number_of(plan.made_with.vehicle);
 }
 
-void put_uplink(telemetry::Snapshot& snapshot, const TapInputs& in) {
-  const RimCounters::Uplink& up = in.rim.uplink;
+void put_uplink(telemetry::Snapshot& snapshot, const TelemetryInputs& in) {
+  const IoCounters::Uplink& up = in.io.uplink;
   if (!up.known) return;
   Values& v = snapshot.values;
   v[field("mode.stop_latch")] = up.stop_latch;
@@ -217,7 +217,7 @@ void put_time(telemetry::Snapshot& snapshot, Group group, const world::Received<
   if (received.received) snapshot.at(group) = received.at;
 }
 
-void put_times(telemetry::Snapshot& snapshot, const TapInputs& in) {
+void put_times(telemetry::Snapshot& snapshot, const TelemetryInputs& in) {
   const world::VehicleSignals& s = in.out.received.signals;
   snapshot.at(Group::kMode) = snapshot.at(Group::kCommand) = in.now;
   if (in.out.received.race_control.ever_received) snapshot.at(Group::kFlags) = in.now;
@@ -236,7 +236,7 @@ void put_times(telemetry::Snapshot& snapshot, const TapInputs& in) {
 
 }  // namespace
 
-telemetry::Snapshot tap(const TapInputs& in) {
+telemetry::Snapshot map_telemetry(const TelemetryInputs& in) {
   telemetry::Snapshot snapshot;
   Values& v = snapshot.values;
   const world::VehicleSignals& s = in.out.received.signals;
@@ -254,7 +254,7 @@ telemetry::Snapshot tap(const TapInputs& in) {
   if (s.wheel_speed_mps.received)
     v[field("wheels.standstill")] = in.out.chosen.standstill ? 1.0 : 0.0;
   put_times(snapshot, in);
-  tap_health(in, snapshot);
+  map_health(in, snapshot);
   return snapshot;
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "vehicle/pipeline/event_tap.hpp"
+#include "vehicle/pipeline/event_detector.hpp"
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@
 
 #include "protocol/telemetry/delivery/event_content.hpp"
 #include "tests/support/allocation_guard.hpp"
-#include "tests/vehicle/pipeline/tapped_car.hpp"
+#include "tests/vehicle/pipeline/mapped_car.hpp"
 
 namespace pitwall::pipeline {
 namespace {
@@ -27,7 +27,7 @@ class Events : public ::testing::Test {
  protected:
   std::vector<EventContent> look(Instant now = kNow) {
     std::vector<EventContent> contents;
-    for (const telemetry::Event& event : tap_.look(*car_, *out_, now))
+    for (const telemetry::Event& event : detector_.detect(*car_, *out_, now))
       contents.push_back(telemetry::content_of(event).value());
     return contents;
   }
@@ -38,7 +38,7 @@ class Events : public ::testing::Test {
 
   std::unique_ptr<Car> car_ = std::make_unique<Car>();
   std::unique_ptr<Outputs> out_ = std::make_unique<Outputs>();
-  EventTap tap_;
+  EventDetector detector_;
 };
 
 TEST_F(Events, ACarThatWasSwitchedOnHasNothingToTell) {
@@ -71,7 +71,7 @@ TEST_F(Events, AFaultWhoseBeginningWasNotToldHasNoEnd) {
 TEST_F(Events, FaultsThatTheLogOrTheTickHadNoRoomForAreCounted) {
   for (std::size_t i = 0; i < safety::kFaultEntries + 7; ++i) raise(Cause::kBusOff, 1.0);
   EXPECT_EQ(look().size(), TickEvents::capacity());
-  EXPECT_EQ(tap_.missed(), safety::kFaultEntries + 7 - TickEvents::capacity());
+  EXPECT_EQ(detector_.missed(), safety::kFaultEntries + 7 - TickEvents::capacity());
 }
 
 TEST_F(Events, ModeArmingAndFlagsAreToldWhenTheyChange) {
@@ -104,7 +104,7 @@ TEST_F(Events, ALapHasItsTimeWhereItsBeginningWasSeen) {
 TEST_F(Events, NothingIsAllocated) {
   raise(Cause::kRadioLost, 3.5);
   out_->chosen.mode = world::Mode::kStandby;
-  EXPECT_EQ(pitwall::testing::allocations_of([&] { tap_.look(*car_, *out_, kNow); }), 0u);
+  EXPECT_EQ(pitwall::testing::allocations_of([&] { detector_.detect(*car_, *out_, kNow); }), 0u);
 }
 
 }  // namespace

@@ -23,15 +23,15 @@ namespace pitwall::pipeline {
 
 using TickEvents = FixedVector<telemetry::Event, 32>;
 
-class EventTap {
+class EventDetector {
  public:
-  const TickEvents& look(const Car& car, const Outputs& out, Instant now);
+  const TickEvents& detect(const Car& car, const Outputs& out, Instant now);
   std::uint64_t missed() const { return missed_; }
 
  private:
   void add(const telemetry::Event& event);
-  void look_at_faults(const safety::FaultLog& log, safety::CauseSet causes, Instant now);
-  void look_at_flags(const world::RaceControl& race, Instant now);
+  void detect_faults(const safety::FaultLog& log, safety::CauseSet causes, Instant now);
+  void detect_flags(const world::RaceControl& race, Instant now);
 
   TickEvents events_;
   std::uint64_t faults_ = 0;   // entries of the log that were reported

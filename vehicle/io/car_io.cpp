@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "vehicle/io/rim.hpp"
+#include "vehicle/io/car_io.hpp"
 
 #include <utility>
 
@@ -14,28 +14,28 @@ constexpr std::size_t kFramesPerRead = 22'528;
 
 }  // namespace
 
-Rim::Rim(transport::CanSocket can, std::unique_ptr<BusWatch> watch,
-         std::vector<ReceiverPort> receivers)
+CarIo::CarIo(transport::CanSocket can, std::unique_ptr<BusWatch> watch,
+             std::vector<ReceiverPort> receivers)
     : can_(std::move(can)),
       watch_(std::move(watch)),
       receivers_(std::move(receivers)),
       frames_(kFramesPerRead) {}
 
-Result<Rim, Problem> Rim::open(const Arguments& args, const world::Receivers& receivers) {
+Result<CarIo, Problem> CarIo::open(const Arguments& args, const world::Receivers& receivers) {
   auto can = transport::CanSocket::open(args.can_interface);
   if (!can) return Unexpected{can.error()};
   auto watch = BusWatch::start(args.can_interface);
   if (!watch) return Unexpected{watch.error()};
   auto ports = open_receivers(args.receivers, receivers);
   if (!ports) return Unexpected{ports.error()};
-  return Rim{*std::move(can), *std::move(watch), *std::move(ports)};
+  return CarIo{*std::move(can), *std::move(watch), *std::move(ports)};
 }
 
-Rim::Received Rim::read(BlackBox& box) {
+CarIo::Received CarIo::read(BlackBox& box) {
   Received received;
   const std::size_t count = can_.receive(frames_);
   const Instant now = transport::monotonic_now();
-  look_at_bus(now);
+  poll_bus(now);
   received.link = link_;
   received.can = std::span<const can::ReceivedFrame>(frames_).first(count);
   for (std::size_t unit = 0; unit < receivers_.size(); ++unit) {
@@ -48,7 +48,7 @@ Rim::Received Rim::read(BlackBox& box) {
   return received;
 }
 
-void Rim::look_at_bus(Instant now) {
+void CarIo::poll_bus(Instant now) {
   can_.poll_drops();
   const bool flushing = watch_->flushing();  // first: a flush that ends now shows in one of the two
   const BusReport& report = watch_->newest();
@@ -67,7 +67,7 @@ void Rim::look_at_bus(Instant now) {
                              .hung_up = can_.hung_up()});
 }
 
-void Rim::write(std::span<const can::Frame> frames, Instant now) {
+void CarIo::write(std::span<const can::Frame> frames, Instant now) {
   if (listen_only()) {
     silenced_ += frames.size();
     return;
@@ -80,7 +80,7 @@ void Rim::write(std::span<const can::Frame> frames, Instant now) {
   slots_.taken(can_.send(slots_.due(now)), now);
 }
 
-const char* Rim::fresh_refusal() {
+const char* CarIo::fresh_refusal() {
   const char* refusal = watch_->newest().refusal.data();
   if (refusal_reported_ || *refusal == '\0') return nullptr;
   refusal_reported_ = true;

@@ -27,9 +27,9 @@
 
 namespace pitwall::io {
 
-class Rim {
+class CarIo {
  public:
-  static Result<Rim, Problem> open(const Arguments& args, const world::Receivers& receivers = {});
+  static Result<CarIo, Problem> open(const Arguments& args, const world::Receivers& receivers = {});
 
   struct Received {
     std::span<const can::ReceivedFrame> can;  // valid until the next read()
@@ -58,9 +58,9 @@ class Rim {
   bool listen_only() { return bus().interface.listen_only; }
 
  private:
-  Rim(transport::CanSocket can, std::unique_ptr<BusWatch> watch,
-      std::vector<ReceiverPort> receivers);
-  void look_at_bus(Instant now);
+  CarIo(transport::CanSocket can, std::unique_ptr<BusWatch> watch,
+        std::vector<ReceiverPort> receivers);
+  void poll_bus(Instant now);
 
   transport::CanSocket can_;
   std::unique_ptr<BusWatch> watch_;

@@ -1,5 +1,5 @@
 // Tick in which every number is different, so that a test detects exchanged fields, and the
-// telemetry tap of this tick.
+// telemetry map_telemetry of this tick.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -12,7 +12,7 @@
 
 #include "protocol/telemetry/registry/registry.hpp"
 #include "tests/vehicle/pipeline/standing_car.hpp"
-#include "vehicle/pipeline/telemetry_tap.hpp"
+#include "vehicle/pipeline/telemetry_mapper.hpp"
 #include "vehicle/safety/fault_log.hpp"
 
 namespace pitwall::pipeline::testing {
@@ -238,7 +238,7 @@ inline TickLog full_log() {
   return log;
 }
 
-inline constexpr RimCounters kRim{
+inline constexpr IoCounters kIoCounters{
     .frames_sent = 2002,
     .tx_drops = 3,
     .steps = 4004,
@@ -277,19 +277,19 @@ struct Row {
   double value;
 };
 
-inline telemetry::Snapshot tapped(const Outputs& out, const RimCounters& rim = kRim) {
+inline telemetry::Snapshot mapped(const Outputs& out, const IoCounters& io = kIoCounters) {
   static const auto kCar = full_car();
   static const TickLog kLog = full_log();
-  return tap({.setup = setup(), .car = *kCar, .out = out, .log = kLog, .rim = rim, .now = kNow});
+  return map_telemetry({.setup = setup(), .car = *kCar, .out = out, .log = kLog, .io = io, .now = kNow});
 }
 
-inline telemetry::Snapshot tapped_of_nothing() {
+inline telemetry::Snapshot mapped_of_nothing() {
   const auto car = std::make_unique<Car>();
-  return tap({.setup = setup(), .car = *car, .out = {}, .log = {}, .rim = {}, .now = kNow});
+  return map_telemetry({.setup = setup(), .car = *car, .out = {}, .log = {}, .io = {}, .now = kNow});
 }
 
 inline void expect(const std::vector<Row>& rows) {
-  const auto snapshot = tapped(full());
+  const auto snapshot = mapped(full());
   for (const Row& row : rows)
     EXPECT_NEAR(snapshot.values[row.field], row.value, 1e-9) << name_of(row.field);
 }

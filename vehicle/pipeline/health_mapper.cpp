@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "vehicle/pipeline/health_tap.hpp"
+#include "vehicle/pipeline/health_mapper.hpp"
 
 #include <algorithm>
 #include <array>
@@ -84,7 +84,7 @@ double verdict_of(const localization::State& state, Source source, std::size_t u
       static_cast<std::uint8_t>(state.streams[static_cast<std::size_t>(source)][unit].verdict));
 }
 
-void put_verdicts(const TapInputs& in, Values& v) {
+void put_verdicts(const TelemetryInputs& in, Values& v) {
   const localization::State& state = in.car.localization;
   v[field("localization.excluded")] = in.car.orders.use.excluded;
   v[field("localization.imu0_verdict")] = verdict_of(state, Source::kImu, 0);
@@ -97,7 +97,7 @@ void put_verdicts(const TapInputs& in, Values& v) {
   v[field("localization.bad_stamps")] = stamps;
 }
 
-void put_localization(const TapInputs& in, Snapshot& snapshot) {
+void put_localization(const TelemetryInputs& in, Snapshot& snapshot) {
   Values& v = snapshot.values;
   const localization::State& state = in.car.localization;
   put_estimate(v, in.out.estimate);
@@ -128,14 +128,14 @@ void put_localization(const TapInputs& in, Snapshot& snapshot) {
   snapshot.at(Group::kLocalization) = in.now;
 }
 
-void put_streams(const TapInputs& in, Snapshot& snapshot) {
+void put_streams(const TelemetryInputs& in, Snapshot& snapshot) {
   for (std::size_t i = 0; i < safety::kStreams; ++i)
     snapshot.values[kFirstStream + i] =
         number(static_cast<std::uint8_t>(in.out.watchdog.rows[i].health));
   snapshot.at(Group::kStreams) = in.now;
 }
 
-void put_sensors(const TapInputs& in, Snapshot& snapshot) {
+void put_sensors(const TelemetryInputs& in, Snapshot& snapshot) {
   using safety::Stream;
   struct Row {
     Stream stream;
@@ -155,19 +155,19 @@ void put_sensors(const TapInputs& in, Snapshot& snapshot) {
     snapshot.values[row.rate + 2] = figures.latency.milliseconds();
     snapshot.at(Group::kSensors) = in.now;
   }
-  const auto put = [&](FieldIndex rate, const RimCounters::Stream& stream) {
+  const auto put = [&](FieldIndex rate, const IoCounters::Stream& stream) {
     if (std::isnan(stream.rate_hz)) return;
     snapshot.values[rate] = stream.rate_hz;
     snapshot.values[rate + 1] = stream.gap_ms;
     snapshot.values[rate + 2] = stream.latency_ms;
     snapshot.at(Group::kSensors) = in.now;
   };
-  put(field("sensors.lidar_rate"), in.rim.lidar);
-  put(field("sensors.camera_rate"), in.rim.camera);
-  put(field("sensors.radar_rate"), in.rim.radar);
+  put(field("sensors.lidar_rate"), in.io.lidar);
+  put(field("sensors.camera_rate"), in.io.camera);
+  put(field("sensors.radar_rate"), in.io.radar);
 }
 
-void put_receiver(const TapInputs& in, std::size_t unit, Snapshot& snapshot) {
+void put_receiver(const TelemetryInputs& in, std::size_t unit, Snapshot& snapshot) {
   const auto& position = in.log.position(unit);
   if (!position) return;
   const Group group = unit == 0 ? Group::kGnss0 : Group::kGnss1;
@@ -198,14 +198,14 @@ void put_receiver(const TapInputs& in, std::size_t unit, Snapshot& snapshot) {
   snapshot.at(group) = in.now;
 }
 
-void put_traffic(const TapInputs& in, Snapshot& snapshot) {
+void put_traffic(const TelemetryInputs& in, Snapshot& snapshot) {
   constexpr FieldIndex kFirst = telemetry::fields_of(Group::kReceivers).first;
   constexpr FieldIndex kPerUnit = telemetry::fields_of(Group::kReceivers).count / world::kGnssUnits;
   static_assert(field("receivers.lost_0") == kFirst + kPerUnit - 1);
   const auto known = [](const world::ReceiverTraffic& t) { return t.bytes + t.lost > 0; };
-  if (std::none_of(in.rim.receivers.begin(), in.rim.receivers.end(), known)) return;
+  if (std::none_of(in.io.receivers.begin(), in.io.receivers.end(), known)) return;
   for (std::size_t unit = 0; unit < world::kGnssUnits; ++unit) {
-    const world::ReceiverTraffic& t = in.rim.receivers[unit];
+    const world::ReceiverTraffic& t = in.io.receivers[unit];
     const std::array<std::uint64_t, kPerUnit> counts{
         t.bytes, t.logs, t.bad_checksum, t.bad_frame, t.resyncs, t.refused, t.lost};
     for (std::size_t i = 0; i < kPerUnit; ++i)
@@ -214,19 +214,19 @@ void put_traffic(const TapInputs& in, Snapshot& snapshot) {
   snapshot.at(Group::kReceivers) = in.now;
 }
 
-void put_computer(const TapInputs& in, Snapshot& snapshot) {
+void put_computer(const TelemetryInputs& in, Snapshot& snapshot) {
   Values& v = snapshot.values;
-  v[field("computer.step_time_max")] = in.rim.step_time_max_us;
-  v[field("computer.step_time_p50")] = in.rim.step_time_p50_us;
-  v[field("computer.steps")] = number(in.rim.steps);
-  v[field("computer.missed_deadlines")] = number(in.rim.missed_deadlines);
-  v[field("computer.processor")] = in.rim.processor_share;
-  v[field("computer.memory")] = in.rim.memory_mib;
-  v[field("computer.temperature")] = in.rim.temperature_c;
+  v[field("computer.step_time_max")] = in.io.step_time_max_us;
+  v[field("computer.step_time_p50")] = in.io.step_time_p50_us;
+  v[field("computer.steps")] = number(in.io.steps);
+  v[field("computer.missed_deadlines")] = number(in.io.missed_deadlines);
+  v[field("computer.processor")] = in.io.processor_share;
+  v[field("computer.memory")] = in.io.memory_mib;
+  v[field("computer.temperature")] = in.io.temperature_c;
   snapshot.at(Group::kComputer) = in.now;
 }
 
-void put_faults(const TapInputs& in, Snapshot& snapshot) {
+void put_faults(const TelemetryInputs& in, Snapshot& snapshot) {
   Values& v = snapshot.values;
   const safety::FaultLog& log = in.car.supervisor.log;
   const std::uint64_t causes = in.out.chosen.causes.bits() >> 1U;  // bit 0 is kNone, never set
@@ -242,13 +242,13 @@ void put_faults(const TapInputs& in, Snapshot& snapshot) {
   snapshot.at(Group::kFaults) = in.now;
 }
 
-void put_bus(const TapInputs& in, Snapshot& snapshot) {
+void put_bus(const TelemetryInputs& in, Snapshot& snapshot) {
   Values& v = snapshot.values;
   const world::BusHealth& bus = in.out.received.bus;
   v[field("bus.frames_applied")] = number(bus.frames_applied);
   v[field("bus.frames_refused")] = number(bus.refused.total());
-  v[field("bus.frames_sent")] = number(in.rim.frames_sent);
-  v[field("bus.tx_drops")] = number(in.rim.tx_drops);
+  v[field("bus.frames_sent")] = number(in.io.frames_sent);
+  v[field("bus.tx_drops")] = number(in.io.tx_drops);
   v[field("bus.gate_refusals")] = number(in.out.passed.refused_total);
   v[field("bus.frames_lost")] = number(bus.frames_lost);
   v[field("bus.queue_losses")] = number(bus.link.lost_in_socket + bus.link.lost_in_interface);
@@ -260,30 +260,30 @@ void put_bus(const TapInputs& in, Snapshot& snapshot) {
   snapshot.at(Group::kBus) = in.now;
 }
 
-void put_radio(const TapInputs& in, Snapshot& snapshot) {
+void put_radio(const TelemetryInputs& in, Snapshot& snapshot) {
   Values& v = snapshot.values;
   const safety::StreamRow& base = in.out.watchdog[safety::Stream::kRadio];
   v[field("radio.base")] = number(static_cast<std::uint8_t>(base.health));
   if (base.health > safety::Health::kNever) v[field("radio.silence")] = base.age.seconds();
   v[field("radio.rung")] = number(static_cast<std::uint8_t>(in.out.radio.rung));
-  v[field("radio.round_trip")] = in.rim.round_trip_ms;
-  v[field("radio.heartbeats")] = number(in.rim.heartbeats);
-  v[field("radio.heartbeats_refused")] = number(in.rim.heartbeats_refused);
-  v[field("radio.base_runs")] = number(in.rim.base_runs);
-  v[field("radio.slots_skipped")] = number(in.rim.slots_skipped);
-  v[field("radio.threats")] = in.rim.threats;
-  v[field("radio.loss_0")] = in.rim.paths[0].loss;
-  v[field("radio.loss_1")] = in.rim.paths[1].loss;
-  v[field("radio.delay_0")] = in.rim.paths[0].delay_p99_ms;
-  v[field("radio.delay_1")] = in.rim.paths[1].delay_p99_ms;
-  v[field("radio.budget_use_0")] = in.rim.paths[0].budget_use;
-  v[field("radio.budget_use_1")] = in.rim.paths[1].budget_use;
+  v[field("radio.round_trip")] = in.io.round_trip_ms;
+  v[field("radio.heartbeats")] = number(in.io.heartbeats);
+  v[field("radio.heartbeats_refused")] = number(in.io.heartbeats_refused);
+  v[field("radio.base_runs")] = number(in.io.base_runs);
+  v[field("radio.slots_skipped")] = number(in.io.slots_skipped);
+  v[field("radio.threats")] = in.io.threats;
+  v[field("radio.loss_0")] = in.io.paths[0].loss;
+  v[field("radio.loss_1")] = in.io.paths[1].loss;
+  v[field("radio.delay_0")] = in.io.paths[0].delay_p99_ms;
+  v[field("radio.delay_1")] = in.io.paths[1].delay_p99_ms;
+  v[field("radio.budget_use_0")] = in.io.paths[0].budget_use;
+  v[field("radio.budget_use_1")] = in.io.paths[1].budget_use;
   snapshot.at(Group::kRadio) = in.now;
 }
 
 }  // namespace
 
-void tap_health(const TapInputs& in, Snapshot& snapshot) {
+void map_health(const TelemetryInputs& in, Snapshot& snapshot) {
   put_localization(in, snapshot);
   put_streams(in, snapshot);
   put_sensors(in, snapshot);

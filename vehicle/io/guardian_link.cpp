@@ -1,32 +1,32 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "vehicle/io/guarded.hpp"
+#include "vehicle/io/guardian_link.hpp"
 
 #include "protocol/transport/clock.hpp"
 
 namespace pitwall::io {
 
-Result<Guarded, Problem> Guarded::open(const std::string& name, bool arm) {
-  Guarded guarded;
-  if (name.empty()) return guarded;
+Result<GuardianLink, Problem> GuardianLink::open(const std::string& name, bool arm) {
+  GuardianLink link;
+  if (name.empty()) return link;
   auto shared = SharedStop::open(name);
   if (!shared) return Unexpected{shared.error()};
-  guarded.shared_.emplace(*std::move(shared));
-  guarded.reported_ = std::make_unique<pipeline::Reported>();
-  guarded.arm_ = arm;
-  guarded.run_ = static_cast<std::uint64_t>(transport::utc_now().ns);  // no two starts share it
+  link.shared_.emplace(*std::move(shared));
+  link.reported_ = std::make_unique<pipeline::Reported>();
+  link.arm_ = arm;
+  link.run_ = static_cast<std::uint64_t>(transport::utc_now().ns);  // no two starts share it
   const auto found = std::make_unique<guardian::CarRecord>();
-  if (guarded.shared_->read(*found)) guarded.barred_ = arm && pipeline::ended_armed(*found);
-  return guarded;
+  if (link.shared_->read(*found)) link.barred_ = arm && pipeline::ended_armed(*found);
+  return link;
 }
 
-pipeline::GuardianView Guarded::view(Instant now) {
+pipeline::GuardianView GuardianLink::view(Instant now) {
   if (!shared_) return {};
   received_ = shared_->read(status_) || received_;
   return received_ ? pipeline::view_of(status_, run_, now) : pipeline::GuardianView{};
 }
 
-void Guarded::publish(const pipeline::Setup& setup, const pipeline::Car& car,
-                      const pipeline::Outputs& out, bool reset, Instant now) {
+void GuardianLink::publish(const pipeline::Setup& setup, const pipeline::Car& car,
+                           const pipeline::Outputs& out, bool reset, Instant now) {
   if (!shared_) return;
   ever_armed_ |= out.chosen.actuate;
   barred_ = barred_ && !ever_armed_;  // somebody has looked, and armed it anew
@@ -37,7 +37,7 @@ void Guarded::publish(const pipeline::Setup& setup, const pipeline::Car& car,
   shared_->write(reported_->record);
 }
 
-void Guarded::finish() {
+void GuardianLink::finish() {
   if (!shared_) return;
   pipeline::finish(*reported_);
   shared_->write(reported_->record);

@@ -23,7 +23,7 @@
 namespace pitwall::pipeline {
 
 // Figures of the I/O: sockets, clocks, the radio. Unset if not known.
-struct RimCounters {
+struct IoCounters {
   std::uint64_t frames_sent = 0, tx_drops = 0, steps = 0, missed_deadlines = 0;
   double step_time_max_us = kUnset;  // since the last snapshot
   double step_time_p50_us = kUnset;  // of the last hundred steps
@@ -54,15 +54,15 @@ struct RimCounters {
   } uplink{};
 };
 
-struct TapInputs {
+struct TelemetryInputs {
   const Setup& setup;
   const Car& car;
   const Outputs& out;
   const TickLog& log;
-  const RimCounters& rim;
+  const IoCounters& io;
   Instant now{};
 };
 
-telemetry::Snapshot tap(const TapInputs& in);
+telemetry::Snapshot map_telemetry(const TelemetryInputs& in);
 
 }  // namespace pitwall::pipeline

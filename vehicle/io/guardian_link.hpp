@@ -24,9 +24,9 @@ namespace pitwall::io {
 inline constexpr const char* kBarredText =
     "the last run ended while it was armed; look at the car, then start once without --arm";
 
-class Guarded {
+class GuardianLink {
  public:
-  static Result<Guarded, Problem> open(const std::string& name, bool arm);
+  static Result<GuardianLink, Problem> open(const std::string& name, bool arm);
 
   // An arm request that has been held since the start is refused.
   bool barred() const { return barred_; }
@@ -39,7 +39,7 @@ class Guarded {
   void finish();
 
  private:
-  Guarded() = default;
+  GuardianLink() = default;
 
   std::optional<SharedStop> shared_;
   std::unique_ptr<pipeline::Reported> reported_;

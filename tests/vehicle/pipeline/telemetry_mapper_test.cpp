@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "vehicle/pipeline/telemetry_tap.hpp"
+#include "vehicle/pipeline/telemetry_mapper.hpp"
 
 #include <gtest/gtest.h>
 
@@ -14,7 +14,7 @@
 
 #include "protocol/telemetry/registry/labels.hpp"
 #include "protocol/telemetry/state_packet.hpp"
-#include "tests/vehicle/pipeline/tapped_car.hpp"
+#include "tests/vehicle/pipeline/mapped_car.hpp"
 #include "vehicle/safety/fault_log.hpp"
 
 namespace pitwall::pipeline {
@@ -133,7 +133,7 @@ TEST(TelemetryTap, EachFieldSaysWhatTheTickSays) { expect(kTelemetryRows); }
 
 // Here every signal was heard: what is unset is what the header of the tap lists.
 TEST(TelemetryTap, NothingButTheListedFieldsIsUnset) {
-  const auto snapshot = tapped(full());
+  const auto snapshot = mapped(full());
   for (std::size_t i = 0; i < telemetry::kFieldCount; ++i) {
     const std::string name = name_of(i);
     const bool silent_unit = name.starts_with("gnss0.") || name.starts_with("sensors.gnss0") ||
@@ -143,7 +143,7 @@ TEST(TelemetryTap, NothingButTheListedFieldsIsUnset) {
 }
 
 TEST(TelemetryTap, EveryValueFitsTheRangeOfItsField) {
-  const auto snapshot = tapped(full());
+  const auto snapshot = mapped(full());
   telemetry::PacketBuffer buffer;
   telemetry::EncodeCounters counters;
   (void)telemetry::encode(telemetry::packet_of(snapshot, kNow), buffer, counters);
@@ -159,7 +159,7 @@ TEST(TelemetryTap, EveryValueFitsTheRangeOfItsField) {
 
 TEST(TelemetryTap, TimesAreThoseOfTheSamples) {
   using enum Group;
-  const auto snapshot = tapped(full());
+  const auto snapshot = mapped(full());
   const std::map<Group, int> ages_ms{
       {kMode, 0},    {kFlags, 0},       {kUplink, 0},    {kEgo, 21},      {kTrack, 21},
       {kCommand, 0}, {kFeedback, 14},   {kWheels, 11},   {kDynamics, 21}, {kTyres, 19},
@@ -176,7 +176,7 @@ TEST(TelemetryTap, TimesAreThoseOfTheSamples) {
 
 // A value without a time would never be sent, a time without any value would be sent in vain.
 TEST(TelemetryTap, AGroupHasATimeOnlyIfItHasAValue) {
-  for (const auto& snapshot : {tapped(full()), tapped_of_nothing()}) {
+  for (const auto& snapshot : {mapped(full()), mapped_of_nothing()}) {
     for (const telemetry::GroupRow& row : telemetry::kGroupTable) {
       const auto [first, count] = telemetry::fields_of(row.group);
       const auto* const begin = snapshot.values.at.begin() + first;
@@ -187,7 +187,7 @@ TEST(TelemetryTap, AGroupHasATimeOnlyIfItHasAValue) {
 }
 
 TEST(TelemetryTap, WhatWasNeverHeardIsNotANumberAndHasNoTime) {
-  const auto snapshot = tapped_of_nothing();
+  const auto snapshot = mapped_of_nothing();
   const std::set<std::string> known{"mode.mode",
                                     "mode.ct_state",
                                     "mode.first_stop_cause",
@@ -250,7 +250,7 @@ TEST(TelemetryTap, ADisarmedCarCommandsNothing) {
   Outputs out = full();
   out.chosen.actuate = false;
   out.chosen.command = {};
-  const auto packet = tapped(out);
+  const auto packet = mapped(out);
   for (const auto f : {field("command.steering"), field("command.throttle"), field("command.brake"),
                        field("command.gear")})
     EXPECT_TRUE(std::isnan(packet.values[f])) << name_of(f);
@@ -272,7 +272,7 @@ TEST(TelemetryTap, EveryDiagnosticHasItsOwnBit) {
     D d;
     faults[i](d);
     receive(out.received.signals.diagnostics, d, 0);
-    EXPECT_EQ(tapped(out).values[field("electric.diagnostics")],
+    EXPECT_EQ(mapped(out).values[field("electric.diagnostics")],
               std::ldexp(1.0, static_cast<int>(i)));
   }
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "vehicle/io/guarded.hpp"
+#include "vehicle/io/guardian_link.hpp"
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -13,7 +13,7 @@ namespace {
 
 struct SharedRecord : ::testing::Test {
   std::string path =
-      std::filesystem::temp_directory_path() / ("pitwall-guarded-" + std::to_string(::getpid()));
+      std::filesystem::temp_directory_path() / ("pitwall-link-" + std::to_string(::getpid()));
   SharedRecord() { std::filesystem::remove(path); }
   ~SharedRecord() override { std::filesystem::remove(path); }
 
@@ -29,19 +29,19 @@ struct SharedRecord : ::testing::Test {
     shared->write(*record);
   }
   bool barred(bool arm) {
-    const auto guarded = Guarded::open(path, arm);
-    EXPECT_TRUE(guarded);
-    return guarded && guarded->barred();
+    const auto link = GuardianLink::open(path, arm);
+    EXPECT_TRUE(link);
+    return link && link->barred();
   }
 };
 using TheCarsEnd = SharedRecord;
 
 TEST_F(TheCarsEnd, WithoutANameThereIsNothing) {
-  auto guarded = Guarded::open("", true);
-  ASSERT_TRUE(guarded);
-  EXPECT_FALSE(guarded->barred());
-  EXPECT_FALSE(guarded->view(Instant{}).drives);
-  guarded->finish();
+  auto link = GuardianLink::open("", true);
+  ASSERT_TRUE(link);
+  EXPECT_FALSE(link->barred());
+  EXPECT_FALSE(link->view(Instant{}).drives);
+  link->finish();
 }
 
 TEST_F(TheCarsEnd, AFirstRunMayArm) { EXPECT_FALSE(barred(true)); }
@@ -62,22 +62,22 @@ TEST_F(TheCarsEnd, ARunThatEndedInOrderBarsNothing) {
 }
 
 TEST_F(TheCarsEnd, HeedsAGuardianThatDrivesAndLives) {
-  auto guarded = Guarded::open(path, false);
-  ASSERT_TRUE(guarded);
+  auto link = GuardianLink::open(path, false);
+  ASSERT_TRUE(link);
   auto guardian = SharedStop::open(path);
   ASSERT_TRUE(guardian);
   const Instant now{seconds(100).ns};
-  EXPECT_FALSE(guarded->view(now).drives) << "there was never one";
+  EXPECT_FALSE(link->view(now).drives) << "there was never one";
   guardian::Status status;
   status.mode = guardian::Mode::kDriving;
   status.at = now - milliseconds(20);
   guardian->write(status);
-  EXPECT_TRUE(guarded->view(now).drives);
-  EXPECT_FALSE(guarded->view(now + milliseconds(31)).drives) << "dead, or stopped";
+  EXPECT_TRUE(link->view(now).drives);
+  EXPECT_FALSE(link->view(now + milliseconds(31)).drives) << "dead, or stopped";
 }
 
 TEST_F(TheCarsEnd, APlaceWhereNothingCanBeSharedIsAProblem) {
-  EXPECT_FALSE(Guarded::open("/nowhere/at/all", true));
+  EXPECT_FALSE(GuardianLink::open("/nowhere/at/all", true));
 }
 
 }  // namespace
