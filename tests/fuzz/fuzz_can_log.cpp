@@ -79,8 +79,7 @@ void play(const CanLog& log, const TimelineOptions& options, LatePolicy late) {
   CHECK(frames == timeline->frames);
   VirtualIo io;
   const PlayReport report = Player(*timeline, {.passes = 2, .late = late}, io).play({});
-  CHECK(report.frames.sent == 2 * frames && io.sent == report.frames.sent &&
-        report.dropped() == 0);
+  CHECK(report.frames.sent == 2 * frames && io.sent == report.frames.sent && report.dropped() == 0);
 }
 
 void check(const Result<CanLog, Problem>& log) {

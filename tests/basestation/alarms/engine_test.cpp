@@ -374,7 +374,7 @@ struct Storm {
         break;
       case 1:
         (void)rig.engine.shelve(id, seconds(1 + static_cast<std::int64_t>(draw(20))), "Ada", "r",
-                                 rig.now);
+                                rig.now);
         break;
       case 2:
         if (rig.engine.unshelve(id, "Ada", rig.now)) unseen_high.erase(id);

@@ -51,9 +51,9 @@ class Judge {
   Duration period_of(std::size_t stream) const { return traffic_.streams()[stream].row.period; }
 
   void complain(const char* what, std::uint32_t id, Instant at) {
-    if (out_.complaints.size() == kComplaintsMax) return;
-    out_.complaints.push_back(std::string(what) + ": id " + std::to_string(id) + " due at " +
-                              std::to_string(at.seconds()) + " s");
+    if (out_.errors.size() == kComplaintsMax) return;
+    out_.errors.push_back(std::string(what) + ": id " + std::to_string(id) + " due at " +
+                          std::to_string(at.seconds()) + " s");
   }
 
   void take(const can::LossReport& report) {

@@ -20,7 +20,7 @@ namespace pitwall::benchmarks {
 namespace {
 
 constexpr std::uint32_t kCarIp = 0x0A4D0001, kBaseIp = 0x0A4D0002;  // 10.77.0.1, 10.77.0.2
-constexpr Duration kPatience = seconds(5);                          // beyond the end
+constexpr Duration kTimeout = seconds(5);                           // beyond the end
 constexpr const char *kCar = "car", *kBase = "base";
 constexpr double kBitsPerByte = 8.0;
 
@@ -232,7 +232,7 @@ Result<std::vector<ComparisonRow>, Problem> run_comparison(const Peer& contestan
   auto car = run(networks->car, kCar);
   if (!car) return Unexpected{car.error()};
   for (transport::Process* process : {&*car, &*base})
-    if (const auto ended = await(*process, contestant.name, end + kPatience); !ended)
+    if (const auto ended = await(*process, contestant.name, end + kTimeout); !ended)
       return Unexpected{ended.error()};
   const LinkTally& tally = radio.stop();
   auto arrivals = arrivals_in(folder->path() + "/" + kBase, contestant.name, begin);

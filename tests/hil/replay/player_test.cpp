@@ -1,4 +1,4 @@
-// The player on a io of virtual time: every law of the schedule, without a clock or a bus.
+// The player on I/O in virtual time: every rule of the schedule, without a clock or a bus.
 // SPDX-License-Identifier: Apache-2.0
 #include "hil/replay/player.hpp"
 
@@ -73,7 +73,7 @@ TEST(Player, EveryFrameOnceInOrderNeverEarlierThanAGroup) {
       due_us.push_back(due_us.back() + static_cast<std::int64_t>(random() % 400));
     const Timeline t = timeline_of(due_us);
     VirtualIo io{.latency = microseconds(static_cast<std::int64_t>(random() % 300)),
-                   .call = microseconds(static_cast<std::int64_t>(random() % 30))};
+                 .call = microseconds(static_cast<std::int64_t>(random() % 30))};
     const Instant start{seconds(5).ns};
     const auto report = Player(t, {.passes = 3}, io).play(start);
     ASSERT_EQ(io.sent.size(), 3 * due_us.size());
@@ -280,10 +280,10 @@ TEST(Player, FramesAndDatagramsOfAllTracksKeepOneOrder) {
     }
     t.pass = microseconds(due_us + 50);
     VirtualIo io{.latency = microseconds(static_cast<std::int64_t>(random() % 90)),
-                   .call = microseconds(static_cast<std::int64_t>(random() % 30)),
-                   .room = 1 + random() % 4,
-                   .stall_at = Instant{} + microseconds(due_us / 3),
-                   .stall = milliseconds(static_cast<std::int64_t>(random() % 5))};
+                 .call = microseconds(static_cast<std::int64_t>(random() % 30)),
+                 .room = 1 + random() % 4,
+                 .stall_at = Instant{} + microseconds(due_us / 3),
+                 .stall = milliseconds(static_cast<std::int64_t>(random() % 5))};
     const auto report = Player(t, {.passes = 3}, io).play({});
     EXPECT_EQ(report.frames.sent, 3 * t.frames);
     EXPECT_EQ(report.datagrams.sent, 3 * t.datagrams);

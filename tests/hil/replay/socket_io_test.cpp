@@ -23,7 +23,7 @@ TEST(SocketIo, TheLeadIsWhatSleepsAreLateHereWithinItsBound) {
   EXPECT_LE(lead, kMaxLead);
 }
 
-// A io without buses still waits: never shorter than to the look that is nearest to the deadline.
+// I/O without buses still waits: never shorter than to the look that is nearest to the deadline.
 TEST(SocketIo, WaitsEndAtTheDeadlineWithAndWithoutALead) {
   auto io = SocketIo::open(Timeline{});
   ASSERT_TRUE(io.has_value()) << to_string(io.error());

@@ -39,7 +39,7 @@ RosConfig config_of(int domain, Distribution distribution = Distribution::kJazzy
 class Base {
  public:
   explicit Base(RosConfig config) {
-    rig_.snapshot = ros_view::testing::some_state();
+    rig_.snapshot = ros_view::testing::sample_state();
     rig_.sampled = telemetry::groups_of(telemetry::Direction::kDown);
     rig_.run(seconds(2));  // sessions are made, every group has come
     auto started = start(std::move(config));

@@ -74,7 +74,7 @@ struct Seen {
   telemetry::GroupSet groups;  // that the base has
   bool car_agrees = false, base_agrees = false, stop_received = false;
   std::string difference;
-  std::uint64_t falsehoods = 0, bad_bodies = 0;
+  std::uint64_t content_errors = 0, bad_bodies = 0;
 };
 
 Seen look(const SchemaDescription* car, const SchemaDescription* base) {
@@ -97,7 +97,7 @@ Seen look(const SchemaDescription* car, const SchemaDescription* base) {
   seen.base_agrees = radio.station().schema_agrees();
   seen.difference = radio.station().schema_difference();
   seen.stop_received = radio.car().view(radio.car_now()).stop == telemetry::StopLevel::kControlled;
-  seen.falsehoods = radio.falsehoods().all();
+  seen.content_errors = radio.content_errors().all();
   for (const std::uint64_t bad : radio.base_report().bad_bodies) seen.bad_bodies += bad;
   for (const std::uint64_t bad : radio.car_report().bad_bodies) seen.bad_bodies += bad;
   return seen;
@@ -118,7 +118,7 @@ void expect_both_ways(Version version, const telemetry::GroupSet& groups, bool a
     EXPECT_EQ(seen.car_agrees, agree) << at_car;
     EXPECT_EQ(seen.base_agrees, agree) << at_car;
     EXPECT_EQ(seen.difference.empty(), agree) << seen.difference;
-    EXPECT_EQ(seen.falsehoods, 0u) << at_car;
+    EXPECT_EQ(seen.content_errors, 0u) << at_car;
     EXPECT_EQ(seen.bad_bodies, 0u) << at_car;
   }
 }

@@ -1,4 +1,4 @@
-// The car's car_io and the guard, turned tick by tick against a controller that stalls, goes bus-off
+// The car's I/O and the guard, turned tick by tick against a controller that stalls, goes bus-off
 // or only listens.
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>

@@ -36,10 +36,10 @@
 #include "protocol/transport/can/unix_can_hub.hpp"
 #include "protocol/transport/clock.hpp"
 #include "protocol/transport/file.hpp"
-#include "tests/support/browser.hpp"
+#include "tests/support/web_client.hpp"
 #include "vehicle/io/black_box.hpp"
-#include "vehicle/io/radio.hpp"
 #include "vehicle/io/car_io.hpp"
+#include "vehicle/io/radio.hpp"
 #include "vehicle/parameters/car_file.hpp"
 #include "vehicle/parameters/track_file.hpp"
 #include "vehicle/pipeline/radio_adapter.hpp"
@@ -53,7 +53,7 @@ namespace {
 namespace web = publishers::web;
 
 constexpr int kAttempts = 50;
-constexpr Duration kPatience = seconds(20);  // under callgrind, on a loaded machine
+constexpr Duration kTimeout = seconds(20);  // under callgrind, on a loaded machine
 constexpr Duration kTick = milliseconds(10);
 
 [[noreturn]] void give_up(const std::string& why) {
@@ -187,13 +187,13 @@ class Car {
 class Console {
  public:
   void open(std::uint16_t port) {
-    if (browser_.open(port) != 101) give_up("the console is refused");
+    if (web_client_.open(port) != 101) give_up("the console is refused");
     reader_ = std::thread([this] {
-      while (const auto received = browser_.receive()) take(*received);
+      while (const auto received = web_client_.receive()) take(*received);
     });
     reader_.detach();
   }
-  void say(const std::string& text) { browser_.say(text); }
+  void say(const std::string& text) { web_client_.send_text(text); }
   double value(telemetry::FieldIndex field) const { return values_[field]; }
   std::optional<json::JsonValue> text(const std::string& type) {
     const std::lock_guard lock(texts_lock_);
@@ -202,7 +202,7 @@ class Console {
   }
 
  private:
-  void take(const web::Browser::Received& received) {
+  void take(const web::WebClient::Received& received) {
     if (received.text) {
       const auto value = json::JsonValue::parse(received.bytes, "text");
       const std::lock_guard lock(texts_lock_);
@@ -220,7 +220,7 @@ class Console {
     }
   }
 
-  web::Browser browser_;
+  web::WebClient web_client_;
   std::thread reader_;
   std::array<std::atomic<float>, telemetry::kFieldCount> values_{};
   std::mutex texts_lock_;
@@ -294,7 +294,7 @@ class Walk {
   }
   template <class Holds>
   void run_until(const char* what, const Holds& holds) {
-    const Instant end = transport::monotonic_now() + kPatience;
+    const Instant end = transport::monotonic_now() + kTimeout;
     while (!holds()) {
       if (transport::monotonic_now() > end) {
         const auto error = console_.text("error");

@@ -57,9 +57,10 @@ SIDE = {
         "state::Trend", "alarms::Evaluator::advance"],
     "how consoles and their sockets are kept": [
         "publishers::console::ClientRegistry::identify",
-        "publishers::console::ClientRegistry::welcome", "publishers::console::PauseReport",
-        "publishers::web::memory_use", "publishers::web::short_of_memory",
-        "publishers::web::reserve_is_held", "publishers::web::TokenStore"],
+        "publishers::console::ClientRegistry::greet_new_clients",
+        "publishers::console::PauseReport", "publishers::web::memory_use",
+        "publishers::web::short_of_memory", "publishers::web::reserve_is_held",
+        "publishers::web::TokenStore"],
 }
 # A walk's own: what goes the other way, or somewhere else.
 OTHER_WAY = {

@@ -12,8 +12,8 @@ namespace pitwall::io {
 namespace {
 
 struct SharedRecord : ::testing::Test {
-  std::string path =
-      std::filesystem::temp_directory_path() / ("pitwall-link-" + std::to_string(::getpid()));
+  std::string path = std::filesystem::temp_directory_path() /
+                     ("pitwall-guardian-link-" + std::to_string(::getpid()));
   SharedRecord() { std::filesystem::remove(path); }
   ~SharedRecord() override { std::filesystem::remove(path); }
 

@@ -26,7 +26,7 @@ using telemetry::KeyFile;
 using telemetry::Role;
 using transport::UdpSocket;
 
-constexpr Duration kPatience = seconds(5);  // of a loaded machine; nothing is measured with it
+constexpr Duration kTimeout = seconds(5);  // of a loaded machine; nothing is measured with it
 
 class CarRadio : public ::testing::Test {
  protected:
@@ -132,7 +132,7 @@ struct Ticked {
 Ticked tick_until(Radio& radio, Base& base, const std::function<bool()>& condition,
                   BlackBox box = *BlackBox::open("", "", "")) {
   Ticked out;
-  const Instant limit = transport::monotonic_now() + kPatience;
+  const Instant limit = transport::monotonic_now() + kTimeout;
   while (!(out.held = condition()) && transport::monotonic_now() < limit) {
     base.serve();
     out.allocations += testing::allocations_of([&] {

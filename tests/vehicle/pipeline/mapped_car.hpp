@@ -1,5 +1,5 @@
 // Tick in which every number is different, so that a test detects exchanged fields, and the
-// telemetry map_telemetry of this tick.
+// telemetry of this tick.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -28,7 +28,7 @@ void receive(world::Received<T>& received, const T& value, std::int64_t age_ms) 
   received = {.value = value, .at = ago_ms(age_ms), .received = true};
 }
 
-inline void hear_car(world::VehicleSignals& s) {
+inline void set_received_signals(world::VehicleSignals& s) {
   receive(s.wheel_speed_mps, world::PerWheel{{61, 62, 63, 64}}, 11);
   receive(s.brake, world::BrakePressure{.front_kpa = 2100, .rear_kpa = 2000}, 12);
   receive(s.throttle_fraction, 0.25, 13);
@@ -63,7 +63,7 @@ inline void hear_car(world::VehicleSignals& s) {
 }
 
 // Rates, gaps and latencies of the last second.
-inline void hear_sensors(safety::WatchdogOutput& watchdog) {
+inline void set_sensor_ages(safety::WatchdogOutput& watchdog) {
   const auto figures = [&](safety::Stream stream, double rate_hz, int gap_ms, int latency_ms) {
     auto& row = watchdog.rows[static_cast<std::size_t>(stream)];
     row.rate_hz = rate_hz, row.gap = milliseconds(gap_ms), row.latency = milliseconds(latency_ms);
@@ -72,7 +72,7 @@ inline void hear_sensors(safety::WatchdogOutput& watchdog) {
   figures(safety::Stream::kImu0, 100, 10, 4);
 }
 
-inline void be_somewhere(Outputs& out) {
+inline void set_position(Outputs& out) {
   out.ego = {.at = ago_ms(21),
              .validity = world::Validity::kDeadReckoning,
              .x_m = -310.5,
@@ -90,7 +90,7 @@ inline void be_somewhere(Outputs& out) {
 
 inline Outputs full() {
   Outputs out;
-  hear_car(out.received.signals);
+  set_received_signals(out.received.signals);
   out.received.race_control.ever_received = true;
   out.received.race_control.track = world::TrackFlag::kYellow;
   out.received.race_control.vehicle = world::VehicleFlag::kBlue;
@@ -108,7 +108,7 @@ inline Outputs full() {
   out.received.bus.link.controller = world::ControllerState::kPassive;
   out.received.bus.link.lost_in_socket = 4;
   out.received.bus.link.lost_in_interface = 5;
-  be_somewhere(out);
+  set_position(out);
   out.tracking.target_speed_mps = 64.5;
   out.chosen.mode = world::Mode::kControlledStop;
   out.chosen.cause = safety::Cause::kImuLost;
@@ -122,7 +122,7 @@ inline Outputs full() {
     auto& row = out.watchdog.rows[i];
     row = {static_cast<safety::Stream>(i), static_cast<safety::Health>(i % 5), milliseconds(5)};
   }
-  hear_sensors(out.watchdog);
+  set_sensor_ages(out.watchdog);
   out.received.race_control.conflict = true;
   out.chosen.causes.add(safety::Cause::kOperatorEmergency);
   out.chosen.causes.add(safety::Cause::kRadioLost);
@@ -280,12 +280,14 @@ struct Row {
 inline telemetry::Snapshot mapped(const Outputs& out, const IoCounters& io = kIoCounters) {
   static const auto kCar = full_car();
   static const TickLog kLog = full_log();
-  return map_telemetry({.setup = setup(), .car = *kCar, .out = out, .log = kLog, .io = io, .now = kNow});
+  return map_telemetry(
+      {.setup = setup(), .car = *kCar, .out = out, .log = kLog, .io = io, .now = kNow});
 }
 
 inline telemetry::Snapshot mapped_of_nothing() {
   const auto car = std::make_unique<Car>();
-  return map_telemetry({.setup = setup(), .car = *car, .out = {}, .log = {}, .io = {}, .now = kNow});
+  return map_telemetry(
+      {.setup = setup(), .car = *car, .out = {}, .log = {}, .io = {}, .now = kNow});
 }
 
 inline void expect(const std::vector<Row>& rows) {

@@ -79,7 +79,7 @@ class RadioAdapterRig : public ::testing::Test {
     EXPECT_TRUE(id);
     run(milliseconds(400));
     const auto* progress = id ? base_radio_->progress(*id) : nullptr;
-    return progress != nullptr && progress->fate ? *progress->fate : Outcome::kReceived;
+    return progress != nullptr && progress->outcome ? *progress->outcome : Outcome::kReceived;
   }
 
   static constexpr telemetry::Address kCarAt{1, 40'000}, kBaseAt{2, 23'431};

@@ -121,7 +121,7 @@ TEST(BenchLink, NonsenseOfADeskIsCountedAndItGoesOn) {
                     R"("name": "a", "mode": "live"})");
   both.pass(seconds(1));
   EXPECT_EQ(both.state().number("malformed"), 2.0);
-  EXPECT_EQ(both.link.book().counters().taken, 2U);
+  EXPECT_EQ(both.link.bench().counters().taken, 2U);
 }
 
 TEST(BenchLink, AFastRunIsToldFiveTimesASecond) {

@@ -30,20 +30,20 @@ std::string at(int number) {
 }
 
 struct Reading {
-  BenchState book;
+  BenchState bench;
 
   void says(const std::string& line) {
-    const auto taken = book.take(line);
+    const auto taken = bench.take(line);
     EXPECT_TRUE(taken) << line << ": " << to_string(taken.error());
   }
   std::string place_of(const std::string& line) {
-    const auto taken = book.take(line);
+    const auto taken = bench.take(line);
     return taken ? "taken" : taken.error().place;
   }
   // Types of what is new, in order.
   std::string news() {
     std::string types;
-    for (const Reported& reported : book.news()) {
+    for (const Reported& reported : bench.news()) {
       types += (types.empty() ? "" : " ") + reported.type;
       EXPECT_TRUE(JsonValue::parse(reported.text, "told")) << reported.text;
     }
@@ -57,7 +57,7 @@ TEST(BenchState, TheListIsToldWhenItIsWhole) {
   reading.says(scenario("a"));
   EXPECT_EQ(reading.news(), "");
   reading.says(scenario("b"));
-  const auto news = reading.book.news();
+  const auto news = reading.bench.news();
   ASSERT_EQ(news.size(), 1U);
   const auto list = JsonValue::parse(news[0].text, "list");
   ASSERT_TRUE(list);
@@ -88,7 +88,7 @@ TEST(BenchState, AfterAReconnectionNoEventIsToldTwice) {
   for (int i = 0; i < 3; ++i) reading.says(event(1, i));
   reading.news();
   // The server tells all of it again, and one more.
-  reading.book.connected();
+  reading.bench.connected();
   reading.says(hello(0));
   reading.says(run(1));
   for (int i = 0; i < 3; ++i) reading.says(event(1, i));
@@ -126,9 +126,9 @@ TEST(BenchState, WhatIsNoLineOfTheProtocolIsCountedAndTheNextIsTaken) {
   EXPECT_EQ(reading.place_of(R"({"type": "at", "run": 0, "t_s": 1, "cross_track": 3})"),
             "cross_track");
   EXPECT_EQ(reading.place_of(event(5, 0)), "run");
-  EXPECT_EQ(reading.book.counters().refused, 9U);
+  EXPECT_EQ(reading.bench.counters().refused, 9U);
   reading.says(run(1));
-  EXPECT_EQ(reading.book.counters().taken, 2U);
+  EXPECT_EQ(reading.bench.counters().taken, 2U);
 }
 
 TEST(BenchState, ListsAndEventsHaveABound) {
@@ -146,10 +146,10 @@ TEST(BenchState, ListsAndEventsHaveABound) {
 TEST(BenchState, ARefusalIsHandedOnOnce) {
   Reading reading;
   reading.says(R"({"type": "error", "place": "start", "what": "no"})");
-  const auto refusal = reading.book.refusal();
+  const auto refusal = reading.bench.refusal();
   ASSERT_TRUE(refusal);
   EXPECT_EQ(to_string(*refusal), "bench.start: error: no");
-  EXPECT_FALSE(reading.book.refusal());
+  EXPECT_FALSE(reading.bench.refusal());
 }
 
 }  // namespace

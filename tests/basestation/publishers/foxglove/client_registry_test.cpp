@@ -22,8 +22,9 @@ class FoxgloveRoom : public testing::Test {
     clients_.take();
   }
   void subscribe(web::ClientId client, int id, int channel) {
-    clients_.receive_text(client, R"({"op":"subscribe","subscriptions":[{"id":)" + std::to_string(id) +
-                                   R"(,"channelId":)" + std::to_string(channel) + "}]}");
+    clients_.receive_text(client, R"({"op":"subscribe","subscriptions":[{"id":)" +
+                                      std::to_string(id) + R"(,"channelId":)" +
+                                      std::to_string(channel) + "}]}");
   }
   // The statuses that a client was told, in a row.
   std::string statuses(web::ClientId client) {
@@ -147,7 +148,8 @@ TEST_F(FoxgloveRoom, ThresholdsAreReadAndWatched) {
   clients_.receive_text(kAnna, R"({"op":"subscribeParameterUpdates","parameterNames":[]})");
   clients_.parameters({{"/a", 1}, {"/b", 2}});
   EXPECT_EQ(reported(kAnna), "/a=1 /b=2 ") << "all means those to come, too";
-  clients_.receive_text(kBert, R"({"op":"getParameters","parameterNames":["/b","/none"],"id":"!"})");
+  clients_.receive_text(kBert,
+                        R"({"op":"getParameters","parameterNames":["/b","/none"],"id":"!"})");
   EXPECT_EQ(reported(kBert), "/b=2! ");
   clients_.receive_text(kBert, R"({"op":"subscribeParameterUpdates","parameterNames":["/b"]})");
   clients_.parameters({{"/a", 1}, {"/b", 3}});

@@ -15,7 +15,7 @@ using telemetry::Group;
 inline constexpr Instant kNow{seconds(100).ns};
 inline constexpr Duration kUtc = seconds(1'700'000'000);
 
-inline telemetry::Snapshot some_state() {
+inline telemetry::Snapshot sample_state() {
   telemetry::Snapshot s;
   for (const telemetry::GroupRow& row : telemetry::kGroupTable)
     if (row.direction == telemetry::Direction::kDown) s.at(row.group) = kNow - milliseconds(40);

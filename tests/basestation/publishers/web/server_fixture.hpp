@@ -12,7 +12,7 @@
 #include "basestation/publishers/web/web_server.hpp"
 #include "protocol/transport/clock.hpp"
 #include "protocol/transport/readiness.hpp"
-#include "tests/support/browser.hpp"
+#include "tests/support/web_client.hpp"
 
 namespace pitwall::publishers::web {
 
@@ -42,8 +42,8 @@ class WebServerTest : public testing::Test {
   }
   // Waits for the next event of this kind; other events before it are dropped.
   std::optional<ClientEvent> wait_for(ClientEvent::Kind kind) {
-    constexpr Duration kPatience = seconds(20);
-    const Instant end = transport::monotonic_now() + kPatience;
+    constexpr Duration kTimeout = seconds(20);
+    const Instant end = transport::monotonic_now() + kTimeout;
     while (transport::monotonic_now() < end) {
       while (auto news = server_->next_event()) {
         if (news->kind == kind) return news;
@@ -53,14 +53,14 @@ class WebServerTest : public testing::Test {
     }
     return std::nullopt;
   }
-  ClientId join(Browser& browser, const Browser::Fields& fields = {}) {
-    EXPECT_EQ(browser.open(port_, "/ws", fields), 101u);
+  ClientId join(WebClient& web_client, const WebClient::Fields& fields = {}) {
+    EXPECT_EQ(web_client.open(port_, "/ws", fields), 101u);
     const auto news = wait_for(ClientEvent::Kind::kJoined);
     EXPECT_TRUE(news);
     return news ? news->client : ClientId{0};
   }
-  ClientId join_as_operator(Browser& browser) {
-    return join(browser, {{"Authorization", std::string{"Bearer "} + kOperatorToken}});
+  ClientId join_as_operator(WebClient& web_client) {
+    return join(web_client, {{"Authorization", std::string{"Bearer "} + kOperatorToken}});
   }
   static ClientSet only(ClientId client) { return ClientSet{}.set(client); }
 

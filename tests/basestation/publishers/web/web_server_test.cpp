@@ -14,15 +14,15 @@ namespace pitwall::publishers::web {
 namespace {
 
 TEST_F(WebServerTest, TextsAndFramesGoBothWays) {
-  Browser browser;
-  const ClientId client = join(browser);
+  WebClient web_client;
+  const ClientId client = join(web_client);
   EXPECT_GE(client, kFirstClient);
-  browser.say("{\"type\": \"x\"}");
+  web_client.send_text("{\"type\": \"x\"}");
   EXPECT_EQ(wait_for(ClientEvent::Kind::kText)->text, "{\"type\": \"x\"}");
   server_->send(only(client), text("hello"));
   server_->send(only(client), vehicle(7, 8));
-  EXPECT_EQ(browser.receive()->bytes, "hello");
-  const auto frame = browser.receive();
+  EXPECT_EQ(web_client.receive()->bytes, "hello");
+  const auto frame = web_client.receive();
   ASSERT_TRUE(frame);
   EXPECT_FALSE(frame->text);
   EXPECT_EQ(frame->bytes.size(), kFrameHeader + 8);
@@ -32,11 +32,11 @@ TEST_F(WebServerTest, TextsAndFramesGoBothWays) {
 TEST_F(WebServerTest, OneThatLeavesIsToldAndItsNumberIsNotSoonAnothers) {
   ClientId first = 0;
   {
-    Browser browser;
-    first = join(browser);
+    WebClient web_client;
+    first = join(web_client);
   }
   EXPECT_EQ(wait_for(ClientEvent::Kind::kLeft)->client, first);
-  Browser next;
+  WebClient next;
   EXPECT_NE(join(next), first);
 }
 
@@ -45,11 +45,11 @@ TEST_F(WebServerTest, AConsoleIsOfTheCarItCameTo) {
   ASSERT_TRUE(started);
   WebServer& server = **started;
   const std::uint16_t port = server.local().port;
-  Browser first, second, nobody;
+  WebClient first, second, nobody;
   EXPECT_EQ(second.open(port, "/ws?car=8"), 101u);
   EXPECT_EQ(first.open(port, "/ws"), 101u);
   EXPECT_NE(nobody.open(port, "/ws?car=9"), 101u);
-  second.say("{\"type\": \"stop\"}");
+  second.send_text("{\"type\": \"stop\"}");
   std::array<std::vector<ClientEvent>, 2> received;
   const Instant end = transport::monotonic_now() + seconds(20);
   while ((received[0].empty() || received[1].size() < 2) && transport::monotonic_now() < end) {
@@ -84,10 +84,10 @@ TEST_F(WebServerTest, ADocumentOfTheMomentIsThereSoon) {
 }
 
 TEST_F(WebServerTest, ATextThatIsTooLongClosesItsSocketOnly) {
-  Browser good, bad;
+  WebClient good, bad;
   const ClientId kept = join(good);
   join(bad);
-  bad.say(std::string(kTextMax + 1, 'x'));
+  bad.send_text(std::string(kTextMax + 1, 'x'));
   while (bad.receive()) {
   }
   EXPECT_EQ(bad.close_code(), 1009u);
@@ -96,17 +96,17 @@ TEST_F(WebServerTest, ATextThatIsTooLongClosesItsSocketOnly) {
 }
 
 TEST_F(WebServerTest, ATextThatIsNoUtf8ClosesItsSocket) {
-  Browser browser;
-  join(browser);
-  browser.say("\xFF\xFE");
-  EXPECT_FALSE(browser.receive());
-  EXPECT_EQ(browser.close_code(), 1007u);
+  WebClient web_client;
+  join(web_client);
+  web_client.send_text("\xFF\xFE");
+  EXPECT_FALSE(web_client.receive());
+  EXPECT_EQ(web_client.close_code(), 1007u);
 }
 
 TEST_F(WebServerTest, BytesAreToldAsSuch) {
-  Browser browser;
-  join(browser);
-  browser.say_bytes("abc");
+  WebClient web_client;
+  join(web_client);
+  web_client.send_bytes("abc");
   EXPECT_EQ(wait_for(ClientEvent::Kind::kBinary)->text, "abc");
 }
 
@@ -117,7 +117,7 @@ SharedMessage headed_bytes(std::uint32_t tag, std::size_t size) {
 }
 
 TEST_F(WebServerTest, BytesGoOutBehindTheirHeadAndWhatIsLostIsKnownByItsTag) {
-  Browser slow;
+  WebClient slow;
   ASSERT_EQ(slow.open(port_, "/ws", {}, 4'096), 101u);
   const ClientId client = wait_for(ClientEvent::Kind::kJoined)->client;
   constexpr std::uint64_t kSent = 400;
@@ -153,7 +153,7 @@ TEST(WebServerOfAnotherProtocol, TheSubprotocolIsNegotiated) {
 }
 
 TEST_F(WebServerTest, AClientThatDoesNotReadLosesItsOwnOldestAndSeesHowMuch) {
-  Browser slow, quick;
+  WebClient slow, quick;
   ASSERT_EQ(slow.open(port_, "/ws", {}, 4'096), 101u);
   const ClientId stopped = wait_for(ClientEvent::Kind::kJoined)->client;
   const ClientId reading = join(quick);
@@ -178,7 +178,7 @@ TEST_F(WebServerTest, AClientThatDoesNotReadLosesItsOwnOldestAndSeesHowMuch) {
 }
 
 TEST_F(WebServerTest, AClientThatLeavesTooMuchUnreadIsClosed) {
-  Browser slow;
+  WebClient slow;
   ASSERT_EQ(slow.open(port_, "/ws", {}, 4'096), 101u);
   const ClientId stopped = wait_for(ClientEvent::Kind::kJoined)->client;
   const auto long_text = text(std::string(256 * 1'024, 'x'));
@@ -188,9 +188,9 @@ TEST_F(WebServerTest, AClientThatLeavesTooMuchUnreadIsClosed) {
 }
 
 TEST_F(WebServerTest, WhoSaysMoreThanIsHandledIsReadNoFurther) {
-  Browser browser;
-  join(browser);
-  for (int i = 0; i < 100; ++i) browser.say(std::to_string(i));
+  WebClient web_client;
+  join(web_client);
+  for (int i = 0; i < 100; ++i) web_client.send_text(std::to_string(i));
   int texts = 0;
   while (texts < 100 && wait_for(ClientEvent::Kind::kText)) ++texts;
   EXPECT_EQ(texts, 100) << "nothing is lost";
@@ -198,8 +198,8 @@ TEST_F(WebServerTest, WhoSaysMoreThanIsHandledIsReadNoFurther) {
 
 TEST_F(WebServerTest, RandomBytesDoNoHarm) {
   std::mt19937 random(3);
-  Browser browser;
-  const ClientId client = join(browser);
+  WebClient web_client;
+  const ClientId client = join(web_client);
   for (int round = 0; round < 60; ++round) {
     std::string bytes(random() % 600, ' ');
     for (char& c : bytes) c = static_cast<char>(random() % 256);
@@ -207,7 +207,7 @@ TEST_F(WebServerTest, RandomBytesDoNoHarm) {
     bare(port_, opening() + bytes);
   }
   server_->send(only(client), text("still here"));
-  EXPECT_EQ(browser.receive()->bytes, "still here");
+  EXPECT_EQ(web_client.receive()->bytes, "still here");
   EXPECT_EQ(server_->counters().faults, 0u);
 }
 
@@ -223,10 +223,10 @@ TEST(WebServerStart, AnAddressThatIsTakenIsAProblem) {
 TEST(WebServerStart, EndsWithConsolesConnected) {
   auto server = WebServer::start({}, {});
   ASSERT_TRUE(server);
-  Browser browser;
-  EXPECT_EQ(browser.open((*server)->local().port), 101u);
+  WebClient web_client;
+  EXPECT_EQ(web_client.open((*server)->local().port), 101u);
   server->reset();
-  EXPECT_FALSE(browser.receive());
+  EXPECT_FALSE(web_client.receive());
 }
 
 }  // namespace

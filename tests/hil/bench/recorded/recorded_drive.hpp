@@ -55,11 +55,11 @@ class RecordedDrive {
     if (!box_.state_due(tick)) return;
     const Instant at = now + microseconds(700);  // a step takes its time
     box_.state(pipeline::map_telemetry({.setup = pipeline::testing::setup(),
-                              .car = *car_,
-                              .out = out,
-                              .log = *log_,
-                              .io = io,
-                              .now = at}),
+                                        .car = *car_,
+                                        .out = out,
+                                        .log = *log_,
+                                        .io = io,
+                                        .now = at}),
                at);
   }
 

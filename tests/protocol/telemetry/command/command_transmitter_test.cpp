@@ -16,9 +16,9 @@ TEST(CommandTransmitter, ABaseThatLearnsOfTheRestartDecidesWhatWasOpen) {
   rig.up.cut = true;
   const auto old = rig.issue(CommandType::kArm, 1.0);
   rig.transmitter.set_peer_boot(TwoEnds::kCarBoot, rig.now);
-  EXPECT_FALSE(fate(rig, *old)) << "the same run of the car";
+  EXPECT_FALSE(outcome(rig, *old)) << "the same run of the car";
   rig.transmitter.set_peer_boot(TwoEnds::kCarBoot + 1, rig.now);
-  EXPECT_EQ(fate(rig, *old), Outcome::kOtherRun);
+  EXPECT_EQ(outcome(rig, *old), Outcome::kOtherRun);
   EXPECT_EQ(rig.transmitter.open(), 0U);
 }
 

@@ -12,7 +12,8 @@ namespace {
 TEST(PendingConnections, WhoWasSilentLongestOfAnAddressGoesForTheNextOfIt) {
   PendingConnections pending;
   EXPECT_FALSE(pending.add(1, 7)) << "of another address";
-  for (std::size_t i = 0; i < PendingConnections::kPerAddress; ++i) EXPECT_FALSE(pending.add(100 + i, 8));
+  for (std::size_t i = 0; i < PendingConnections::kPerAddress; ++i)
+    EXPECT_FALSE(pending.add(100 + i, 8));
   pending.receive(100);
   EXPECT_EQ(pending.add(999, 8), 101u);
   EXPECT_EQ(pending.add(1000, 8), 102u);

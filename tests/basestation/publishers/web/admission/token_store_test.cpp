@@ -21,29 +21,29 @@ class TokenBookTest : public testing::Test {
 
 TEST_F(TokenBookTest, ALineThatIsTakenAwayHoldsNoLonger) {
   write(std::string{"operator "} + kTokenOfAnna + " Anna\nviewer " + kTokenOfGarage + " Garage\n");
-  const auto book = TokenStore::open(file_);
-  ASSERT_TRUE(book);
-  const auto anna = (*book)->find(kTokenOfAnna);
+  const auto tokens = TokenStore::open(file_);
+  ASSERT_TRUE(tokens);
+  const auto anna = (*tokens)->find(kTokenOfAnna);
   ASSERT_TRUE(anna);
-  EXPECT_FALSE(*(*book)->refresh()) << "nothing has changed";
+  EXPECT_FALSE(*(*tokens)->refresh()) << "nothing has changed";
   write(std::string{"viewer "} + kTokenOfGarage + " Garage\n");
-  EXPECT_TRUE(*(*book)->refresh());
-  EXPECT_FALSE((*book)->find(kTokenOfAnna));
-  EXPECT_FALSE((*book)->may_stay(*anna));
-  EXPECT_TRUE((*book)->may_stay(*(*book)->find(kTokenOfGarage)));
-  EXPECT_TRUE((*book)->may_stay(Identity{})) << "who came without one";
+  EXPECT_TRUE(*(*tokens)->refresh());
+  EXPECT_FALSE((*tokens)->find(kTokenOfAnna));
+  EXPECT_FALSE((*tokens)->may_stay(*anna));
+  EXPECT_TRUE((*tokens)->may_stay(*(*tokens)->find(kTokenOfGarage)));
+  EXPECT_TRUE((*tokens)->may_stay(Identity{})) << "who came without one";
 }
 
 TEST_F(TokenBookTest, AFileWithAMistakeChangesNothingAndIsToldOnce) {
   write(std::string{"operator "} + kTokenOfAnna + " Anna\n");
-  const auto book = TokenStore::open(file_);
-  ASSERT_TRUE(book);
+  const auto tokens = TokenStore::open(file_);
+  ASSERT_TRUE(tokens);
   write("operator short Anna and more than before\n");
-  const auto again = (*book)->refresh();
+  const auto again = (*tokens)->refresh();
   ASSERT_FALSE(again);
   EXPECT_EQ(again.error().place, file_ + ":1");
-  EXPECT_FALSE(*(*book)->refresh());
-  EXPECT_TRUE((*book)->find(kTokenOfAnna));
+  EXPECT_FALSE(*(*tokens)->refresh());
+  EXPECT_TRUE((*tokens)->find(kTokenOfAnna));
 }
 
 TEST_F(TokenBookTest, AFileThatOthersReadIsRefused) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tests/support/browser.hpp"
+#include "tests/support/web_client.hpp"
 
 #include <array>
 #include <boost/asio/connect.hpp>
@@ -11,19 +11,19 @@
 
 namespace pitwall::publishers::web {
 
-struct Browser::Stream {
+struct WebClient::Stream {
   static constexpr bool kCompressed = false;  // no permessage-deflate
   boost::asio::io_context io;
   boost::beast::websocket::stream<boost::asio::ip::tcp::socket, kCompressed> socket{io};
 };
 
-Browser::Browser() : stream_(std::make_unique<Stream>()) {}
-Browser::~Browser() = default;
-Browser::Browser(Browser&&) noexcept = default;
-Browser& Browser::operator=(Browser&&) noexcept = default;
+WebClient::WebClient() : stream_(std::make_unique<Stream>()) {}
+WebClient::~WebClient() = default;
+WebClient::WebClient(WebClient&&) noexcept = default;
+WebClient& WebClient::operator=(WebClient&&) noexcept = default;
 
-unsigned Browser::open(std::uint16_t port, const std::string& target, const Fields& fields,
-                       int receive_buffer) {
+unsigned WebClient::open(std::uint16_t port, const std::string& target, const Fields& fields,
+                         int receive_buffer) {
   namespace websocket = boost::beast::websocket;
   auto& socket = stream_->socket.next_layer();
   socket.open(boost::asio::ip::tcp::v4());
@@ -41,19 +41,19 @@ unsigned Browser::open(std::uint16_t port, const std::string& target, const Fiel
   return response.result_int();
 }
 
-void Browser::say(const std::string& text) {
+void WebClient::send_text(const std::string& text) {
   boost::system::error_code failed;
   stream_->socket.text(true);
   stream_->socket.write(boost::asio::buffer(text), failed);
 }
 
-void Browser::say_bytes(const std::string& bytes) {
+void WebClient::send_bytes(const std::string& bytes) {
   boost::system::error_code failed;
   stream_->socket.binary(true);
   stream_->socket.write(boost::asio::buffer(bytes), failed);
 }
 
-std::optional<Browser::Received> Browser::receive() {
+std::optional<WebClient::Received> WebClient::receive() {
   boost::beast::flat_buffer buffer;
   boost::system::error_code failed;
   stream_->socket.read(buffer, failed);
@@ -61,7 +61,7 @@ std::optional<Browser::Received> Browser::receive() {
   return Received{stream_->socket.got_text(), boost::beast::buffers_to_string(buffer.data())};
 }
 
-unsigned Browser::close_code() const { return stream_->socket.reason().code; }
+unsigned WebClient::close_code() const { return stream_->socket.reason().code; }
 
 struct Silent::Connection {
   boost::asio::io_context io;

@@ -10,8 +10,8 @@
 
 namespace pitwall::testing {
 
-inline std::vector<std::uint8_t> body_again(const telemetry::Body& body,
-                                            telemetry::Direction direction) {
+inline std::vector<std::uint8_t> reencode_body(const telemetry::Body& body,
+                                               telemetry::Direction direction) {
   using namespace telemetry;
   std::vector<std::uint8_t> buffer(kMaxBody);
   BodyWriter writer(buffer, kMaxBody, direction);

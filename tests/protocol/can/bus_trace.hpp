@@ -23,7 +23,7 @@ struct Send {
   bool is_lost = false;
 };
 
-struct SenderHabits {
+struct SenderTiming {
   Duration period = milliseconds(10);
   Duration delay_max{};  // each send is delayed by 0 up to this
   std::uint32_t bottom = 0, top = 255;
@@ -31,34 +31,34 @@ struct SenderHabits {
   std::size_t sends = 500;
 };
 
-inline MessageRow row_of(const SenderHabits& habits, bool has_counter) {
+inline MessageRow row_of(const SenderTiming& timing, bool has_counter) {
   MessageRow row{};
   row.id = 0x123;
   row.length = 8;
   row.name = "m";
-  row.period = habits.period;
-  row.timeout = 5 * habits.period;
+  row.period = timing.period;
+  row.timeout = 5 * timing.period;
   row.has_counter = has_counter;
   row.counter_start = 8;
   row.counter_bits = 8;
   return row;
 }
 
-inline std::vector<Send> story(const SenderHabits& habits, Random& noise) {
+inline std::vector<Send> trace(const SenderTiming& timing, Random& noise) {
   std::vector<Send> out;
   const Instant start{1'000'000'000 + static_cast<std::int64_t>(noise.below(100'000'000))};
-  const std::uint32_t cycle = habits.top - habits.bottom + 1;
+  const std::uint32_t cycle = timing.top - timing.bottom + 1;
   const std::uint64_t first = noise.below(cycle);
   Instant newest{};
-  for (std::size_t i = 0; i < habits.sends; ++i) {
+  for (std::size_t i = 0; i < timing.sends; ++i) {
     Send s;
-    s.due = start + habits.period * static_cast<std::int64_t>(i);
-    const auto span = static_cast<std::uint64_t>(habits.delay_max.ns);
+    s.due = start + timing.period * static_cast<std::int64_t>(i);
+    const auto span = static_cast<std::uint64_t>(timing.delay_max.ns);
     s.arrival = s.due + nanoseconds(span == 0 ? 0 : static_cast<std::int64_t>(noise.below(span)));
     if (s.arrival <= newest) s.arrival = newest + nanoseconds(1);  // the bus keeps the order
     newest = s.arrival;
-    s.counter = habits.bottom + static_cast<std::uint32_t>((first + i) % cycle);
-    s.is_lost = i > 0 && static_cast<double>(noise.below(1'000'000)) < habits.loss * 1e6;
+    s.counter = timing.bottom + static_cast<std::uint32_t>((first + i) % cycle);
+    s.is_lost = i > 0 && static_cast<double>(noise.below(1'000'000)) < timing.loss * 1e6;
     out.push_back(s);
   }
   return out;

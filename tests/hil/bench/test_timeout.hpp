@@ -6,6 +6,6 @@
 
 namespace pitwall::bench {
 
-inline constexpr Duration kPatience = seconds(20);
+inline constexpr Duration kTestTimeout = seconds(20);
 
 }  // namespace pitwall::bench

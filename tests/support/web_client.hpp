@@ -1,5 +1,6 @@
 // WebSocket client for tests: Beast's client, and a bare socket for input that no client sends. The
 // Beast headers are not included here, so that including this file stays cheap.
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <cstdint>
@@ -11,20 +12,20 @@
 
 namespace pitwall::publishers::web {
 
-class Browser {
+class WebClient {
  public:
   using Fields = std::vector<std::pair<std::string, std::string>>;
 
-  Browser();
-  ~Browser();
-  Browser(Browser&&) noexcept;
-  Browser& operator=(Browser&&) noexcept;
+  WebClient();
+  ~WebClient();
+  WebClient(WebClient&&) noexcept;
+  WebClient& operator=(WebClient&&) noexcept;
 
   // HTTP status of the handshake: 101 if the socket is open, otherwise that of the refusal.
   unsigned open(std::uint16_t port, const std::string& target = "/ws", const Fields& fields = {},
                 int receive_buffer = 0);
-  void say(const std::string& text);
-  void say_bytes(const std::string& bytes);
+  void send_text(const std::string& text);
+  void send_bytes(const std::string& bytes);
   struct Received {
     bool text = false;
     std::string bytes;
@@ -51,7 +52,7 @@ class Silent {
   std::unique_ptr<Connection> connection_;
 };
 
-// HTTP request with which a browser opens a WebSocket.
+// HTTP request with which a client opens a WebSocket.
 std::string opening(const std::string& target = "/ws", const std::string& host = "127.0.0.1",
                     const std::string& fields = {});
 
