@@ -111,18 +111,18 @@ int recover(const std::vector<std::string>& files) {
   return code;
 }
 
-void say(const std::string& line) { complain(kDone, line); }
+void log_line(const std::string& line) { complain(kDone, line); }
 
 Result<std::unique_ptr<web::WebServer>, Problem> start_web(const Arguments& a,
                                                            web::HttpConfig http) {
   const auto address =
       transport::parse_udp_address(a.web_address + ":" + std::to_string(*a.web_port));
   if (!address) return Unexpected{address.error()};
-  http.say = say;
+  http.log = log_line;
   auto server = web::WebServer::start(*address, std::move(http));
   if (server)
-    say("console at " + std::string{a.web_certificate.empty() ? "http://" : "https://"} +
-        to_string((*server)->local()));
+    log_line("console at " + std::string{a.web_certificate.empty() ? "http://" : "https://"} +
+             to_string((*server)->local()));
   return server;
 }
 
@@ -140,25 +140,25 @@ std::unique_ptr<console::RecordingList> list_recordings(const Arguments& a,
 
 int play(const Arguments& arguments) {
   if (!arguments.web_port) return complain(kMistake, "--replay needs --web PORT");
-  auto plan = session::plan_of_replay(arguments, say);
+  auto plan = session::plan_of_replay(arguments, log_line);
   if (!plan) return complain(kMistake, plan.error());
   auto player = replay::Player::open(arguments.replay_folder);
   if (!player) return complain(kMistake, player.error());
-  for (const std::string& problem : player->problems()) say(problem);
+  for (const std::string& problem : player->problems()) log_line(problem);
   const transport::FileDescriptor stop = stop_signals();
   auto server = start_web(arguments, session::served({&*plan, 1}));
   if (!server) return complain(kFailed, server.error());
-  auto foxglove = session::foxglove_of_replay(arguments, *player, say);
+  auto foxglove = session::foxglove_of_replay(arguments, *player, log_line);
   if (!foxglove) return complain(kFailed, foxglove.error());
   const auto recordings = list_recordings(arguments, **server);
   console::ReplayConsole consoles{std::move(plan->service), *std::move(player), **server};
   if (*foxglove) consoles.tell_also(**foxglove);
-  const auto wind = [&consoles](double speed, std::optional<Instant> to) {
-    consoles.wind(speed, to);
+  const auto control_playback = [&consoles](double speed, std::optional<Instant> to) {
+    consoles.control_playback(speed, to);
   };
   console::run_replay(consoles, (*server)->fd(), stop.get(), from_seconds(arguments.duration_s),
                       [&](Instant now) {
-                        if (*foxglove) (*foxglove)->serve(consoles.player(), wind, now);
+                        if (*foxglove) (*foxglove)->serve(consoles.player(), control_playback, now);
                       });
   return kDone;
 }
@@ -172,7 +172,7 @@ Result<bool, Problem> attach_publishers(Sessions& sessions, web::WebServer* serv
                                                  .cars = sessions.size(),
                                                  .board = server != nullptr ? &board : nullptr,
                                                  .server = car == 0 ? server : nullptr},
-                                                say);
+                                                log_line);
     if (!attached) return attached;
   }
   return true;
@@ -183,7 +183,7 @@ Result<bool, Problem> open_sessions(std::vector<session::Plan> plans, Sessions& 
   for (session::Plan& plan : plans) {
     auto opened = CarSession::open(std::move(plan));
     if (!opened) return Unexpected{opened.error()};
-    say((several ? (*opened)->title() + " " : "") + (*opened)->listening());
+    log_line((several ? (*opened)->title() + " " : "") + (*opened)->listening());
     sessions.push_back(*std::move(opened));
   }
   return true;
@@ -233,7 +233,7 @@ int run(const Arguments& arguments, std::vector<session::Plan> plans) {
     server = *std::move(started);
   }
   for (const auto& car : sessions) {
-    const auto begun = car->begin(server.get(), say);
+    const auto begun = car->begin(server.get(), log_line);
     if (!begun) return complain(kFailed, begun.error());
   }
   const auto recordings = server ? list_recordings(arguments, *server) : nullptr;
@@ -271,7 +271,7 @@ int main(int argc, char** argv) {
     return complain(kMistake, clock.error());
   const auto cars = settings::cars_of(arguments);
   if (!cars) return complain(kMistake, cars.error());
-  auto plans = session::plans_of(*cars, say);
+  auto plans = session::plans_of(*cars, log_line);
   if (!plans) return complain(kMistake, plans.error());
   return run(arguments, *std::move(plans));
 }

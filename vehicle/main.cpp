@@ -16,20 +16,20 @@
 #include "vehicle/gateway/bus_identity.hpp"
 #include "vehicle/io/arguments/arguments.hpp"
 #include "vehicle/io/black_box.hpp"
+#include "vehicle/io/car_io.hpp"
 #include "vehicle/io/computer_watch.hpp"
-#include "vehicle/io/guarded.hpp"
+#include "vehicle/io/guardian_link.hpp"
 #include "vehicle/io/ingress/sensor_ingress.hpp"
 #include "vehicle/io/radio.hpp"
 #include "vehicle/io/report/local_report.hpp"
 #include "vehicle/io/report/radio_summary.hpp"
 #include "vehicle/io/report/tally.hpp"
-#include "vehicle/io/rim.hpp"
 #include "vehicle/io/station_addresses.hpp"
 #include "vehicle/parameters/car_file.hpp"
 #include "vehicle/parameters/track_file.hpp"
 #include "vehicle/pipeline/radio_adapter.hpp"
 #include "vehicle/pipeline/step.hpp"
-#include "vehicle/pipeline/telemetry_tap.hpp"
+#include "vehicle/pipeline/telemetry_mapper.hpp"
 #include "vehicle/pipeline/tick_log.hpp"
 
 namespace pitwall {
@@ -69,8 +69,8 @@ bool same_identity(const world::BusIdentity& a, const world::BusIdentity& b) {
 
 // Everything that the loop touches, opened before its first tick.
 struct Parts {
-  io::Rim rim;
-  io::Guarded guarded;
+  io::CarIo car_io;
+  io::GuardianLink guardian;
   std::optional<io::Radio> radio;  // none: no base station is watched
   io::LocalReport report;
   io::BlackBox box;
@@ -95,44 +95,44 @@ class Drive {
     transport::Ticker ticker{setup_.params.rates.tick};
     last_ = transport::monotonic_now() - setup_.params.rates.tick;
     while (!stop.raised() && !adapter_.end_asked()) tick(ticker.next());
-    parts_.guarded.finish();
+    parts_.guardian.finish();
     return leave_summary();
   }
 
  private:
   void tick(const transport::Tick& tick) {
-    const io::Rim::Received incoming = parts_.rim.read(parts_.box);
-    if (parts_.radio) parts_.radio->listen(parts_.box);
+    const io::CarIo::Received incoming = parts_.car_io.read(parts_.box);
+    if (parts_.radio) parts_.radio->receive(parts_.box);
     const Instant now = transport::monotonic_now();
     pipeline::Inputs in{.now = now,
                         .dt = now - last_,
                         .can = incoming.can,
                         .sensors = incoming.sensors,
                         .requests = {.arm = args_.arm},
-                        .may_arm = !parts_.rim.listen_only(),
+                        .may_arm = !parts_.car_io.listen_only(),
                         .gnss_byte_at = incoming.gnss_byte_at,
                         .link = incoming.link,
-                        .guardian = parts_.guarded.view(now),
+                        .guardian = parts_.guardian.view(now),
                         .computer = computer(),
-                        .last_run_armed = parts_.guarded.barred()};
+                        .last_run_armed = parts_.guardian.barred()};
     if (parts_.radio) adapter_.fill(parts_.radio->endpoint(), in);
     const pipeline::Outputs out = pipeline::step(setup_, *car_, in);
-    parts_.guarded.publish(setup_, *car_, out, out.requests.reset, now);
-    parts_.rim.write(out.passed.frames.span(), now);
+    parts_.guardian.publish(setup_, *car_, out, out.requests.reset, now);
+    parts_.car_io.write(out.passed.frames.span(), now);
     parts_.box.tick(in, out.passed.frames.span());
-    if (out.bus_guard.restart_now) parts_.rim.restart_bus();
+    if (out.bus_guard.restart_now) parts_.car_io.restart_bus();
     tally_.add(transport::monotonic_now() - now, tick.missed);
     last_ = now;
     log_->note(in, out, setup_.track.length_m());
     note(out);
     if (parts_.radio) adapter_.take(parts_.radio->endpoint(), setup_, *car_, out, now);
     if (parts_.radio) tell_radio(now);
-    speak(out, transport::monotonic_now());
+    send_telemetry(out, transport::monotonic_now());
   }
 
   // What the operator at the car's own terminal is told, and what the summary counts.
   void note(const pipeline::Outputs& out) {
-    if (const char* refusal = parts_.rim.fresh_refusal()) say(refusal);
+    if (const char* refusal = parts_.car_io.fresh_refusal()) say(refusal);
     if (!same_identity(out.received.bus.identity, bus_.identity))
       say(gateway::sentence(out.received.bus.identity));
     bus_ = out.received.bus;
@@ -145,29 +145,29 @@ class Drive {
   }
 
   // A snapshot is made when somebody shall have it now.
-  void speak(const pipeline::Outputs& out, Instant now) {
+  void send_telemetry(const pipeline::Outputs& out, Instant now) {
     const bool radio_due = parts_.radio && parts_.radio->due(now);
     const bool report_due = parts_.report.on() && car_->ticks % kReportEvery == 0;
     const bool record_due = parts_.box.state_due(car_->ticks);
     if (!radio_due && !report_due && !record_due) return;
-    pipeline::RimCounters counters;
-    counters.frames_sent = parts_.rim.can().sent;
-    counters.tx_drops = parts_.rim.tx_drops();
+    pipeline::IoCounters counters;
+    counters.frames_sent = parts_.car_io.can().sent;
+    counters.tx_drops = parts_.car_io.tx_drops();
     counters.steps = tally_.steps();
     counters.missed_deadlines = tally_.missed_deadlines();
     counters.step_time_max_us = tally_.take_recent_max_us();
     counters.step_time_p50_us = tally_.recent_median_us();
     for (std::size_t unit = 0; unit < counters.receivers.size(); ++unit)
-      counters.receivers[unit] = parts_.rim.receivers()[unit].traffic();
+      counters.receivers[unit] = parts_.car_io.receivers()[unit].traffic();
     show_computer(counters);
     if (parts_.sensors) show_sensors(counters, now);
     if (parts_.radio) adapter_.show(parts_.radio->endpoint(), counters, now);
-    const telemetry::Snapshot snapshot = pipeline::tap(
-        {.setup = setup_, .car = *car_, .out = out, .log = *log_, .rim = counters, .now = now});
+    const telemetry::Snapshot snapshot = pipeline::map_telemetry(
+        {.setup = setup_, .car = *car_, .out = out, .log = *log_, .io = counters, .now = now});
     if (report_due) parts_.report.send(snapshot, now);
     if (record_due) parts_.box.state(snapshot, now);
     if (!radio_due) return;
-    parts_.radio->speak(snapshot, now, parts_.box);
+    parts_.radio->send(snapshot, now, parts_.box);
     tell_schema(now);
   }
 
@@ -176,17 +176,17 @@ class Drive {
     const io::ComputerReport report = parts_.computer->newest();
     return {report.processor_share, report.memory_mib, report.temperature_c};
   }
-  void show_computer(pipeline::RimCounters& counters) const {
+  void show_computer(pipeline::IoCounters& counters) const {
     const world::ComputerHealth health = computer();
     counters.processor_share = health.processor_share;
     counters.memory_mib = health.memory_mib;
     counters.temperature_c = health.temperature_c;
   }
 
-  void show_sensors(pipeline::RimCounters& counters, Instant now) const {
+  void show_sensors(pipeline::IoCounters& counters, Instant now) const {
     const auto stream = [&](const char* name) {
       const io::ArrivalFigures figures = parts_.sensors->figures(name, now);
-      return pipeline::RimCounters::Stream{figures.rate_hz, figures.gap_ms, figures.latency_ms};
+      return pipeline::IoCounters::Stream{figures.rate_hz, figures.gap_ms, figures.latency_ms};
     };
     counters.lidar = stream("lidar");
     counters.camera = stream("camera");
@@ -220,12 +220,12 @@ class Drive {
   }
 
   int leave_summary() {
-    parts_.rim.poll_drops();
+    parts_.car_io.poll_drops();
     if (args_.summary_file.empty()) return 0;
-    frames_.received = parts_.rim.can().received;
-    frames_.sent = parts_.rim.can().sent;
-    frames_.rx_dropped = parts_.rim.can().rx_dropped_queue;
-    frames_.tx_drops = parts_.rim.tx_drops();
+    frames_.received = parts_.car_io.can().received;
+    frames_.sent = parts_.car_io.can().sent;
+    frames_.rx_dropped = parts_.car_io.can().rx_dropped_queue;
+    frames_.tx_drops = parts_.car_io.tx_drops();
     const std::string radio =
         parts_.radio ? io::radio_json(parts_.radio->endpoint().report(transport::monotonic_now()),
                                       parts_.radio->paths())
@@ -233,9 +233,9 @@ class Drive {
     const std::string sensors =
         parts_.sensors ? parts_.sensors->json(transport::monotonic_now()) : "[]";
     const auto written = transport::write_file(
-        args_.summary_file,
-        io::summary_json(tally_, frames_, bus_, losses_, radio,
-                         io::receivers_json(parts_.rim.receivers()), parts_.box.json(), sensors));
+        args_.summary_file, io::summary_json(tally_, frames_, bus_, losses_, radio,
+                                             io::receivers_json(parts_.car_io.receivers()),
+                                             parts_.box.json(), sensors));
     return written ? 0 : (refuse(written.error()), kExitFailed);
   }
 
@@ -270,10 +270,10 @@ Result<Parts, Problem> open_parts(const io::Arguments& args, const pipeline::Set
     if (!opened) return Unexpected{opened.error()};
     radio = *std::move(opened);
   }
-  auto rim = io::Rim::open(args, setup.params.receivers);
-  if (!rim) return Unexpected{rim.error()};
-  auto guarded = io::Guarded::open(args.guardian, args.arm);
-  if (!guarded) return Unexpected{guarded.error()};
+  auto car_io = io::CarIo::open(args, setup.params.receivers);
+  if (!car_io) return Unexpected{car_io.error()};
+  auto guardian = io::GuardianLink::open(args.guardian, args.arm);
+  if (!guardian) return Unexpected{guardian.error()};
   auto report =
       io::LocalReport::open(args.local_report, args.simulation ? telemetry::Source::kSimulation
                                                                : telemetry::Source::kCar);
@@ -282,8 +282,9 @@ Result<Parts, Problem> open_parts(const io::Arguments& args, const pipeline::Set
   if (!box) return Unexpected{box.error()};
   auto sensors = open_sensors(args);
   if (!sensors) return Unexpected{sensors.error()};
-  return Parts{*std::move(rim), *std::move(guarded),        std::move(radio),   *std::move(report),
-               *std::move(box), io::ComputerWatch::start(), *std::move(sensors)};
+  return Parts{*std::move(car_io), *std::move(guardian), std::move(radio),
+               *std::move(report), *std::move(box),      io::ComputerWatch::start(),
+               *std::move(sensors)};
 }
 
 void introduce(const io::Arguments& args, const pipeline::Setup& setup, Parts& parts) {
@@ -293,9 +294,9 @@ void introduce(const io::Arguments& args, const pipeline::Setup& setup, Parts& p
       (args.clock != transport::kWallClock ? ", TIME OF A BENCH" : "") +
       (args.no_base ? ", NO BASE STATION WATCHED" : "") +
       (parts.radio && parts.radio->bench_keys() ? ", KEYS OF A BENCH" : ""));
-  if (parts.rim.listen_only())
+  if (parts.car_io.listen_only())
     say(args.can_interface + ": LISTEN-ONLY: stays disarmed and sends nothing");
-  if (parts.guarded.barred()) say(args.guardian + ": NOT ARMED: " + io::kBarredText);
+  if (parts.guardian.barred()) say(args.guardian + ": NOT ARMED: " + io::kBarredText);
 }
 
 int run(int argc, const char* const* argv) {

@@ -13,10 +13,10 @@ std::string_view text_of(State state) {
 
 State Alarm::state() const {
   if (shelved_until_) return State::kShelved;
-  if (!active_ && !unseen_ && !held_) return State::kNormal;
+  if (!active_ && !unacknowledged_ && !latched_) return State::kNormal;
   if (suppressed_) return State::kSuppressed;
-  if (active_) return unseen_ ? State::kUnack : State::kAcked;
-  return unseen_ ? State::kReturnedUnack : State::kLatched;
+  if (active_) return unacknowledged_ ? State::kUnack : State::kAcked;
+  return unacknowledged_ ? State::kReturnedUnack : State::kLatched;
 }
 
 bool Alarm::broken(const AlarmRow& row, const AlarmSetting& setting, double value) const {
@@ -28,7 +28,7 @@ bool Alarm::update(const AlarmRow& row, const AlarmSetting& setting, const Readi
                    bool suppressed, Instant now) {
   if (shelved_until_ && now >= *shelved_until_) {
     shelved_until_.reset();
-    unseen_ = unseen_ || active_;
+    unacknowledged_ = unacknowledged_ || active_;
   }
   suppressed_ = suppressed;
   if (suppressed || !reading.usable) {
@@ -43,39 +43,39 @@ bool Alarm::update(const AlarmRow& row, const AlarmSetting& setting, const Readi
   }
   const Duration lasted = now - raw_since_;
   bool announced = false;
-  if (raw_ && !counted_ && lasted >= setting.on_delay) announced = come(row, now);
+  if (raw_ && !counted_ && lasted >= setting.on_delay) announced = activate(row, now);
   const Duration quiet = folded_ ? std::max(setting.off_delay, kChatterWindow) : setting.off_delay;
-  if (!raw_ && active_ && lasted >= quiet) go();
+  if (!raw_ && active_ && lasted >= quiet) deactivate();
   return announced;
 }
 
 // True: to be announced. A coming within the fold is only counted.
-bool Alarm::come(const AlarmRow& row, Instant now) {
+bool Alarm::activate(const AlarmRow& row, Instant now) {
   counted_ = true;
   if (active_ && !folded_) return false;  // it had not gone yet: its off-delay still ran
   ++count_;
-  comings_[comings_ever_++ % kChatterCount] = now;
+  activations_[activation_count_++ % kChatterCount] = now;
   if (active_) return false;
-  active_ = unseen_ = true;
-  held_ = row.latched;
+  active_ = unacknowledged_ = true;
+  latched_ = row.latched;
   since_ = now;
-  const Instant oldest = *std::min_element(comings_.begin(), comings_.end());
-  folded_ = comings_ever_ >= kChatterCount && now - oldest <= kChatterWindow;
+  const Instant oldest = *std::min_element(activations_.begin(), activations_.end());
+  folded_ = activation_count_ >= kChatterCount && now - oldest <= kChatterWindow;
   return true;
 }
 
-void Alarm::go() {
+void Alarm::deactivate() {
   active_ = folded_ = false;
   settle();
 }
 
 void Alarm::settle() {
-  if (!active_ && !unseen_ && !held_) count_ = 0;
+  if (!active_ && !unacknowledged_ && !latched_) count_ = 0;
 }
 
 bool Alarm::acknowledge() {
   if (state() != State::kUnack && state() != State::kReturnedUnack) return false;
-  unseen_ = false;
+  unacknowledged_ = false;
   settle();
   return true;
 }
@@ -95,14 +95,14 @@ bool Alarm::shelve(Instant until) {
 bool Alarm::unshelve() {
   if (!shelved_until_) return false;
   shelved_until_.reset();
-  unseen_ = false;
+  unacknowledged_ = false;
   settle();
   return true;
 }
 
 bool Alarm::reset() {
   if (state() != State::kLatched) return false;
-  held_ = false;
+  latched_ = false;
   settle();
   return true;
 }

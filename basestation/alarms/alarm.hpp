@@ -68,7 +68,7 @@ class Alarm {
 
   State state() const;
   bool active() const { return active_; }
-  bool unseen() const { return unseen_; }
+  bool unacknowledged() const { return unacknowledged_; }
   bool folded() const { return folded_; }
   std::optional<Instant> shelved_until() const { return shelved_until_; }
   Instant since() const { return since_; }
@@ -77,19 +77,20 @@ class Alarm {
 
  private:
   bool broken(const AlarmRow& row, const AlarmSetting& setting, double value) const;
-  bool come(const AlarmRow& row, Instant now);
-  void go();
+  bool activate(const AlarmRow& row, Instant now);
+  void deactivate();
   void settle();
 
-  bool active_ = false, unseen_ = false, held_ = false, folded_ = false, suppressed_ = false;
+  bool active_ = false, unacknowledged_ = false, latched_ = false, folded_ = false,
+       suppressed_ = false;
   bool raw_ = false;      // the limit is violated, before the delays
   bool counted_ = false;  // the present violation has been counted
   Instant raw_since_{}, since_{};
   std::optional<Instant> shelved_until_;
   std::uint32_t count_ = 0;
   double value_ = kUnset;
-  std::array<Instant, kChatterCount> comings_{};  // newest last
-  std::uint64_t comings_ever_ = 0;
+  std::array<Instant, kChatterCount> activations_{};  // newest last
+  std::uint64_t activation_count_ = 0;
 };
 
 }  // namespace pitwall::alarms

@@ -46,7 +46,7 @@ struct Situations {
     const auto bit = static_cast<std::uint8_t>(1U << static_cast<unsigned>(s));
     bits = static_cast<std::uint8_t>(on ? bits | bit : bits & ~bit);
   }
-  constexpr bool meets(Situations other) const { return (bits & other.bits) != 0; }
+  constexpr bool overlaps(Situations other) const { return (bits & other.bits) != 0; }
 };
 
 using AlarmIndex = std::size_t;  // place in kAlarmTable

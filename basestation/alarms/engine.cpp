@@ -15,7 +15,7 @@ Engine::Engine(AlarmSettings settings)
   for (AlarmIndex i = 0; i < alarm_count(); ++i) {
     overruled_by_[i] = find_alarm(alarm_row(i).overruled_by);
   }
-  came_.reserve(alarm_count());
+  activated_.reserve(alarm_count());
 }
 
 Engine::Part Engine::part_of(State state) {
@@ -40,24 +40,24 @@ bool Engine::overruled(AlarmIndex index) const {
 void Engine::step(const std::vector<Reading>& readings, Situations situations, Instant now) {
   CHECK(readings.size() == entries_.size());
   const bool was_empty = count() == 0;
-  came_.clear();
+  activated_.clear();
   for (AlarmIndex i = 0; i < entries_.size(); ++i) {
     const AlarmRow& row = alarm_row(i);
     Entry& entry = entries_[i];
     const State before = entry.alarm.state();
     const std::uint32_t count_before = entry.alarm.count();
-    const bool silent = row.silent_in.meets(situations) || overruled(i);
-    const bool came = entry.alarm.update(row, settings_.of(i), readings[i], silent, now);
+    const bool silent = row.silent_in.overlaps(situations) || overruled(i);
+    const bool activated = entry.alarm.update(row, settings_.of(i), readings[i], silent, now);
     const State after = entry.alarm.state();
-    if (came && after != State::kShelved) {
+    if (activated && after != State::kShelved) {
       entry.id = ++ids_;
       entry.by.clear();
       entry.reason.clear();
-      rate_.came(now);
-      came_.push_back(i);
+      rate_.add(now);
+      activated_.push_back(i);
     }
     if (after == State::kNormal) entry.first_up = false;
-    if (came || after != before) note(i, before, now, "", "");
+    if (activated || after != before) note(i, before, now, "", "");
     if (entry.alarm.count() != count_before) ++revision_;
   }
   if (was_empty) mark_first();
@@ -66,10 +66,11 @@ void Engine::step(const std::vector<Reading>& readings, Situations situations, I
 
 // Of those that began the episode: the most urgent, then the first of the table.
 void Engine::mark_first() {
-  const auto first = std::min_element(came_.begin(), came_.end(), [&](AlarmIndex a, AlarmIndex b) {
-    return settings_.of(a).priority > settings_.of(b).priority;
-  });
-  if (first != came_.end()) entries_[*first].first_up = true;
+  const auto first =
+      std::min_element(activated_.begin(), activated_.end(), [&](AlarmIndex a, AlarmIndex b) {
+        return settings_.of(a).priority > settings_.of(b).priority;
+      });
+  if (first != activated_.end()) entries_[*first].first_up = true;
 }
 
 void Engine::note(AlarmIndex index, State from, Instant now, std::string_view by,
@@ -193,12 +194,12 @@ std::size_t Engine::count(Priority priority) const {
   return count;
 }
 
-std::size_t Engine::unseen(Priority priority) const {
+std::size_t Engine::unacknowledged(Priority priority) const {
   std::size_t count = 0;
   for (AlarmIndex i = 0; i < entries_.size(); ++i) {
     const Alarm& alarm = entries_[i].alarm;
     const bool listed = part_of(alarm.state()) == Part::kActive;
-    count += listed && alarm.unseen() && settings_.of(i).priority == priority ? 1U : 0U;
+    count += listed && alarm.unacknowledged() && settings_.of(i).priority == priority ? 1U : 0U;
   }
   return count;
 }

@@ -89,7 +89,7 @@ class Engine {
   std::uint64_t events() const { return events_; }
   std::size_t count() const;  // in the active list
   std::size_t count(Priority priority) const;
-  std::size_t unseen(Priority priority) const;
+  std::size_t unacknowledged(Priority priority) const;
   State state(AlarmIndex index) const { return entries_[index].alarm.state(); }
   const AlarmRate& rate() const { return rate_; }
   const AlarmSettings& settings() const { return settings_; }
@@ -120,7 +120,7 @@ class Engine {
   AlarmSettings settings_;
   std::vector<Entry> entries_;
   std::vector<std::optional<AlarmIndex>> overruled_by_;
-  std::vector<AlarmIndex> came_;  // became active in this step
+  std::vector<AlarmIndex> activated_;  // became active in this step
   std::deque<AlarmEvent> history_;
   AlarmRate rate_;
   std::uint64_t revision_ = 0, events_ = 0;

@@ -151,9 +151,9 @@ bool in_set(std::uint64_t set, double value) {
 
 }  // namespace
 
-std::string_view text_of(Judgement judgement) {
+std::string_view text_of(Evaluation evaluation) {
   constexpr std::array<std::string_view, 4> kTexts{"none", "good", "warning", "bad"};
-  return kTexts.at(static_cast<std::size_t>(judgement));
+  return kTexts.at(static_cast<std::size_t>(evaluation));
 }
 
 bool Limit::bounded() const {
@@ -161,17 +161,17 @@ bool Limit::bounded() const {
          !std::isnan(bad_high);
 }
 
-Judgement judge(const Limit& limit, double value) {
-  if (std::isnan(value) || !limit.any()) return Judgement::kNone;
+Evaluation evaluate(const Limit& limit, double value) {
+  if (std::isnan(value) || !limit.any()) return Evaluation::kNone;
   // A comparison with an unset bound is false.
   if (value < limit.bad_low || value > limit.bad_high || in_set(limit.bad_values, value)) {
-    return Judgement::kBad;
+    return Evaluation::kBad;
   }
   if (value < limit.warning_low || value > limit.warning_high ||
       in_set(limit.warning_values, value)) {
-    return Judgement::kWarning;
+    return Evaluation::kWarning;
   }
-  return Judgement::kGood;
+  return Evaluation::kGood;
 }
 
 Limits::Limits() : car_(telemetry::kFieldCount), base_(state::kBaseFields) {
@@ -186,9 +186,9 @@ const Limit& Limits::of(state::FieldId field) const {
   return state::is_base(field) ? base_[state::index_of(state::base_field(field))] : car_[field];
 }
 
-Judgement Limits::judge(state::FieldId field, const state::FieldView& view) const {
-  if (!state::usable(view)) return Judgement::kNone;
-  return alarms::judge(of(field), view.value);
+Evaluation Limits::evaluate(state::FieldId field, const state::FieldView& view) const {
+  if (!state::usable(view)) return Evaluation::kNone;
+  return alarms::evaluate(of(field), view.value);
 }
 
 Result<bool, Problem> Limits::edit(const LimitEdit& edit) {

@@ -1,6 +1,6 @@
 // Limits that rate a value as good, warning or bad; operators can change them.
 //   in     a field's value and quality; limits by field, defaults from kDefaultLimits
-//   out    the judgement; kNone without a limit, without a value or for a stale value, so that an
+//   out    the evaluation; kNone without a limit, without a value or for a stale value, so that an
 //          old value has no colour
 //   invariants
 //          a value at a limit is still on the good side of it. Bits and enumerations have sets of
@@ -21,8 +21,8 @@
 
 namespace pitwall::alarms {
 
-enum class Judgement : std::uint8_t { kNone, kGood, kWarning, kBad };
-std::string_view text_of(Judgement judgement);
+enum class Evaluation : std::uint8_t { kNone, kGood, kWarning, kBad };
+std::string_view text_of(Evaluation evaluation);
 
 // Unset bounds are not checked. In the sets, bit k stands for the value k.
 struct Limit {
@@ -34,7 +34,7 @@ struct Limit {
   bool any() const { return bounded() || warning_values != 0 || bad_values != 0; }
   bool operator==(const Limit&) const = default;
 };
-Judgement judge(const Limit& limit, double value);
+Evaluation evaluate(const Limit& limit, double value);
 
 struct LimitEdit {
   state::FieldId field = 0;
@@ -47,7 +47,7 @@ class Limits {
   Limits();  // the defaults
 
   const Limit& of(state::FieldId field) const;
-  Judgement judge(state::FieldId field, const state::FieldView& view) const;
+  Evaluation evaluate(state::FieldId field, const state::FieldView& view) const;
   Result<bool, Problem> edit(const LimitEdit& edit);
   // Newest last; the settings file is written from them.
   const std::vector<LimitEdit>& edits() const { return edits_; }

@@ -3,7 +3,7 @@
 
 namespace pitwall::alarms {
 
-void AlarmRate::came(Instant at) {
+void AlarmRate::add(Instant at) {
   times_[ever_++ % kKept] = at;
   if (count_ < kKept) ++count_;
 }

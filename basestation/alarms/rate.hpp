@@ -23,7 +23,7 @@ class AlarmRate {
  public:
   static constexpr std::size_t kKept = 256;
 
-  void came(Instant at);
+  void add(Instant at);
   // Returns true if a flood began or ended.
   bool advance(Instant now);
   std::size_t per_10_min() const { return count_; }

@@ -3,12 +3,12 @@
 
 namespace pitwall::command {
 
-Result<bool, Problem> AuthorityHandover::say(const Person& who, const char* what,
-                                             const char* why_not, Instant now) {
-  const bool ok = why_not == nullptr;
-  audit_->add(now, who.name, what, ok ? "done" : std::string{"refused: "} + why_not);
+Result<bool, Problem> AuthorityHandover::log_result(const Person& who, const char* what,
+                                                    const char* refusal, Instant now) {
+  const bool ok = refusal == nullptr;
+  audit_->add(now, who.name, what, ok ? "done" : std::string{"refused: "} + refusal);
   if (ok) return true;
-  return Unexpected{Problem{"console " + std::to_string(who.console), why_not}};
+  return Unexpected{Problem{"console " + std::to_string(who.console), refusal}};
 }
 
 void AuthorityHandover::hold(const Person& who) {
@@ -21,11 +21,11 @@ Result<bool, Problem> AuthorityHandover::take(const Person& who, Instant now) {
   advance(now);
   if (authority_->holder(now) == who.console) return renew(who, now);
   if (!authority_->take(who.console, now)) {
-    return say(who, "takes the authority", "somebody else holds it: ask for it", now);
+    return log_result(who, "takes the authority", "somebody else holds it: ask for it", now);
   }
   waiting_.reset();  // who asked the one before asks the new one, if at all
   hold(who);
-  return say(who, "takes the authority", nullptr, now);
+  return log_result(who, "takes the authority", nullptr, now);
 }
 
 Result<bool, Problem> AuthorityHandover::renew(const Person& who, Instant now) {
@@ -38,11 +38,11 @@ Result<bool, Problem> AuthorityHandover::renew(const Person& who, Instant now) {
 Result<bool, Problem> AuthorityHandover::drop(const Person& who, Instant now) {
   advance(now);
   if (authority_->holder(now) != who.console) {
-    return say(who, "drops the authority", "does not hold it", now);
+    return log_result(who, "drops the authority", "does not hold it", now);
   }
   authority_->drop(who.console, now);
   hold({});
-  const auto noted = say(who, "drops the authority", nullptr, now);
+  const auto noted = log_result(who, "drops the authority", nullptr, now);
   if (waiting_) give(now);
   return noted;
 }
@@ -52,32 +52,33 @@ Result<bool, Problem> AuthorityHandover::request(const Person& who, Instant now)
   const telemetry::HolderId holder = authority_->holder(now);
   if (holder == 0) return take(who, now);
   if (holder == who.console) {
-    return say(who, "asks for the authority", "holds it already", now);
+    return log_result(who, "asks for the authority", "holds it already", now);
   }
   if (waiting_ && waiting_->by.console != who.console) {
-    return say(who, "asks for the authority", "somebody else asks already", now);
+    return log_result(who, "asks for the authority", "somebody else asks already", now);
   }
   if (!waiting_) {  // asking twice does not begin the time anew
     waiting_ = AuthorityRequest{who, now + kAnswer};
     ++revision_;
   }
-  return say(who, "asks for the authority", nullptr, now);
+  return log_result(who, "asks for the authority", nullptr, now);
 }
 
 Result<bool, Problem> AuthorityHandover::grant(const Person& who, Instant now) {
-  if (const char* why = why_not_answer(who, now)) return say(who, "grants the authority", why, now);
-  const auto noted = say(who, "grants the authority", nullptr, now);
+  if (const char* why = why_not_answer(who, now))
+    return log_result(who, "grants the authority", why, now);
+  const auto noted = log_result(who, "grants the authority", nullptr, now);
   give(now);
   return noted;
 }
 
 Result<bool, Problem> AuthorityHandover::refuse(const Person& who, Instant now) {
   if (const char* why = why_not_answer(who, now)) {
-    return say(who, "refuses the authority", why, now);
+    return log_result(who, "refuses the authority", why, now);
   }
   waiting_.reset();
   ++revision_;
-  return say(who, "refuses the authority", nullptr, now);
+  return log_result(who, "refuses the authority", nullptr, now);
 }
 
 const char* AuthorityHandover::why_not_answer(const Person& who, Instant now) {

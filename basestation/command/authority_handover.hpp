@@ -52,8 +52,9 @@ class AuthorityHandover {
   std::uint64_t revision() const { return revision_; }
 
  private:
-  // `why_not`: the reason of a refusal; nullptr if the action was done.
-  Result<bool, Problem> say(const Person& who, const char* what, const char* why_not, Instant now);
+  // `refusal`: the reason of a refusal; nullptr if the action was done.
+  Result<bool, Problem> log_result(const Person& who, const char* what, const char* refusal,
+                                   Instant now);
   const char* why_not_answer(const Person& who, Instant now);
   void hold(const Person& who);
   void give(Instant now);

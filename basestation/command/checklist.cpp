@@ -23,9 +23,9 @@ FieldView own(double value) {  // of the base itself: always known
 bool known(const FieldView& seen) { return state::usable(seen) && !std::isnan(seen.value); }
 
 // Who looks at everything once.
-class Look {
+class Checker {
  public:
-  explicit Look(const CheckInputs& in) : in_(in) {}
+  explicit Checker(const CheckInputs& in) : in_(in) {}
 
   std::vector<Check> all() {
     link();
@@ -51,9 +51,9 @@ class Look {
   // Known, and neither a warning nor bad by the limits in force.
   bool good(BaseField base) const {
     const FieldView seen = see(base);
-    const alarms::Judgement judged = in_.evaluator.judge(state::id_of(base), seen);
-    return known(seen) && judged != alarms::Judgement::kWarning &&
-           judged != alarms::Judgement::kBad;
+    const alarms::Evaluation judged = in_.evaluator.evaluate(state::id_of(base), seen);
+    return known(seen) && judged != alarms::Evaluation::kWarning &&
+           judged != alarms::Evaluation::kBad;
   }
 
   // `go` counts only where all of `seen` is known and not stale; the age is that of the oldest.
@@ -179,7 +179,7 @@ std::string_view text_of(CheckKind kind) {
   return kTexts.at(static_cast<std::size_t>(kind));
 }
 
-std::vector<Check> checks_of(const CheckInputs& inputs) { return Look{inputs}.all(); }
+std::vector<Check> checks_of(const CheckInputs& inputs) { return Checker{inputs}.all(); }
 
 bool all_go(const std::vector<Check>& checks) {
   return !checks.empty() && std::ranges::all_of(checks, &Check::go);

@@ -43,8 +43,8 @@ std::string objection(const std::vector<Gate>& gates, const std::optional<Overri
   return {};
 }
 
-Step step_of(Outcome fate) {
-  switch (fate) {
+Step step_of(Outcome outcome) {
+  switch (outcome) {
     case Outcome::kApplied:
       return Step::kApplied;
     case Outcome::kExpired:
@@ -230,8 +230,8 @@ void CommandQueue::follow(Ticket& ticket, const telemetry::CommandProgress& prog
   if (progress.received && ticket.step < Step::kReceived) {
     reach(ticket, Step::kReceived, *progress.received);
   }
-  if (!progress.fate || !telemetry::is_final(*progress.fate)) return;
-  end(ticket, step_of(*progress.fate), std::string{telemetry::text_of(*progress.fate)},
+  if (!progress.outcome || !telemetry::is_final(*progress.outcome)) return;
+  end(ticket, step_of(*progress.outcome), std::string{telemetry::text_of(*progress.outcome)},
       *progress.decided);
 }
 

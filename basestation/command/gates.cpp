@@ -77,7 +77,7 @@ class Judge {
     const bool known = state::usable(seen) && !std::isnan(seen.value);
     if (!known) {
       const bool never = seen.quality == state::Quality::kNever || std::isnan(seen.value);
-      text = (never ? "never heard" : "too old: " + number(seen.age.seconds(), "s")) +
+      text = (never ? "not received yet" : "too old: " + number(seen.age.seconds(), "s")) +
              std::string{"; "} + text;
     }
     gates_.push_back({.kind = kind,

@@ -30,8 +30,8 @@ std::optional<std::uint32_t> excluded_now(const telemetry::StationEndpoint& radi
   using telemetry::Group;
   const auto* const ordered = radio.newest(telemetry::CommandType::kSensorsExcluded);
   const Instant reported_at = radio.state().at(Group::kLocalization);
-  const bool pending = ordered != nullptr && !ordered->fate;
-  const bool unreported = ordered != nullptr && ordered->fate == telemetry::Outcome::kApplied &&
+  const bool pending = ordered != nullptr && !ordered->outcome;
+  const bool unreported = ordered != nullptr && ordered->outcome == telemetry::Outcome::kApplied &&
                           ordered->decided && reported_at <= *ordered->decided;
   if (pending || unreported) return static_cast<std::uint32_t>(ordered->command.argument);
   const double reported = radio.state().values[field("localization.excluded")];

@@ -179,9 +179,9 @@ void StopEpisode::judge_steps(const Inputs& in) {
   }
 
   RecoveryState& acknowledge = step(kAcknowledge);
-  const bool unseen = any_alarm(gates, {State::kUnack, State::kReturnedUnack});
-  acknowledge.done = !unseen;
-  acknowledge.possible = unseen;
+  const bool unacknowledged = any_alarm(gates, {State::kUnack, State::kReturnedUnack});
+  acknowledge.done = !unacknowledged;
+  acknowledge.possible = unacknowledged;
 
   RecoveryState& reset = step(kReset);
   const bool alarm_left = any_alarm(gates, {State::kUnack, State::kAcked, State::kReturnedUnack,

@@ -39,7 +39,7 @@ Instant JoystickDevice::due() const {
 }
 
 void JoystickDevice::read(Instant now, const Sink& sink) {
-  if (!present_) return look_again(now);
+  if (!present_) return reopen(now);
   std::array<std::uint8_t, kReadBytes> bytes;
   for (int i = 0; i < kMaxReads; ++i) {
     const auto got = transport::read_now(device_.get(), bytes);
@@ -62,7 +62,7 @@ void JoystickDevice::lose(Instant now) {
   posix_call([&] { return ::dup3(silent.get(), device_.get(), O_CLOEXEC); }).ok();
 }
 
-void JoystickDevice::look_again(Instant now) {
+void JoystickDevice::reopen(Instant now) {
   if (path_.empty() || now < retry_at_) return;
   retry_at_ = now + kRetry;
   const transport::FileDescriptor device{open_device(path_)};

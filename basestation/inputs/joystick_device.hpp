@@ -46,7 +46,7 @@ class JoystickDevice {
   JoystickDevice(std::string path, transport::FileDescriptor device, const JoystickMapping& mapping)
       : path_(std::move(path)), device_(std::move(device)), reports_(mapping) {}
   void lose(Instant now);
-  void look_again(Instant now);
+  void reopen(Instant now);
 
   std::string path_;
   // Keeps its number, so that others can poll it; without a device it is an eventfd that stays

@@ -15,7 +15,7 @@
 #include <span>
 #include <utility>
 
-#include "basestation/link/age_book.hpp"
+#include "basestation/link/age_statistics.hpp"
 #include "basestation/link/packet_rate.hpp"
 #include "protocol/telemetry/endpoint/station_endpoint.hpp"
 #include "protocol/vocabulary/time.hpp"
@@ -24,7 +24,6 @@ namespace pitwall::link {
 
 struct BulkTally {
   std::uint64_t objects = 0, bytes = 0;
-  std::optional<Instant> last;
 };
 
 class Station {
@@ -53,7 +52,7 @@ class Station {
   enum class Source : std::uint8_t { kNone, kSimulation, kCar };
   Source source() const;
   const PacketRate& rate() const { return rate_; }
-  const AgeBook& ages() const { return ages_; }
+  const AgeStatistics& ages() const { return ages_; }
   std::uint8_t paths() const { return paths_; }
   telemetry::LinkReport report(Instant now) const { return endpoint_.report(now); }
   const telemetry::StationEndpoint& endpoint() const { return endpoint_; }
@@ -77,7 +76,7 @@ class Station {
   Observer observer_;
   std::optional<telemetry::Arrival> arrival_;
   PacketRate rate_;
-  AgeBook ages_;
+  AgeStatistics ages_;
   std::deque<telemetry::Event> events_;
   std::uint64_t events_received_ = 0;
   std::array<BulkTally, telemetry::kBulkKinds> bulk_{};

@@ -30,7 +30,7 @@ void SegmentReader::step(Listener& listener) {
   const Place& place = place_of(next_->channel);
   if (place.topic) {
     listener.text(*place.topic, to_base(next_->logged_ns), as_text(next_->data));
-  } else if (place.fields && !place.fields->is_picture()) {
+  } else if (place.fields && !place.fields->is_snapshot()) {
     tell_state(place, listener);
   }
   next_ = reader_.next();
@@ -41,7 +41,7 @@ bool SegmentReader::restore(Instant at, Listener& listener) {
   std::optional<recording::McapMessage> vehicle;
   for (; next_ && to_base(next_->logged_ns) <= at; next_ = reader_.next()) {
     const Place& place = place_of(next_->channel);
-    if (!place.fields || !place.fields->is_picture()) continue;
+    if (!place.fields || !place.fields->is_snapshot()) continue;
     then = reader_;
     vehicle = next_;
   }
@@ -52,7 +52,7 @@ bool SegmentReader::restore(Instant at, Listener& listener) {
   }
   recorder::Known known;
   if (!place_of(vehicle->channel).fields->decode(vehicle->data, known)) ++unreadable_;
-  tell_picture(known, to_base(vehicle->logged_ns), listener);
+  publish_snapshot(known, to_base(vehicle->logged_ns), listener);
   reader_ = *then;
   next_ = reader_.next();
   return true;
@@ -92,7 +92,8 @@ void SegmentReader::tell_state(const Place& place, Listener& listener) {
 
 // A field that its group no longer knew has an older sample than the group: so each group is told
 // once for each of its sample times, the newest last.
-void SegmentReader::tell_picture(const recorder::Known& vehicle, Instant at, Listener& listener) {
+void SegmentReader::publish_snapshot(const recorder::Known& vehicle, Instant at,
+                                     Listener& listener) {
   for (const telemetry::GroupRow& row : telemetry::kGroupTable) {
     const auto [first, count] = telemetry::fields_of(row.group);
     std::set<Instant> times;

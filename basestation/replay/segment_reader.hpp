@@ -46,7 +46,7 @@ class SegmentReader {
   const Place& place_of(std::uint16_t channel);
   Instant to_base(std::uint64_t file_ns) const;
   void tell_state(const Place& place, Listener& listener);
-  void tell_picture(const recorder::Known& vehicle, Instant at, Listener& listener);
+  void publish_snapshot(const recorder::Known& vehicle, Instant at, Listener& listener);
 
   std::span<const std::uint8_t> file_;
   recorder::ClockMap clock_;

@@ -157,7 +157,7 @@ state::BaseFigures CarService::own_figures(Instant now) const {
 // The flag that the car has taken from us, for conflicts with race control's.
 void CarService::relay_flag() {
   const auto* const flag = station_.endpoint().newest(telemetry::CommandType::kTrackFlag);
-  if (flag == nullptr || flag->fate != telemetry::Outcome::kApplied) return;
+  if (flag == nullptr || flag->outcome != telemetry::Outcome::kApplied) return;
   requests_.relay_flag(flag->command.argument > 0.0 ? flag->command.argument : kUnset);
 }
 

@@ -120,7 +120,7 @@ void run_event_loop(std::span<const CarLoop> loops, std::span<LoopTask* const> t
   for (const CarTurn& car : cars) car.watch(watched);
   std::vector<transport::UdpDatagram> batch(transport::UdpSocket::kBatch);
   // No console and no screen waits for a base that goes by the wall clock.
-  const Duration longest_wait = transport::bench_pause() ? kLookEvery : transport::kHoweverLong;
+  const Duration longest_wait = transport::bench_pause() ? kPollPeriod : transport::kNoTimeout;
   const Instant start = transport::monotonic_now();
   const Instant end = duration.ns > 0 ? start + duration : Instant::max();
   for (bool stopped = false; !stopped;) {

@@ -5,8 +5,8 @@
 //          readable when the loop must stop
 //   out    the services up to date; datagrams, from the socket of their path
 //   invariants  seconds of a script count from its car's first packet
-//          during a pause of bench time the loop still wakes every kLookEvery of the wall clock, so
-//          that consoles and screens show the pause
+//          during a pause of bench time the loop still wakes every kPollPeriod of the wall clock,
+//          so that consoles and screens show the pause
 //          cars share the loop and nothing else: a flood on the sockets of one is interrupted after
 //          kMaxRounds, and the others have their turn
 //   errors refused text commands: answered to their sender, in the audit log, counted
@@ -24,7 +24,7 @@
 
 namespace pitwall::service {
 
-inline constexpr Duration kLookEvery = milliseconds(50);
+inline constexpr Duration kPollPeriod = milliseconds(50);
 
 // Parts of one car that the loop serves.
 struct CarLoop {

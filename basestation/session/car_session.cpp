@@ -32,13 +32,13 @@ std::string word_of(state::LinkState state) {
 // Keeps the car's newest stamp in its file.
 class StampKeeper : public service::Publisher {
  public:
-  StampKeeper(const std::string& path, telemetry::Stamp known, Say say)
-      : file_(path, known), say_(std::move(say)) {}
+  StampKeeper(const std::string& path, telemetry::Stamp known, LogLine log)
+      : file_(path, known), log_(std::move(log)) {}
 
   void publish(const service::CarService& car, Instant /*now*/) override {
     file_.keep(car.link().endpoint().newest_stamp());
     if (const auto problem = file_.take_problem()) {
-      say_("stamp file not written: " + to_string(*problem) +
+      log_("stamp file not written: " + to_string(*problem) +
            "; a base that starts again begins without it");
     }
   }
@@ -46,7 +46,7 @@ class StampKeeper : public service::Publisher {
 
  private:
   link::StampFile file_;
-  Say say_;
+  LogLine log_;
 };
 
 // The operator's joystick, and its samples for the recorder where there is one.
@@ -121,13 +121,13 @@ std::string CarSession::listening() const {
   return line;
 }
 
-Result<bool, Problem> CarSession::begin(publishers::web::WebServer* server, const Say& say) {
+Result<bool, Problem> CarSession::begin(publishers::web::WebServer* server, const LogLine& log) {
   if (server != nullptr) begin_consoles(*server);
   if (!plan_.stamp_file.empty()) {
     attach(std::make_unique<StampKeeper>(plan_.stamp_file, plan_.config.association.newest_stamp,
-                                         say));
+                                         log));
   }
-  const auto begun = begin_recording(say);
+  const auto begun = begin_recording(log);
   return begun ? begin_joystick() : begun;
 }
 
@@ -143,11 +143,11 @@ void CarSession::begin_consoles(publishers::web::WebServer& server) {
   if (bench) attach(std::move(bench));
 }
 
-Result<bool, Problem> CarSession::begin_recording(const Say& say) {
+Result<bool, Problem> CarSession::begin_recording(const LogLine& log) {
   const settings::Arguments& a = plan_.arguments;
   if (a.record_folder.empty()) return true;
   auto started = service::start_recording(
-      a.record_folder, service::run_metadata(a.car, a.car_name, a.judgement_file), *service_, say);
+      a.record_folder, service::run_metadata(a.car, a.car_name, a.judgement_file), *service_, log);
   if (!started) return Unexpected{started.error()};
   recording_ = *std::move(started);
   service_->link().observe(recorder::observer_of_datagrams(*recording_));

@@ -34,7 +34,7 @@ class CarSession {
   std::string listening() const;
 
   // Starts consoles (if there is a server), recording, joystick.
-  Result<bool, Problem> begin(publishers::web::WebServer* server, const Say& say);
+  Result<bool, Problem> begin(publishers::web::WebServer* server, const LogLine& log);
   // Adds a publisher, which is served after those that are there already.
   void attach(std::unique_ptr<service::Publisher> publisher);
 
@@ -49,7 +49,7 @@ class CarSession {
  private:
   explicit CarSession(Plan plan) : plan_(std::move(plan)) {}
   Result<bool, Problem> open_sockets();
-  Result<bool, Problem> begin_recording(const Say& say);
+  Result<bool, Problem> begin_recording(const LogLine& log);
   Result<bool, Problem> begin_joystick();
   void begin_consoles(publishers::web::WebServer& server);
 

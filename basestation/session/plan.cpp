@@ -69,10 +69,10 @@ Result<bool, Problem> plan_access(const Arguments& a, web::AccessRules& access) 
 }
 
 // Limits, alarms and course, by which the car is judged with consoles and without.
-Result<bool, Problem> plan_service(const Arguments& a, Plan& plan, const Say& say) {
+Result<bool, Problem> plan_service(const Arguments& a, Plan& plan, const LogLine& log) {
   if (!a.judgement_file.empty()) {
     auto store = std::make_shared<service::LimitsStore>(a.judgement_file);
-    if (!store->remark().empty()) say(store->remark());
+    if (!store->remark().empty()) log(store->remark());
     service::use_limits(plan.service, std::move(store), a.budget_kbit);
   }
   plan.http.documents["/api/track"] = {};
@@ -89,12 +89,12 @@ Result<bool, Problem> plan_service(const Arguments& a, Plan& plan, const Say& sa
   return true;
 }
 
-Result<bool, Problem> plan_web(const Arguments& a, Plan& plan, const Say& say) {
+Result<bool, Problem> plan_web(const Arguments& a, Plan& plan, const LogLine& log) {
   plan.http.console = settings::console_folder(a.console_folder);
   plan.http.layouts = a.layouts_folder;
   const auto access = plan_access(a, plan.http.access);
   if (!access) return access;
-  auto tls = tls_of(a, say);
+  auto tls = tls_of(a, log);
   if (!tls) return Unexpected{tls.error()};
   plan.http.tls = *std::move(tls);
   plan.http.access.encrypted = plan.http.tls != nullptr;
@@ -109,7 +109,7 @@ Result<bool, Problem> plan_web(const Arguments& a, Plan& plan, const Say& say) {
   return true;
 }
 
-void plan_stamps(const Arguments& arguments, Plan& plan, const Say& say) {
+void plan_stamps(const Arguments& arguments, Plan& plan, const LogLine& log) {
   if (arguments.stamp_file == settings::kNoStampFile) return;
   plan.stamp_file =
       arguments.stamp_file.empty() ? link::stamp_file_of(arguments.keys) : arguments.stamp_file;
@@ -117,12 +117,12 @@ void plan_stamps(const Arguments& arguments, Plan& plan, const Say& say) {
   if (newest) {
     plan.config.association.newest_stamp = *newest;
   } else {
-    say("stamp file unreadable: " + to_string(newest.error()) +
+    log("stamp file unreadable: " + to_string(newest.error()) +
         "; begins without it, and the car's next session writes it anew");
   }
 }
 
-Result<bool, Problem> plan_radio(const Arguments& arguments, Plan& plan, const Say& say) {
+Result<bool, Problem> plan_radio(const Arguments& arguments, Plan& plan, const LogLine& log) {
   auto listen = addresses_of(arguments);
   if (!listen) return Unexpected{listen.error()};
   plan.listen = *std::move(listen);
@@ -133,15 +133,15 @@ Result<bool, Problem> plan_radio(const Arguments& arguments, Plan& plan, const S
   const auto keys = link::read_keys(arguments.keys, telemetry::Role::kBase);
   if (!keys) return Unexpected{keys.error()};
   plan.config.association.keys = *keys;
-  plan_stamps(arguments, plan, say);
+  plan_stamps(arguments, plan, log);
   if (keys->bench) {
-    say(arguments.keys + ": KEYS OF A BENCH: sessions may be logged" +
+    log(arguments.keys + ": KEYS OF A BENCH: sessions may be logged" +
         (arguments.key_log.empty() ? "" : ", and are: " + arguments.key_log));
   }
   if (!arguments.key_log.empty()) {
-    auto log = link::key_log_to(arguments.key_log, *keys);
-    if (!log) return Unexpected{log.error()};
-    plan.config.association.key_log = *std::move(log);
+    auto key_log = link::key_log_to(arguments.key_log, *keys);
+    if (!key_log) return Unexpected{key_log.error()};
+    plan.config.association.key_log = *std::move(key_log);
   }
   plan.config.association.greeting.signed_only = arguments.signed_only;
   plan.config.association.paths = static_cast<std::uint8_t>(plan.listen.size());
@@ -173,35 +173,35 @@ std::string reported(const Arguments& car) { return "car " + std::to_string(car.
 
 Result<bool, Problem> use_tokens(const std::string& file, web::AccessRules& access) {
   if (file.empty()) return true;
-  auto tokens = web::TokenBook::open(file);
+  auto tokens = web::TokenStore::open(file);
   if (!tokens) return Unexpected{tokens.error()};
   access.tokens = *std::move(tokens);
   return true;
 }
 
-Result<std::shared_ptr<ssl_ctx_st>, Problem> tls_of(const Arguments& a, const Say& say) {
+Result<std::shared_ptr<ssl_ctx_st>, Problem> tls_of(const Arguments& a, const LogLine& log) {
   if (a.web_certificate.empty()) return std::shared_ptr<ssl_ctx_st>{};
   auto tls = web::read_tls_files(a.web_certificate, a.web_key);
   if (!tls) return Unexpected{tls.error()};
-  if (!tls->warning.empty()) say(tls->warning);
+  if (!tls->warning.empty()) log(tls->warning);
   return std::move(tls->context);
 }
 
-Result<Plan, Problem> plan_of(const Arguments& arguments, const Say& say) {
+Result<Plan, Problem> plan_of(const Arguments& arguments, const LogLine& log) {
   Plan plan{.arguments = arguments};
-  auto planned = plan_radio(arguments, plan, say);
+  auto planned = plan_radio(arguments, plan, log);
   if (planned) planned = plan_hands(arguments, plan);
-  if (planned) planned = plan_service(arguments, plan, say);
-  if (planned && arguments.web_port) planned = plan_web(arguments, plan, say);
+  if (planned) planned = plan_service(arguments, plan, log);
+  if (planned && arguments.web_port) planned = plan_web(arguments, plan, log);
   if (!planned) return Unexpected{planned.error()};
   return plan;
 }
 
-Result<std::vector<Plan>, Problem> plans_of(std::span<const Arguments> cars, const Say& say) {
+Result<std::vector<Plan>, Problem> plans_of(std::span<const Arguments> cars, const LogLine& log) {
   std::vector<Plan> plans;
   for (const Arguments& car : cars) {
     auto plan = plan_of(car, [&](const std::string& line) {
-      say(cars.size() > 1 ? reported(car) + ": " + line : line);
+      log(cars.size() > 1 ? reported(car) + ": " + line : line);
     });
     if (!plan) {
       if (cars.size() == 1) return Unexpected{plan.error()};
@@ -227,10 +227,10 @@ Result<std::vector<Plan>, Problem> plans_of(std::span<const Arguments> cars, con
   return plans;
 }
 
-Result<Plan, Problem> plan_of_replay(const Arguments& arguments, const Say& say) {
+Result<Plan, Problem> plan_of_replay(const Arguments& arguments, const LogLine& log) {
   Plan plan{.arguments = arguments};
-  auto planned = plan_service(arguments, plan, say);
-  if (planned) planned = plan_web(arguments, plan, say);
+  auto planned = plan_service(arguments, plan, log);
+  if (planned) planned = plan_web(arguments, plan, log);
   if (!planned) return Unexpected{planned.error()};
   return plan;
 }

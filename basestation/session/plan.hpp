@@ -1,5 +1,5 @@
 // Plan of one car's session, checked from the command line before the session begins.
-//   in     command lines; the files that they name; `say`: writes a line for the log
+//   in     command lines; the files that they name; `log`: writes a line for the log
 //   out    a Plan for each car; the configuration of their common web server
 //   errors Problem with the option as place; also for two cars with the same keys, whose packets
 //          could not be told apart, or with the same stamp file
@@ -24,7 +24,7 @@
 
 namespace pitwall::session {
 
-using Say = std::function<void(const std::string&)>;
+using LogLine = std::function<void(const std::string&)>;
 
 struct Plan {
   settings::Arguments arguments;
@@ -38,17 +38,17 @@ struct Plan {
   inputs::JoystickMapping joystick{};
 };
 
-Result<Plan, Problem> plan_of(const settings::Arguments& arguments, const Say& say);
+Result<Plan, Problem> plan_of(const settings::Arguments& arguments, const LogLine& log);
 Result<std::vector<Plan>, Problem> plans_of(std::span<const settings::Arguments> cars,
-                                            const Say& say);
+                                            const LogLine& log);
 // Plan of a replay: no radio, no keys.
-Result<Plan, Problem> plan_of_replay(const settings::Arguments& arguments, const Say& say);
+Result<Plan, Problem> plan_of_replay(const settings::Arguments& arguments, const LogLine& log);
 
 // Reads the file of tokens; an empty name changes nothing.
 Result<bool, Problem> use_tokens(const std::string& file, publishers::web::AccessRules& access);
 // TLS from --web-certificate and --web-key; nullptr without them.
 Result<std::shared_ptr<ssl_ctx_st>, Problem> tls_of(const settings::Arguments& arguments,
-                                                    const Say& say);
+                                                    const LogLine& log);
 
 // Configuration of one web server for all cars; each has its documents under its number.
 publishers::web::HttpConfig served(std::span<Plan> plans);

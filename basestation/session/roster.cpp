@@ -18,7 +18,7 @@ std::string roster_text(const std::vector<CarStatus>& cars) {
 void Roster::serve(Instant now) {
   if (now < due_) return;
   due_ = now + kEvery;
-  std::string text = roster_text(look_());
+  std::string text = roster_text(read_status_());
   if (text == reported_) return;
   reported_ = text;
   server_.show(kRosterPath, {std::move(text), publishers::web::kJsonType});

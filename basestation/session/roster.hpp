@@ -30,9 +30,10 @@ std::string roster_text(const std::vector<CarStatus>& cars);
 // Checks for changes twice a second.
 class Roster : public service::LoopTask {
  public:
-  using Look = std::function<std::vector<CarStatus>()>;
+  using ReadStatus = std::function<std::vector<CarStatus>()>;
 
-  Roster(publishers::web::WebServer& server, Look look) : server_(server), look_(std::move(look)) {}
+  Roster(publishers::web::WebServer& server, ReadStatus read_status)
+      : server_(server), read_status_(std::move(read_status)) {}
 
   void serve(Instant now) override;
   Instant due() const override { return due_; }
@@ -41,7 +42,7 @@ class Roster : public service::LoopTask {
   static constexpr Duration kEvery = milliseconds(500);
 
   publishers::web::WebServer& server_;
-  Look look_;
+  ReadStatus read_status_;
   std::string reported_;
   Instant due_{};
 };

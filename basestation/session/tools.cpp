@@ -61,7 +61,7 @@ Result<std::unique_ptr<service::Publisher>, Problem> ros_of(const Arguments& a, 
       .distribution = *distribution,
       .view = *std::move(view)};
   if (cars > 1) config.node += "_car" + std::to_string(a.car);
-  config.look = look_of(car);
+  config.read_status = status_reader_of(car);
   return publishers::dds::start(std::move(config));
 }
 
@@ -93,9 +93,9 @@ Result<foxglove::ServerConfig, Problem> foxglove_of(const Arguments& a, std::siz
   return config;
 }
 
-void say_where(const Arguments& a, const transport::UdpAddress& address, const std::string& whose,
-               const Say& say) {
-  say(whose + "Foxglove at " + (a.web_certificate.empty() ? "ws://" : "wss://") +
+void log_address(const Arguments& a, const transport::UdpAddress& address, const std::string& whose,
+                 const LogLine& log) {
+  log(whose + "Foxglove at " + (a.web_certificate.empty() ? "ws://" : "wss://") +
       to_string(address));
 }
 
@@ -115,7 +115,8 @@ Result<ros_view::ViewConfig, Problem> view_of(const Arguments& a, std::size_t ca
   return view;
 }
 
-std::function<void(ros_view::BaseStatus&, Instant)> look_of(const service::CarService& car) {
+std::function<void(ros_view::BaseStatus&, Instant)> status_reader_of(
+    const service::CarService& car) {
   return [&car](ros_view::BaseStatus& base_status, Instant now) {
     for (const state::BaseRow& row : state::kBaseTable) {
       const state::FieldView view = car.view(state::id_of(row.field), now);
@@ -131,7 +132,8 @@ std::function<void(ros_view::BaseStatus&, Instant)> look_of(const service::CarSe
   };
 }
 
-Result<bool, Problem> attach_tools(CarSession& session, const ToolPlace& place, const Say& say) {
+Result<bool, Problem> attach_tools(CarSession& session, const ToolPlace& place,
+                                   const LogLine& log) {
   const Arguments& a = session.arguments();
   service::CarService& car = session.service();
   std::vector<const service::Publisher*> attached;
@@ -150,10 +152,10 @@ Result<bool, Problem> attach_tools(CarSession& session, const ToolPlace& place, 
     if (!view) return Unexpected{view.error()};
     auto config = foxglove_of(a, place.car, *std::move(view));
     if (!config) return Unexpected{config.error()};
-    auto started = foxglove::FoxglovePublisher::start(*std::move(config), look_of(car));
+    auto started = foxglove::FoxglovePublisher::start(*std::move(config), status_reader_of(car));
     if (!started) return Unexpected{started.error()};
-    say_where(a, (*started)->local(),
-              place.cars > 1 ? "car " + std::to_string(a.car) + ": " : std::string{}, say);
+    log_address(a, (*started)->local(),
+                place.cars > 1 ? "car " + std::to_string(a.car) + ": " : std::string{}, log);
     attach(*std::move(started));
   }
   if (a.ros) {
@@ -171,14 +173,14 @@ Result<bool, Problem> attach_tools(CarSession& session, const ToolPlace& place, 
 }
 
 Result<std::unique_ptr<foxglove::FoxgloveReplay>, Problem> foxglove_of_replay(
-    const Arguments& a, const replay::Player& player, const Say& say) {
+    const Arguments& a, const replay::Player& player, const LogLine& log) {
   if (!a.foxglove_port) return std::unique_ptr<foxglove::FoxgloveReplay>{};
   auto view = view_of(a, 1);
   if (!view) return Unexpected{view.error()};
   auto config = foxglove_of(a, 0, *std::move(view));
   if (!config) return Unexpected{config.error()};
   auto started = foxglove::FoxgloveReplay::start(*std::move(config), player);
-  if (started) say_where(a, (*started)->local(), "", say);
+  if (started) log_address(a, (*started)->local(), "", log);
   return started;
 }
 

@@ -85,7 +85,7 @@ void describe_tools(CLI::App& app, Arguments& a) {
 
 void describe_recording(CLI::App& app, Arguments& a) {
   app.add_option("--record", a.record_folder,
-                 "Keep everything in this folder; what is there of the last hour is known again");
+                 "Keep everything in this folder; what is there of the last hour is restored");
   app.add_option("--replay", a.replay_folder,
                  "Show a recording to consoles instead of a car; needs --web, has no radio")
       ->excludes("--ros");

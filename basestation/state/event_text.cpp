@@ -89,8 +89,8 @@ std::string command_text(const telemetry::Command& command) {
 
 std::string progress_text(const telemetry::CommandProgress& p, Instant now) {
   std::string text;
-  if (p.fate) {
-    text = telemetry::text_of(*p.fate);
+  if (p.outcome) {
+    text = telemetry::text_of(*p.outcome);
     if (p.decided) text += after(p.issued, *p.decided);
     return text;
   }

@@ -12,7 +12,7 @@ constexpr double kStands_mps = 0.3;
 
 }  // namespace
 
-void follow(Outcome& outcome, const Whereabouts& now) {
+void follow(Outcome& outcome, const VehiclePlace& now) {
   if (has_contact(outcome)) return;
   outcome.last = now;
   if (!outcome.nearest || now.wall_gap_m < outcome.nearest->wall_gap_m) outcome.nearest = now;
@@ -20,12 +20,12 @@ void follow(Outcome& outcome, const Whereabouts& now) {
 
 std::string to_text(const Outcome& outcome) {
   if (!outcome.last) return {};
-  const Whereabouts& last = *outcome.last;
+  const VehiclePlace& last = *outcome.last;
   if (last.contact) {
     return formatted("the car hit the wall on the %s at %.2f s, s %.0f m, at %.1f m/s",
                      last.left ? "left" : "right", last.at.seconds(), last.s_m, last.speed_mps);
   }
-  const Whereabouts& nearest = *outcome.nearest;
+  const VehiclePlace& nearest = *outcome.nearest;
   const std::string speed =
       last.speed_mps < kStands_mps ? "stands" : formatted("drives %.1f m/s", last.speed_mps);
   return formatted(

@@ -14,7 +14,7 @@
 
 namespace pitwall::bench {
 
-struct Whereabouts {
+struct VehiclePlace {
   Instant at{};
   double speed_mps = kUnset;
   double cross_track_m = kUnset;  // from the line that the car has to drive; left is positive
@@ -25,13 +25,13 @@ struct Whereabouts {
 };
 
 struct Outcome {
-  std::optional<Whereabouts> last;  // at the contact, if there was one
-  std::optional<Whereabouts> nearest;
+  std::optional<VehiclePlace> last;  // at the contact, if there was one
+  std::optional<VehiclePlace> nearest;
 };
 
 inline bool has_contact(const Outcome& outcome) { return outcome.last && outcome.last->contact; }
 
-void follow(Outcome& outcome, const Whereabouts& now);
+void follow(Outcome& outcome, const VehiclePlace& now);
 
 // Returns one sentence; empty if there was no state.
 std::string to_text(const Outcome& outcome);

@@ -38,7 +38,7 @@ struct ProcessAction {
 };
 
 // An action that was carried out, with its time, for the event log and the result.
-struct Done {
+struct CompletedAction {
   Instant at{};
   std::string what;
 };

@@ -98,17 +98,17 @@ std::string overall_text(const grading::ErrorStatistics& overall) {
       .str();
 }
 
-std::string standings_text(const std::vector<grading::Standing>& standings) {
+std::string states_text(const std::vector<grading::ExpectationState>& expectation_states) {
   constexpr std::array kWords{"open", "holds", "failed"};
   Array words;
-  for (const grading::Standing standing : standings)
-    words.json(json::quoted(kWords.at(static_cast<std::size_t>(standing))));
+  for (const grading::ExpectationState state : expectation_states)
+    words.json(json::quoted(kWords.at(static_cast<std::size_t>(state))));
   return words.str();
 }
 
-std::string reactions_text(const grading::ReactionBook& book) {
+std::string reactions_text(const grading::ReactionMonitor& monitor) {
   Array rows;
-  for (const grading::Reaction& one : book.reactions()) {
+  for (const grading::Reaction& one : monitor.reactions()) {
     rows.json(Object{}
                   .text("to", one.to)
                   .number("at_s", one.at.seconds())
@@ -137,10 +137,10 @@ grading::ReactionTick tick_of(const RunView& run, const race::Flags& flags) {
 
 }  // namespace
 
-Progress::Progress(const scenario::Scenario& scenario, std::string_view mode, Say say)
-    : scenario_(scenario), say_(std::move(say)) {
+Progress::Progress(const scenario::Scenario& scenario, std::string_view mode, Print print)
+    : scenario_(scenario), print_(std::move(print)) {
   plan_events();
-  say_plan(mode);
+  print_plan(mode);
 }
 
 void Progress::plan_events() {
@@ -156,7 +156,7 @@ void Progress::plan_events() {
   std::ranges::stable_sort(planned_, {}, &Planned::at);
 }
 
-void Progress::say_plan(std::string_view mode) {
+void Progress::print_plan(std::string_view mode) {
   Array faults, flags, words, expected;
   for (const scenario::Fault& fault : scenario_.faults)
     faults.json(Object{}
@@ -176,17 +176,17 @@ void Progress::say_plan(std::string_view mode) {
   if (const auto expectations = expectations_of(scenario_))
     for (const grading::Expectation& one : *expectations)
       expected.json(json::quoted(grading::to_string(one)));
-  say_(Object{}
-           .text("type", "plan")
-           .text("scenario", scenario_.name)
-           .number("seed", scenario_.seed)
-           .text("mode", mode)
-           .number("duration_s", scenario_.duration.seconds())
-           .json("faults", faults.str())
-           .json("flags", flags.str())
-           .json("operator", words.str())
-           .json("expect", expected.str())
-           .str());
+  print_(Object{}
+             .text("type", "plan")
+             .text("scenario", scenario_.name)
+             .number("seed", scenario_.seed)
+             .text("mode", mode)
+             .number("duration_s", scenario_.duration.seconds())
+             .json("faults", faults.str())
+             .json("flags", flags.str())
+             .json("operator", words.str())
+             .json("expect", expected.str())
+             .str());
 }
 
 void Progress::observe(const RunView& run) {
@@ -194,75 +194,75 @@ void Progress::observe(const RunView& run) {
   reactions_.observe(tick_of(run, flags_));
   if (run.now < due_) return;
   due_ = run.now + kEvery;
-  say_state(run);
+  print_state(run);
 }
 
 void Progress::note_changes(const RunView& run) {
   for (; next_planned_ < planned_.size() && planned_[next_planned_].at <= run.now; ++next_planned_)
-    say_event(planned_[next_planned_].at, planned_[next_planned_].kind,
-              planned_[next_planned_].text);
+    print_event(planned_[next_planned_].at, planned_[next_planned_].kind,
+                planned_[next_planned_].text);
   if (!(run.rig.flags() == flags_)) {
     flags_ = run.rig.flags();
-    say_event(run.now, "flag", flags_text(flags_, run.rig.round_target_speed_mph()));
+    print_event(run.now, "flag", flags_text(flags_, run.rig.round_target_speed_mph()));
   }
   if (run.mode != mode_ && !std::isnan(run.mode)) {
     mode_ = run.mode;
-    say_event(run.now, "mode", mode_text(mode_));
+    print_event(run.now, "mode", mode_text(mode_));
   }
   if (run.rig.laps().finished != laps_) {
     laps_ = run.rig.laps().finished;
-    say_event(run.now, "lap", std::to_string(laps_));
+    print_event(run.now, "lap", std::to_string(laps_));
   }
   for (; actions_published_ < run.result.done.size(); ++actions_published_)
-    say_event(run.result.done[actions_published_].at, "done",
-              run.result.done[actions_published_].what);
+    print_event(run.result.done[actions_published_].at, "done",
+                run.result.done[actions_published_].what);
 }
 
-void Progress::say_state(const RunView& run) {
+void Progress::print_state(const RunView& run) {
   const Laps& laps = run.rig.laps();
   const auto& nearest = run.result.outcome.nearest;
-  say_(Object{}
-           .text("type", "at")
-           .number("t_s", run.now.seconds())
-           .number("speed_mps", run.rig.truth().speed_mps)
-           .text("mode", mode_text(run.mode))
-           .text("flag", scenario::name_of(run.rig.flags().track))
-           .number("laps", laps.finished)
-           .number("last_lap_s", laps.last_s)
-           .number("best_lap_s", laps.best_flying_s)
-           .number("wall_gap_m", nearest ? nearest->wall_gap_m : kUnset)
-           .flag("contact", run.result.outcome.last && run.result.outcome.last->contact)
-           .json("overall", overall_text(run.result.cross_track.overall))
-           .json("cross_track", brackets_text(run.result.cross_track))
-           .json("expect", standings_text(run.grader.standings()))
-           .json("reactions", reactions_text(reactions_))
-           .number("reactions_left_out", reactions_.left_out())
-           .number("events_left_out", events_ > kEventsMax ? events_ - kEventsMax : 0)
-           .str());
+  print_(Object{}
+             .text("type", "at")
+             .number("t_s", run.now.seconds())
+             .number("speed_mps", run.rig.truth().speed_mps)
+             .text("mode", mode_text(run.mode))
+             .text("flag", scenario::name_of(run.rig.flags().track))
+             .number("laps", laps.finished)
+             .number("last_lap_s", laps.last_s)
+             .number("best_lap_s", laps.best_flying_s)
+             .number("wall_gap_m", nearest ? nearest->wall_gap_m : kUnset)
+             .flag("contact", run.result.outcome.last && run.result.outcome.last->contact)
+             .json("overall", overall_text(run.result.cross_track.overall))
+             .json("cross_track", brackets_text(run.result.cross_track))
+             .json("expect", states_text(run.grader.expectation_states()))
+             .json("reactions", reactions_text(reactions_))
+             .number("reactions_left_out", reactions_.left_out())
+             .number("events_left_out", events_ > kEventsMax ? events_ - kEventsMax : 0)
+             .str());
 }
 
-void Progress::say_event(Instant at, std::string_view kind, const std::string& text) {
+void Progress::print_event(Instant at, std::string_view kind, const std::string& text) {
   if (++events_ > kEventsMax) return;
-  say_(Object{}
-           .text("type", "event")
-           .number("t_s", at.seconds())
-           .text("kind", kind)
-           .text("text", text)
-           .str());
+  print_(Object{}
+             .text("type", "event")
+             .number("t_s", at.seconds())
+             .text("kind", kind)
+             .text("text", text)
+             .str());
 }
 
 void Progress::ended(const RunResult& result) {
-  say_(Object{}
-           .text("type", "result")
-           .flag("passed", result.passed())
-           .flag("timely", result.timely())
-           .json("reactions", reactions_text(reactions_))
-           .json("result", to_json(result))
-           .str());
+  print_(Object{}
+             .text("type", "result")
+             .flag("passed", result.passed())
+             .flag("timely", result.timely())
+             .json("reactions", reactions_text(reactions_))
+             .json("result", to_json(result))
+             .str());
 }
 
 void Progress::failed(const Problem& problem) {
-  say_(Object{}.text("type", "failure").text("what", to_string(problem)).str());
+  print_(Object{}.text("type", "failure").text("what", to_string(problem)).str());
 }
 
 }  // namespace pitwall::bench

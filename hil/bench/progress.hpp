@@ -9,7 +9,7 @@
 //           the lines of a lockstep run are the same for the same scenario, build and seed, except
 //           for the wall time in the result. An unknown value is null
 //   bound   kEventsMax events; the line after them gives the number of omitted ones
-//   units   as the names say; times in seconds of scenario time
+//   units   as the names print; times in seconds of scenario time
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -41,11 +41,11 @@ using Follow = std::function<void(const RunView&)>;
 
 class Progress {
  public:
-  using Say = std::function<void(const std::string& line)>;
+  using Print = std::function<void(const std::string& line)>;
   static constexpr Duration kEvery = milliseconds(500);
   static constexpr std::size_t kEventsMax = 2'000;
 
-  Progress(const scenario::Scenario& scenario, std::string_view mode, Say say);
+  Progress(const scenario::Scenario& scenario, std::string_view mode, Print print);
 
   void observe(const RunView& run);
   void ended(const RunResult& result);
@@ -59,14 +59,14 @@ class Progress {
   };
 
   void plan_events();
-  void say_plan(std::string_view mode);
-  void say_state(const RunView& run);
-  void say_event(Instant at, std::string_view kind, const std::string& text);
+  void print_plan(std::string_view mode);
+  void print_state(const RunView& run);
+  void print_event(Instant at, std::string_view kind, const std::string& text);
   void note_changes(const RunView& run);
 
   scenario::Scenario scenario_;
-  Say say_;
-  grading::ReactionBook reactions_;
+  Print print_;
+  grading::ReactionMonitor reactions_;
   std::vector<Planned> planned_;  // in order of time
   std::size_t next_planned_ = 0, actions_published_ = 0, events_ = 0;
   Instant due_{};

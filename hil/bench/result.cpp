@@ -86,9 +86,9 @@ std::string real_time_json(const RealTime& t) {
       .str();
 }
 
-std::string done_json(const std::vector<Done>& done) {
+std::string done_json(const std::vector<CompletedAction>& done) {
   json::Array out;
-  for (const Done& one : done)
+  for (const CompletedAction& one : done)
     out.json(json::Object{}.number("at_s", one.at.seconds()).text("what", one.what).str());
   return out.str();
 }
@@ -138,7 +138,7 @@ std::string to_text(const RunResult& r) {
       static_cast<unsigned long long>(r.gate_refusals),
       static_cast<unsigned long long>(r.bus_losses));
   if (!r.refused_to_arm.empty()) out += "car refused to arm: " + r.refused_to_arm + "\n";
-  for (const Done& done : r.done)
+  for (const CompletedAction& done : r.done)
     out += formatted("at %.3f s: ", done.at.seconds()) + done.what + "\n";
   for (const std::string& remark : r.remarks) out += "note: " + remark + "\n";
   for (const grading::Verdict& verdict : r.verdicts)
@@ -152,7 +152,7 @@ std::string to_text(const RunResult& r) {
 }
 
 std::string to_json(const Outcome& outcome) {
-  const auto place = [](const Whereabouts& w) {
+  const auto place = [](const VehiclePlace& w) {
     return json::Object{}
         .number("at_s", w.at.seconds())
         .number("speed_mps", w.speed_mps)

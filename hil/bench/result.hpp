@@ -54,8 +54,8 @@ struct RunResult {
   Outcome outcome;
   std::optional<RealTime> real_time;
   std::string refused_to_arm;  // reason, if the bus did not match the car at the end; else empty
-  std::vector<Done> done;      // faults on processes, clock and disk that were carried out
-  std::vector<std::string> remarks;  // further notes, e.g. that the log has a gap
+  std::vector<CompletedAction> done;  // faults on processes, clock and disk that were carried out
+  std::vector<std::string> remarks;   // further notes, e.g. that the log has a gap
   std::string digest;
 
   bool passed() const;

@@ -146,7 +146,7 @@ std::span<const can::ReceivedFrame> Rig::understood(std::span<const can::Receive
 }
 
 void Rig::encode_frames(Node from, const can::Frame& frame, Instant now) {
-  for (const can::Frame& sent : variant_.spoken(frame)) send(from, sent, now);
+  for (const can::Frame& sent : variant_.transmitted(frame)) send(from, sent, now);
 }
 
 void Rig::send(Node from, const can::Frame& frame, Instant now) {

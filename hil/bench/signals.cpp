@@ -93,7 +93,7 @@ double wall_gap_m(const Rig& rig) {
   return std::min(rig.road().wall_gap_left_m, rig.road().wall_gap_right_m);
 }
 
-Whereabouts whereabouts(const Rig& rig, double line_offset_m, Instant now) {
+VehiclePlace vehicle_place(const Rig& rig, double line_offset_m, Instant now) {
   return {.at = now,
           .speed_mps = rig.truth().speed_mps,
           .cross_track_m = cross_track_m(rig, line_offset_m),

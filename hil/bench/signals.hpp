@@ -130,7 +130,7 @@ SignalValues observe(const SignalSources& from);
 double cross_track_m(const Rig& rig, double line_offset_m);
 double wall_gap_m(const Rig& rig);  // of the corner nearest to a wall, on either side
 // True state of the car, as Outcome takes it.
-Whereabouts whereabouts(const Rig& rig, double line_offset_m, Instant now);
+VehiclePlace vehicle_place(const Rig& rig, double line_offset_m, Instant now);
 
 std::vector<std::string> signal_names();
 

@@ -13,11 +13,11 @@ Result<ClockFollower, Problem> ClockFollower::open(const std::string& file) {
 
 void ClockFollower::serve(transport::SerialLine& line) {
   while (const auto word = line.receive())
-    if (const auto guest = from_word(*word)) owed_ = *guest;
-  if (owed_ && !keeper_.is_held_up(keeper_.now())) {
-    follow(*owed_);
-    line.send(to_word(*owed_));
-    owed_.reset();
+    if (const auto guest = decode_clock(*word)) pending_ = *guest;
+  if (pending_ && !keeper_.is_held_up(keeper_.now())) {
+    follow(*pending_);
+    line.send(encode_clock(*pending_));
+    pending_.reset();
   }
   line.flush();
 }

@@ -28,7 +28,7 @@ class ClockFollower {
 
   // To be called when the line has data, and again soon while is_waiting().
   void serve(transport::SerialLine& line);
-  bool is_waiting() const { return owed_.has_value(); }
+  bool is_waiting() const { return pending_.has_value(); }
 
  private:
   explicit ClockFollower(transport::ClockKeeper keeper) : keeper_(std::move(keeper)) {}
@@ -36,7 +36,7 @@ class ClockFollower {
 
   transport::ClockKeeper keeper_;
   std::optional<Duration> here_minus_guest_;
-  std::optional<Instant> owed_;  // message of the guest that is not acknowledged yet
+  std::optional<Instant> pending_;  // message of the guest that is not acknowledged yet
 };
 
 }  // namespace pitwall::can_bus

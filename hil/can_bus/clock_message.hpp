@@ -19,14 +19,14 @@ inline constexpr const char* kClockLine = "/dev/ttyS3";
 
 using ClockMessage = std::array<std::uint8_t, 8>;
 
-constexpr ClockMessage to_word(Instant at) {
+constexpr ClockMessage encode_clock(Instant at) {
   ClockMessage word{};
   for (std::size_t i = 0; i < word.size(); ++i)
     word[i] = static_cast<std::uint8_t>(static_cast<std::uint64_t>(at.ns) >> (8 * i));
   return word;
 }
 
-constexpr std::optional<Instant> from_word(std::span<const std::uint8_t> word) {
+constexpr std::optional<Instant> decode_clock(std::span<const std::uint8_t> word) {
   if (word.size() != ClockMessage{}.size()) return std::nullopt;
   std::uint64_t ns = 0;
   for (std::size_t i = 0; i < word.size(); ++i) ns |= std::uint64_t{word[i]} << (8 * i);

@@ -40,7 +40,7 @@ bool failed_to_send(FaultConfinement& node) {
 }
 
 // The counter has eight bits; a passive node gains nothing by counting on.
-void failed_to_hear(FaultConfinement& node) {
+void note_receive_error(FaultConfinement& node) {
   constexpr std::uint16_t kMost = 255;
   if (!node.bus_off && node.receive_errors < kMost) ++node.receive_errors;
 }

@@ -40,7 +40,7 @@ void sent(FaultConfinement& node);
 void receive(FaultConfinement& node);
 // Returns true if this error makes it bus-off.
 bool failed_to_send(FaultConfinement& node);
-void failed_to_hear(FaultConfinement& node);
+void note_receive_error(FaultConfinement& node);
 
 // Restart by the driver. Returns false without effect unless it is bus-off and not recovering.
 bool restart(FaultConfinement& node);

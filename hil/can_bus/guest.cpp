@@ -152,22 +152,23 @@ Result<bool, Problem> Guest::start(const GuestPlan& plan, int line_end, int cloc
        .own_group = true});
   pinned.reset();
   if (!machine) return Unexpected{machine.error()};
-  transport::prefer(machine->pid());  // where it may not, the bench tells what it waited for
+  transport::raise_priority(
+      machine->pid());  // where it may not, the bench tells what it waited for
   machine_.process = *std::move(machine);
   output_ = std::move(output->first);
   errors_ = std::move(errors->first);
   lifeline_ = std::move(life->first);
   // User-mode Linux is a handful of processes; a death signal to the first leaves the others. The
-  // warden reads until our end of its pipe is gone, however we end, then kills the group and
+  // cleanup reads until our end of its pipe is gone, however we end, then kills the group and
   // removes the folder that we left.
-  auto warden = transport::Process::spawn(
+  auto cleanup = transport::Process::spawn(
       {.argv = {"/bin/sh", "-c", "trap '' INT TERM HUP; read _; kill -KILL -$0; rm -rf \"$1\"",
                 std::to_string(machine_.process->pid()), folder},
        .descriptors = {{life->second.get(), 0}, {null->fd(), 1}, {null->fd(), 2}},
        .die_with_parent = false,
        .own_group = true});
-  if (!warden) return Unexpected{warden.error()};
-  warden_ = *std::move(warden);
+  if (!cleanup) return Unexpected{cleanup.error()};
+  cleanup_process_ = *std::move(cleanup);
   return true;
 }
 
@@ -176,7 +177,7 @@ std::optional<Result<int, Problem>> Guest::serve() {
   forward(output_, stdout);
   forward(errors_, stderr);
   if (!off) return std::nullopt;
-  warden_.reset();
+  cleanup_process_.reset();
   return outcome();
 }
 

@@ -50,7 +50,7 @@ class Guest {
   transport::TemporaryFolder folder_;
   transport::SerialLine line_, clock_;
   transport::FileDescriptor output_, errors_, lifeline_;
-  std::optional<transport::Process> warden_;
+  std::optional<transport::Process> cleanup_process_;
   struct Machine {
     std::optional<transport::Process> process;
     int fd() const { return process ? process->fd() : -1; }

@@ -137,7 +137,7 @@ void MemoryBus::simulate_until(Instant now) {
     transmit(winner);
   }
   now_ = now;
-  if (!on_wire_) let_idle_bits_pass(now);
+  if (!on_wire_) count_idle_bits(now);
   roll_load_window(now);
 }
 
@@ -183,7 +183,7 @@ Duration MemoryBus::span_of(std::uint32_t bits) const {
 }
 
 void MemoryBus::transmit(const Candidate& winner) {
-  let_idle_bits_pass(winner.start);
+  count_idle_bits(winner.start);
   Port& node = ports_[winner.port];
   wire_ = winner.frame;
   sender_ = winner.port;
@@ -250,8 +250,8 @@ void MemoryBus::deliver() {
 void MemoryBus::destroyed() {
   ++counters_.error_frames;
   for (std::uint8_t p = 0; p < config_.ports; ++p)
-    if (p != sender_ && ports_[p].connected) failed_to_hear(ports_[p].confinement);
-  if (failed_to_send(ports_[sender_].confinement)) return fall_silent(ports_[sender_]);
+    if (p != sender_ && ports_[p].connected) note_receive_error(ports_[p].confinement);
+  if (failed_to_send(ports_[sender_].confinement)) return go_bus_off(ports_[sender_]);
   if (!is_babble_) send_again();
 }
 
@@ -272,13 +272,13 @@ void MemoryBus::send_again() {
 }
 
 // Bus-off: the driver throws away what waits.
-void MemoryBus::fall_silent(Port& node) {
+void MemoryBus::go_bus_off(Port& node) {
   node.dropped += node.waiting + (is_babble_ ? 0U : 1U);
   node.waiting = 0;
 }
 
 // For those that recover.
-void MemoryBus::let_idle_bits_pass(Instant until) {
+void MemoryBus::count_idle_bits(Instant until) {
   if (until <= idle_from_) return;
   if (std::none_of(ports_.begin(), ports_.end(),
                    [](const Port& node) { return node.confinement.recovering; })) {

@@ -145,9 +145,9 @@ class MemoryBus {
   void complete();
   void destroyed();
   void send_again();
-  void fall_silent(Port& node);
+  void go_bus_off(Port& node);
   void deliver();
-  void let_idle_bits_pass(Instant until);
+  void count_idle_bits(Instant until);
   void let_frame_end();
   Duration span_of(std::uint32_t bits) const;
   void account_busy(Instant from, Instant until);

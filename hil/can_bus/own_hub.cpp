@@ -10,7 +10,7 @@ namespace pitwall::can_bus {
 namespace {
 
 constexpr Duration kStartLimit = seconds(5), kStopLimit = seconds(2);
-constexpr Duration kLook = milliseconds(5);
+constexpr Duration kPollPeriod = milliseconds(5);
 
 }  // namespace
 
@@ -28,7 +28,7 @@ Result<std::optional<OwnHub>, Problem> OwnHub::start(const std::string& program,
   const Instant limit = transport::monotonic_now() + kStartLimit;
   while (!process->poll() && transport::monotonic_now() < limit) {
     if (transport::hub_serves(*address)) return std::optional(OwnHub{*std::move(process)});
-    transport::sleep_until(transport::monotonic_now() + kLook);
+    transport::sleep_until(transport::monotonic_now() + kPollPeriod);
   }
   return Unexpected{Problem{bus, "the hub of this bus did not start"}};
 }

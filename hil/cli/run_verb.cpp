@@ -284,7 +284,7 @@ int run_scenario(const RunOptions& options) {
   return write_report(report_files(options.report_folder), std::nullopt);
 }
 
-Result<std::vector<std::string>, Problem> exec_words(const RunOptions& options) {
+Result<std::vector<std::string>, Problem> exec_arguments(const RunOptions& options) {
   std::vector<std::string> words{"exec", "--auto", "--interface", options.interface};
   if (is_clock_file(options.clock)) words.insert(words.end(), {"--clock", options.clock});
   RunOptions inside = options;
@@ -322,7 +322,7 @@ int run_where_the_bus_is(const RunOptions& options) {
     const auto hub = can_bus::OwnHub::start(own_program(), options.interface, clock);
     return hub ? run_scenario(options) : refuse(hub.error());
   }
-  const auto exec = exec_words(options);
+  const auto exec = exec_arguments(options);
   if (!exec) return refuse(exec.error());
   const int code = can_bus::bus_verb(*exec);
   if (!options.report_folder.empty() && !fs::exists(report_files(options.report_folder).html))

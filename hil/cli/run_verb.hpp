@@ -59,6 +59,6 @@ std::vector<std::string> live_command(const RunOptions& options);
 // The arguments of `pitwall-hil bus` that run this command in a guest, or here if the kernel has
 // CAN. The radio ports stay those of this machine, so that a base on it can communicate with the
 // car.
-Result<std::vector<std::string>, Problem> exec_words(const RunOptions& options);
+Result<std::vector<std::string>, Problem> exec_arguments(const RunOptions& options);
 
 }  // namespace pitwall::cli

@@ -192,19 +192,19 @@ std::vector<Verdict> Grader::finish() const {
   return verdicts;
 }
 
-Standing Grader::standing(const Expectation& e, const Track& t) {
-  if (t.failed || t.held_before) return Standing::kFailed;
+ExpectationState Grader::state_of(const Expectation& e, const Track& t) {
+  if (t.failed || t.held_before) return ExpectationState::kFailed;
   const bool within = e.kind == Kind::kWithin || e.kind == Kind::kDetects;
   const bool seen = within ? t.held : e.kind == Kind::kAfter ? t.decided > 0 : t.ticks > 0;
-  return seen ? Standing::kHolds : Standing::kOpen;
+  return seen ? ExpectationState::kHolds : ExpectationState::kOpen;
 }
 
-std::vector<Standing> Grader::standings() const {
-  std::vector<Standing> standings;
-  standings.reserve(expectations_.size());
+std::vector<ExpectationState> Grader::expectation_states() const {
+  std::vector<ExpectationState> expectation_states;
+  expectation_states.reserve(expectations_.size());
   for (std::size_t i = 0; i < expectations_.size(); ++i)
-    standings.push_back(standing(expectations_[i], tracks_[i]));
-  return standings;
+    expectation_states.push_back(state_of(expectations_[i], tracks_[i]));
+  return expectation_states;
 }
 
 }  // namespace pitwall::grading

@@ -42,7 +42,7 @@ struct Verdict {
 };
 
 // State of an expectation during the run: undecided, held so far, failed for good.
-enum class Standing : std::uint8_t { kOpen, kHolds, kFailed };
+enum class ExpectationState : std::uint8_t { kOpen, kHolds, kFailed };
 
 class Grader {
  public:
@@ -51,7 +51,7 @@ class Grader {
 
   void observe(Instant now, std::span<const double> values);
   std::vector<Verdict> finish() const;
-  std::vector<Standing> standings() const;  // in order; an undecided one is kOpen
+  std::vector<ExpectationState> expectation_states() const;  // in order; an undecided one is kOpen
 
  private:
   struct Track {
@@ -71,7 +71,7 @@ class Grader {
   void observe_within(const Expectation& e, Track& t, Instant now, double value);
   void observe_after(const Expectation& e, Track& t, Instant now, double value, bool rises);
   static Verdict verdict(const Expectation& e, const Track& t);
-  static Standing standing(const Expectation& e, const Track& t);
+  static ExpectationState state_of(const Expectation& e, const Track& t);
 
   std::vector<Expectation> expectations_;
   std::vector<Track> tracks_;

@@ -3,7 +3,7 @@
 
 namespace pitwall::grading {
 
-void ReactionBook::observe(const ReactionTick& tick) {
+void ReactionMonitor::observe(const ReactionTick& tick) {
   if (before_) {
     const Duration since = tick.at - before_->at;
     const bool drives = before_->speed_mps >= kStands_mps;
@@ -22,7 +22,7 @@ void ReactionBook::observe(const ReactionTick& tick) {
   before_->flag = before_->stop = {};  // views of the caller's
 }
 
-void ReactionBook::begin(std::string_view to, const ReactionTick& tick, bool answered) {
+void ReactionMonitor::begin(std::string_view to, const ReactionTick& tick, bool answered) {
   open_ = reactions_.size() < kKept;
   if (!open_) {
     ++left_out_;
@@ -35,7 +35,7 @@ void ReactionBook::begin(std::string_view to, const ReactionTick& tick, bool ans
   brake_then_kpa_ = before_->brake_kpa;
 }
 
-void ReactionBook::follow(const ReactionTick& tick, double driven_m) {
+void ReactionMonitor::follow(const ReactionTick& tick, double driven_m) {
   Reaction& reaction = reactions_.back();
   driven_m_ += driven_m;
   const bool lifts = throttle_then_ > kCoasts && tick.throttle <= kThrottleShare * throttle_then_;

@@ -43,7 +43,7 @@ struct Reaction {
   std::optional<double> stop_m{};      // distance until standstill
 };
 
-class ReactionBook {
+class ReactionMonitor {
  public:
   static constexpr double kThrottleShare = 0.5, kBrakeRise_kpa = 100.0, kStands_mps = 0.3;
   static constexpr double kCoasts = 0.02;  // a throttle below this cannot be lifted further

@@ -26,7 +26,7 @@ bool blacked_out(const std::vector<Blackout>& blackouts, Instant at) {
 LinkEmulator::LinkEmulator(LinkParams params, std::uint64_t seed)
     : params_(std::move(params)),
       fades_(params_.fades, seed),
-      asked_(fades_),
+      query_fades_(fades_),
       loss_(seed, kLoss),
       jitter_(seed, kJitter),
       reorder_(seed, kReorder),
@@ -45,10 +45,10 @@ void LinkEmulator::offer(std::span<const std::uint8_t> bytes, Instant now, std::
   const bool survived = survives(*on_air);
   const Instant arrives = arrival_of(*on_air);
   const bool twice = duplicate_.uniform() < params_.duplicate;
-  const bool spoiled = corrupt_.uniform() < params_.corrupt;
+  const bool corrupted = corrupt_.uniform() < params_.corrupt;
   if (!survived) return;
   Datagram datagram{{bytes.begin(), bytes.end()}, now, arrives, tag};
-  if (spoiled) spoil(datagram.bytes);
+  if (corrupted) corrupt(datagram.bytes);
   if (twice) {
     ++counters_.duplicated;
     send_off(datagram);
@@ -101,7 +101,7 @@ Instant LinkEmulator::arrival_of(Instant on_air) {
 }
 
 // One bit, anywhere.
-void LinkEmulator::spoil(std::vector<std::uint8_t>& bytes) {
+void LinkEmulator::corrupt(std::vector<std::uint8_t>& bytes) {
   const std::uint64_t drawn = corrupt_.next();
   if (bytes.empty()) return;
   const std::uint64_t bit = drawn % (bytes.size() * 8);
@@ -131,7 +131,7 @@ std::optional<Instant> LinkEmulator::next() const {
 }
 
 bool LinkEmulator::faded(Instant at) {
-  return asked_.bad(at) || blacked_out(params_.blackouts, at) ||
+  return query_fades_.bad(at) || blacked_out(params_.blackouts, at) ||
          loss_over_time(params_.trace, at) >= 1.0;
 }
 

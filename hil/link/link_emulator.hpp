@@ -64,11 +64,11 @@ class LinkEmulator {
   std::optional<Instant> through_the_queue(std::size_t size, Instant now);
   bool survives(Instant on_air);
   Instant arrival_of(Instant on_air);
-  void spoil(std::vector<std::uint8_t>& bytes);
+  void corrupt(std::vector<std::uint8_t>& bytes);
   void send_off(Datagram datagram);
 
   LinkParams params_;
-  FadeProcess fades_, asked_;  // two copies of one trace: datagrams may be ahead of faded()
+  FadeProcess fades_, query_fades_;  // two copies of one trace: datagrams may be ahead of faded()
   sensors::Noise loss_, jitter_, reorder_, duplicate_, corrupt_;
   Instant last_offer_{}, air_free_{}, last_in_order_{};
   double station_m_ = 0.0;

@@ -29,10 +29,10 @@ struct Periodic {
   std::vector<double> values;
 };
 
-struct Dictionary {
+struct MessageTranslation {
   bool same = false;  // nothing to translate
   can::Database model, bus;
-  std::vector<Translation> spoken, received;
+  std::vector<Translation> transmitted, received;
   std::vector<Periodic> own;
 };
 
@@ -46,7 +46,7 @@ struct Route {
 struct Alias {
   const char *model, *bus;  // signals
 };
-struct Spelling {
+struct VariantNames {
   const char* text;                        // what differs from av21.dbc, or the whole
   bool whole = false;                      // a database of its own
   std::vector<std::string_view> absent{};  // messages of av21 that it lacks
@@ -54,7 +54,7 @@ struct Spelling {
   std::vector<Alias> aliases{};
 };
 
-Spelling spelling_of(BusRevision which) {
+VariantNames names_of(BusRevision which) {
   switch (which) {
     case BusRevision::kV14:
     case BusRevision::kProtected:
@@ -130,39 +130,40 @@ bool is_complete(const Translation& t) {
   return std::ranges::all_of(t.sources, [](const auto& source) { return source.has_value(); });
 }
 
-void add_spoken(Dictionary& book, const Spelling& spelling) {
+void add_transmitted(MessageTranslation& tables, const VariantNames& names) {
   const auto add = [&](const can::Message* from, const can::Message* to) {
     if (from != nullptr && to != nullptr)
-      book.spoken.push_back(translation(*from, *to, spelling.aliases));
+      tables.transmitted.push_back(translation(*from, *to, names.aliases));
   };
-  for (const Route& route : spelling.routes)
-    add(book.model.find(std::string_view(route.model)), book.bus.find(std::string_view(route.bus)));
-  for (const can::Message& to : book.bus.messages) {
+  for (const Route& route : names.routes)
+    add(tables.model.find(std::string_view(route.model)),
+        tables.bus.find(std::string_view(route.bus)));
+  for (const can::Message& to : tables.bus.messages) {
     const auto routed = [&to](const Route& route) { return route.bus == to.name; };
-    if (std::ranges::any_of(spelling.routes, routed)) continue;
-    add(book.model.find(std::string_view(to.name)), &to);
+    if (std::ranges::any_of(names.routes, routed)) continue;
+    add(tables.model.find(std::string_view(to.name)), &to);
   }
 }
 
-void add_received(Dictionary& book, const Spelling& spelling) {
-  for (const can::Message& from : book.bus.messages) {
-    const can::Message* const to = book.model.find(std::string_view(from.name));
+void add_received(MessageTranslation& tables, const VariantNames& names) {
+  for (const can::Message& from : tables.bus.messages) {
+    const can::Message* const to = tables.model.find(std::string_view(from.name));
     if (to == nullptr) continue;
-    Translation t = translation(from, *to, spelling.aliases);
-    if (is_complete(t)) book.received.push_back(std::move(t));
+    Translation t = translation(from, *to, names.aliases);
+    if (is_complete(t)) tables.received.push_back(std::move(t));
   }
 }
 
 // Of the AV-24 only: nobody knows who sends what V9 and V12 have alone.
-void add_own(Dictionary& book) {
+void add_own(MessageTranslation& tables) {
   for (const can::MessageRow& row : can::av24::kMessages) {
-    const can::Message* const message = book.bus.find(std::string_view(row.name));
+    const can::Message* const message = tables.bus.find(std::string_view(row.name));
     if (message == nullptr || message->id != row.id) continue;
     if (row.direction != can::Direction::kFromCar) continue;
-    if (book.model.find(std::string_view(row.name)) != nullptr) continue;
+    if (tables.model.find(std::string_view(row.name)) != nullptr) continue;
     Periodic own{.message = message, .period = row.period, .values = {}};
     for (const can::Signal& signal : message->signals) own.values.push_back(at_rest(signal));
-    book.own.push_back(std::move(own));
+    tables.own.push_back(std::move(own));
   }
 }
 
@@ -185,32 +186,31 @@ std::optional<can::Frame> translate(const Translation& t, const can::Frame& fram
 Result<CanVariant, Problem> CanVariant::of(BusRevision which) {
   auto model = can::parse_dbc(kAv21Text, "av21.dbc");
   if (!model) return Unexpected{model.error()};
-  const Spelling spelling = spelling_of(which);
-  auto other = can::parse_dbc(spelling.text, scenario::name_of(which));
+  const VariantNames names = names_of(which);
+  auto other = can::parse_dbc(names.text, scenario::name_of(which));
   if (!other) return Unexpected{other.error()};
-  auto book = std::make_shared<Dictionary>();
-  book->same = which == BusRevision::kV14 || which == BusRevision::kProtected;
-  book->bus =
-      spelling.whole ? *std::move(other) : overlaid(*model, *std::move(other), spelling.absent);
-  book->model = *std::move(model);
-  add_spoken(*book, spelling);
-  add_received(*book, spelling);
-  add_own(*book);
-  CanVariant variant{std::move(book)};
+  auto tables = std::make_shared<MessageTranslation>();
+  tables->same = which == BusRevision::kV14 || which == BusRevision::kProtected;
+  tables->bus = names.whole ? *std::move(other) : overlaid(*model, *std::move(other), names.absent);
+  tables->model = *std::move(model);
+  add_transmitted(*tables, names);
+  add_received(*tables, names);
+  add_own(*tables);
+  CanVariant variant{std::move(tables)};
   if (which == BusRevision::kProtected) variant.also_.emplace();
   return variant;
 }
 
-CanVariant::CanVariant(std::shared_ptr<const Dictionary> dictionary)
-    : dictionary_(std::move(dictionary)), due_(dictionary_->own.size()) {}
+CanVariant::CanVariant(std::shared_ptr<const MessageTranslation> tables)
+    : tables_(std::move(tables)), due_(tables_->own.size()) {}
 
-Frames CanVariant::spoken(const can::Frame& frame) {
+Frames CanVariant::transmitted(const can::Frame& frame) {
   Frames out;
-  if (dictionary_->same) {
+  if (tables_->same) {
     CHECK(out.push(also_ ? with_checksum(frame) : frame));
     return out;
   }
-  for (const Translation& t : dictionary_->spoken) {
+  for (const Translation& t : tables_->transmitted) {
     if (!can::is_frame_of(*t.from, frame)) continue;
     if (const auto translated = translate(t, frame, unsent_)) CHECK(out.push(*translated));
   }
@@ -218,8 +218,8 @@ Frames CanVariant::spoken(const can::Frame& frame) {
 }
 
 std::optional<can::Frame> CanVariant::receive(const can::Frame& frame) {
-  if (dictionary_->same) return frame;
-  for (const Translation& t : dictionary_->received)
+  if (tables_->same) return frame;
+  for (const Translation& t : tables_->received)
     if (can::is_frame_of(*t.from, frame)) return translate(t, frame, unsent_);
   return std::nullopt;
 }
@@ -227,7 +227,7 @@ std::optional<can::Frame> CanVariant::receive(const can::Frame& frame) {
 Frames CanVariant::due(Instant now) {
   Frames out;
   for (std::size_t i = 0; i < due_.size(); ++i) {
-    const Periodic& own = dictionary_->own[i];
+    const Periodic& own = tables_->own[i];
     if (due_[i] > now) continue;
     due_[i] += own.period * ((now - due_[i]) / own.period + 1);
     can::Frame frame;
@@ -239,6 +239,6 @@ Frames CanVariant::due(Instant now) {
   return out;
 }
 
-const can::Database& CanVariant::database() const { return dictionary_->bus; }
+const can::Database& CanVariant::database() const { return tables_->bus; }
 
 }  // namespace pitwall::can_variant

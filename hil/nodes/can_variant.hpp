@@ -30,7 +30,7 @@
 
 namespace pitwall::can_variant {
 
-struct Dictionary;
+struct MessageTranslation;
 
 inline constexpr std::size_t kMaxFrames = 16;  // for one message, or due at one instant
 using Frames = FixedVector<can::Frame, kMaxFrames>;
@@ -39,7 +39,7 @@ class CanVariant {
  public:
   static Result<CanVariant, Problem> of(scenario::BusRevision which);
 
-  Frames spoken(const can::Frame& frame);
+  Frames transmitted(const can::Frame& frame);
   std::optional<can::Frame> receive(const can::Frame& frame);
   // The due messages that only this bus has. `now` never decreases.
   Frames due(Instant now);
@@ -48,9 +48,9 @@ class CanVariant {
   std::uint64_t unsent() const { return unsent_; }
 
  private:
-  explicit CanVariant(std::shared_ptr<const Dictionary> dictionary);
+  explicit CanVariant(std::shared_ptr<const MessageTranslation> tables);
 
-  std::shared_ptr<const Dictionary> dictionary_;
+  std::shared_ptr<const MessageTranslation> tables_;
   std::vector<Instant> due_;
   std::optional<ProtectedMessages> also_;
   std::uint64_t unsent_ = 0;

@@ -6,7 +6,7 @@
 //   wake      ^     ^         ^  (records that become due during the call go with the next one)
 //   calls    sleep, send per track in turn, clock; no sleep if the next record is due already
 //
-//   in     Timeline; a rim with now(), wait_until(), send(track, first, count), stopped(); if it
+//   in     Timeline; the I/O: now(), wait_until(), send(track, first, count), stopped(); if it
 //          has prepare(track, end, pass), that is called while there is time, and the records of
 //          the track before `end` are sent next in that pass
 //   out    PlayReport: counts, lateness (sent minus due; negative up to kGroup), dropped records
@@ -48,7 +48,7 @@ struct PlayOptions {
   Duration late_limit = milliseconds(100);  // of kDrop and kAbort
 };
 
-// Result of a rim's send(): number of leading records taken, and whether the queue was full.
+// Result of send(): number of leading records taken, and whether the queue was full.
 struct TrackOutcome {
   std::size_t taken = 0;
   bool full = false;
@@ -74,7 +74,7 @@ struct PlayReport {
   std::uint64_t calls = 0, waits = 0, retries = 0;
   FixedVector<DroppedRecord, kListedDrops> dropped_list;  // the first kListedDrops
   bool aborted = false;                                   // by LatePolicy::kAbort
-  bool stopped = false;                                   // by the rim
+  bool stopped = false;                                   // by the I/O object
   Duration took{};
   Duration seam_error{};  // largest error of a gap between two passes: sent minus planned
   LatenessHistogram lateness;
@@ -82,14 +82,14 @@ struct PlayReport {
   std::uint64_t dropped() const { return frames.dropped() + datagrams.dropped(); }
 };
 
-template <class Rim>
+template <class Io>
 class Player {
  public:
-  Player(const Timeline& timeline, const PlayOptions& options, Rim& rim)
-      : timeline_(timeline), options_(options), rim_(rim), cursors_(timeline.tracks.size()) {}
+  Player(const Timeline& timeline, const PlayOptions& options, Io& io)
+      : timeline_(timeline), options_(options), io_(io), cursors_(timeline.tracks.size()) {}
 
   PlayReport play(Instant start) {
-    now_ = rim_.now();
+    now_ = io_.now();
     for (pass_ = 0; pass_ < options_.passes && !ended(); ++pass_) {
       start_ = start + timeline_.pass * static_cast<std::int64_t>(pass_);  // no drift over passes
       play_pass();
@@ -119,17 +119,17 @@ class Player {
       wait_until(start_ + due);
       for (std::size_t track = 0; track < cursors_.size() && !ended(); ++track)
         send_due(track, due);
-      now_ = rim_.now();
+      now_ = io_.now();
       for (std::size_t track = 0; track < cursors_.size(); ++track) record(track);
       prepare_next_pass();
     }
   }
 
   void prepare_next_pass() {
-    if constexpr (requires { rim_.prepare(std::size_t{}, std::size_t{}, 0U); }) {
+    if constexpr (requires { io_.prepare(std::size_t{}, std::size_t{}, 0U); }) {
       if (pass_ + 1 == options_.passes) return;
       for (std::size_t track = 0; track < cursors_.size(); ++track)
-        rim_.prepare(track, cursors_[track].next, pass_ + 1);
+        io_.prepare(track, cursors_[track].next, pass_ + 1);
     }
   }
 
@@ -146,11 +146,11 @@ class Player {
   // Afterwards now_ is the deadline or later; the clock is read only if lateness is checked.
   void wait_until(Instant deadline) {
     if (now_ < deadline) {
-      rim_.wait_until(deadline);
+      io_.wait_until(deadline);
       ++report_.waits;
-      now_ = judges_lateness() ? rim_.now() : deadline;
+      now_ = judges_lateness() ? io_.now() : deadline;
     }
-    report_.stopped = rim_.stopped();
+    report_.stopped = io_.stopped();
   }
 
   void send_due(std::size_t track, Duration due) {
@@ -164,12 +164,12 @@ class Player {
     while (end < plan.due.size() && plan.due[end] <= limit) ++end;
     const Instant give_up = now_ + kMaxRetry;
     while (cursor.next < end && !ended()) {
-      const TrackOutcome outcome = rim_.send(track, cursor.next, end - cursor.next);
+      const TrackOutcome outcome = io_.send(track, cursor.next, end - cursor.next);
       ++report_.calls;
       count_of(track).sent += outcome.taken;
       cursor.next += outcome.taken;
       if (cursor.next == end) return;
-      now_ = rim_.now();
+      now_ = io_.now();
       record(track);
       retry_or_drop(track, outcome.full, give_up);
     }
@@ -179,8 +179,8 @@ class Player {
   void retry_or_drop(std::size_t track, bool full, Instant give_up) {
     if (full && now_ < give_up) {
       ++report_.retries;
-      rim_.wait_until(now_ + kRetryPause);
-      now_ = rim_.now();
+      io_.wait_until(now_ + kRetryPause);
+      now_ = io_.now();
       if (judges_lateness()) refuse_late(track);
     } else {
       drop(track, full ? count_of(track).dropped_full : count_of(track).dropped_refused);
@@ -231,7 +231,7 @@ class Player {
 
   const Timeline& timeline_;
   PlayOptions options_;
-  Rim& rim_;
+  Io& io_;
   std::vector<Cursor> cursors_;
   PlayReport report_;
   unsigned pass_ = 0, last_pass_ = 0;  // present pass; pass of the last record that was sent

@@ -3,7 +3,7 @@
 
 #include <charconv>
 
-#include "hil/replay/socket_rim.hpp"
+#include "hil/replay/socket_io.hpp"
 
 namespace pitwall::replay {
 namespace {

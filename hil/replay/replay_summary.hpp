@@ -12,7 +12,7 @@
 #include <string>
 
 #include "hil/replay/player.hpp"
-#include "hil/replay/socket_rim.hpp"
+#include "hil/replay/socket_io.hpp"
 #include "hil/replay/timeline.hpp"
 #include "protocol/transport/bench_clock/clock_waits.hpp"
 #include "protocol/transport/realtime.hpp"

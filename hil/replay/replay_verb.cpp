@@ -14,7 +14,7 @@
 #include "hil/replay/replay_clock.hpp"
 #include "hil/replay/replay_options.hpp"
 #include "hil/replay/replay_summary.hpp"
-#include "hil/replay/socket_rim.hpp"
+#include "hil/replay/socket_io.hpp"
 #include "hil/replay/timeline.hpp"
 #include "protocol/transport/clock.hpp"
 #include "protocol/transport/file.hpp"
@@ -26,10 +26,10 @@ namespace {
 
 constexpr int kExitIncomplete = 1;
 constexpr int kExitRefused = 2;
-constexpr int kPriority = 50;                    // SCHED_FIFO, above everything of a desktop
-constexpr Duration kCallPatience = seconds(2);   // a car tries to connect twice a second
-constexpr Duration kWritePatience = seconds(2);  // of a slow line, for what is queued at the end
-constexpr Duration kRunUp = milliseconds(20);    // from the last preparation to the first frame
+constexpr int kPriority = 50;                     // SCHED_FIFO, above everything of a desktop
+constexpr Duration kConnectTimeout = seconds(2);  // a car tries to connect twice a second
+constexpr Duration kWriteTimeout = seconds(2);    // of a slow line, for what is queued at the end
+constexpr Duration kRunUp = milliseconds(20);     // from the last preparation to the first frame
 constexpr Duration kLongestReplay = seconds(100LL * 366 * 24 * 3'600);  // what int64 holds, thrice
 constexpr int kOutput = 1, kErrors = 2;                                 // descriptors
 
@@ -105,36 +105,36 @@ Result<Timeline, Problem> load(const ReplayOptions& options) {
 }
 
 // What the kernel and the other ends did not take, besides what the player counts.
-std::string losses_text(const SocketRim& rim, const Timeline& timeline) {
+std::string losses_text(const SocketIo& io, const Timeline& timeline) {
   std::string text;
-  if (!rim.last_error().empty()) text += "the kernel refused to send: " + rim.last_error() + "\n";
+  if (!io.last_error().empty()) text += "the kernel refused to send: " + io.last_error() + "\n";
   for (std::size_t track = 0; track < timeline.tracks.size(); ++track)
-    if (const std::uint64_t unheard = rim.unheard(track); unheard > 0)
-      text += timeline.tracks[track].target + ": nobody listened to " + std::to_string(unheard) +
-              " datagrams or more\n";
-  for (const std::string& topic : rim.unread_topics()) text += topic + ": nobody reads it\n";
-  return text + to_text(rim.streams());
+    if (const std::uint64_t undelivered = io.undelivered(track); undelivered > 0)
+      text += timeline.tracks[track].target + ": nobody listened to " +
+              std::to_string(undelivered) + " datagrams or more\n";
+  for (const std::string& topic : io.unread_topics()) text += topic + ": nobody reads it\n";
+  return text + to_text(io.streams());
 }
 
-bool has_lost_bytes(const SocketRim& rim) {
-  return std::ranges::any_of(rim.streams(),
+bool has_lost_bytes(const SocketIo& io) {
+  return std::ranges::any_of(io.streams(),
                              [](const StreamReport& s) { return s.counters.lost_bytes > 0; });
 }
 
 Result<PlayReport, Problem> play(const Timeline& timeline, const ReplayOptions& options,
-                                 SocketRim& rim, ReplayClock& clock,
+                                 SocketIo& io, ReplayClock& clock,
                                  const transport::RealtimeReport& realtime) {
-  Player player(timeline, options.play, rim);
+  Player player(timeline, options.play, io);
   const Duration lead = !clock.is_wall() ? Duration{}
                         : options.lead   ? *options.lead
-                                         : SocketRim::measured_lead();
-  rim.set_lead(lead);
+                                         : SocketIo::measured_lead();
+  io.set_lead(lead);
   transport::write_to(kOutput, to_string(realtime) + "; wakes up " +
                                    std::to_string(lead.ns / 1'000) + " us early\n");
-  rim.wait_for_callers(kCallPatience);
+  io.wait_for_clients(kConnectTimeout);
   if (const auto begun = clock.begin(); !begun) return Unexpected{begun.error()};
   PlayReport report = player.play(transport::monotonic_now() + kRunUp);
-  rim.finish(kWritePatience);
+  io.finish(kWriteTimeout);
   return report;
 }
 
@@ -151,21 +151,21 @@ int replay_verb(std::span<const std::string> args) {
   if (!clock) return refuse(clock.error());
   const auto timeline = load(*options);
   if (!timeline) return refuse(timeline.error());
-  auto rim = SocketRim::open(*timeline);
-  if (!rim) return refuse(rim.error());
+  auto io = SocketIo::open(*timeline);
+  if (!io) return refuse(io.error());
   const auto realtime = transport::request_realtime(kPriority);
-  const auto report = play(*timeline, *options, *rim, *clock, realtime);
+  const auto report = play(*timeline, *options, *io, *clock, realtime);
   if (!report) return refuse(report.error());
   const auto waits = clock->end();
   transport::write_to(kOutput, to_text(*report, *timeline) + (waits ? to_text(*waits) : ""));
-  transport::write_to(kErrors, losses_text(*rim, *timeline));
+  transport::write_to(kErrors, losses_text(*io, *timeline));
   if (!options->json_file.empty()) {
     const auto written = transport::write_file(
-        options->json_file, to_json(*report, *timeline, rim->streams(), realtime, waits));
+        options->json_file, to_json(*report, *timeline, io->streams(), realtime, waits));
     if (!written) return refuse(written.error());
   }
   const bool is_incomplete =
-      report->dropped() > 0 || report->aborted || report->stopped || has_lost_bytes(*rim);
+      report->dropped() > 0 || report->aborted || report->stopped || has_lost_bytes(*io);
   return is_incomplete ? kExitIncomplete : 0;
 }
 

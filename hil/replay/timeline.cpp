@@ -107,42 +107,42 @@ bool can_be_interface(const std::string& name) {
 
 struct Way {
   std::optional<std::size_t> track{};
-  std::string why_not{};
+  std::string reason{};
 };
 
 Way way_of_can(const std::string& name, const TimelineOptions& options, TimelineBuilder& builder) {
   if (const auto* mapped = value_of(options.map, name)) return {.track = builder.bus(*mapped)};
   const std::string remedy = "--map " + name + "=INTERFACE sends it";
-  if (name == recorder::kSentTopic) return {.why_not = "the car said it itself; " + remedy};
+  if (name == recorder::kSentTopic) return {.reason = "the car said it itself; " + remedy};
   if (!options.interface.empty()) return {.track = builder.bus(options.interface)};
   if (can_be_interface(name)) return {.track = builder.bus(name)};
-  return {.why_not = "has no interface; " + remedy};
+  return {.reason = "has no interface; " + remedy};
 }
 
 Way way_of_topic(const Source& source, const TimelineOptions& options, TimelineBuilder& builder) {
-  if (!options.dds) return {.why_not = "a ROS 2 topic; --dds DOMAIN sends it"};
+  if (!options.dds) return {.reason = "a ROS 2 topic; --dds DOMAIN sends it"};
   const auto topic = ros_topic(source.name, source.type);
-  if (!topic) return {.why_not = topic.error().what};
+  if (!topic) return {.reason = topic.error().what};
   const auto track = builder.topic(*topic);
-  if (!track) return {.why_not = "its topic has another type already"};
+  if (!track) return {.reason = "its topic has another type already"};
   return {.track = track};
 }
 
 Way way_of(const Source& source, const TimelineOptions& options, TimelineBuilder& builder) {
-  if (!is_chosen(source.name, options)) return {.why_not = "not among those of --topic"};
+  if (!is_chosen(source.name, options)) return {.reason = "not among those of --topic"};
   switch (source.kind) {
     case SourceKind::kCan:
       return way_of_can(source.name, options, builder);
     case SourceKind::kReceiver:
       if (const auto* to = value_of(options.receivers, source.name))
         return {.track = builder.bytes(*to)};
-      return {.why_not = "has no target; --receiver " + source.name + "=ADDRESS:PORT sends it"};
+      return {.reason = "has no target; --receiver " + source.name + "=ADDRESS:PORT sends it"};
     case SourceKind::kRos:
       return way_of_topic(source, options, builder);
     case SourceKind::kOther:
       break;
   }
-  return {.why_not = "neither CAN nor a receiver nor a ROS 2 topic"};
+  return {.reason = "neither CAN nor a receiver nor a ROS 2 topic"};
 }
 
 }  // namespace
@@ -179,7 +179,7 @@ Result<Timeline, Problem> make_timeline(const Recording& recording,
       continue;
     }
     Way way = way_of(source, options, builder);
-    if (!way.track) builder.leave_out({source.name, std::move(way.why_not), source.records});
+    if (!way.track) builder.leave_out({source.name, std::move(way.reason), source.records});
     track.push_back(way.track);
   }
   for (const traffic::Record& record : recording.records) {

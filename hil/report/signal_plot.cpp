@@ -177,47 +177,47 @@ PanelText text_of(const Panel& panel) {
           .has_short_names = is_one};
 }
 
-Drawn draw(const Panel& panel, const SignalPicture& picture) {
+Drawn draw(const Panel& panel, const SignalPlot& plot) {
   std::vector<Line> lines;
   for (const SignalSeries* const series : panel.series)
-    lines.push_back(thinned(panel.is_named ? stepped(series->points) : series->points,
-                            picture.from_s, picture.to_s, kBuckets));
+    lines.push_back(thinned(panel.is_named ? stepped(series->points) : series->points, plot.from_s,
+                            plot.to_s, kBuckets));
   const can::Signal& first = *panel.series.front()->chosen.signal;
   std::vector<Plot::Name> names;
   if (panel.is_named) names = names_for(first, lines.front());
   const double height =
       std::clamp(kFrame + kRow * static_cast<double>(names.size()), kHeight, kMaxHeight);
   const PanelText text = text_of(panel);
-  Plot plot("signals", text.title, Plot::Kind::kTime, {kPageWidth, height},
-            {picture.from_s, picture.to_s, "time from the start of the log, s"},
-            axis_over(lines, text.label, least_span_of(lines, first.layout.scale)));
-  plot.y_names(std::move(names));
+  Plot drawing("signals", text.title, Plot::Kind::kTime, {kPageWidth, height},
+               {plot.from_s, plot.to_s, "time from the start of the log, s"},
+               axis_over(lines, text.label, least_span_of(lines, first.layout.scale)));
+  drawing.y_names(std::move(names));
   for (std::size_t i = 0; i < lines.size(); ++i) {
     const SignalSeries& series = *panel.series[i];
     const can::Signal& signal = *series.chosen.signal;
     const Colour colour = kColours[i];
-    plot.line(lines[i], {.colour = colour,
-                         .name = text.has_short_names ? signal.name : series.name(),
-                         .unit = signal.unit});
+    drawing.line(lines[i], {.colour = colour,
+                            .name = text.has_short_names ? signal.name : series.name(),
+                            .unit = signal.unit});
     if (series.points.size() <= kDottedPoints)
-      plot.dots(series.points, {.colour = colour, .name = {}, .unit = {}}, 5.0);
+      drawing.dots(series.points, {.colour = colour, .name = {}, .unit = {}}, 5.0);
   }
-  return {plot.svg(), height};
+  return {drawing.svg(), height};
 }
 
 }  // namespace
 
-std::string signal_svg(const SignalPicture& picture) {
+std::string signal_svg(const SignalPlot& plot) {
   constexpr double kTitle = 30.0, kLine = 18.0, kSide = 8.0;
   double y = kTitle;
   std::string body;
-  for (const std::string& line : picture.caption) {
+  for (const std::string& line : plot.caption) {
     body +=
         formatted("<text x=\"%.0f\" y=\"%.0f\">", kSide, y + 12.0) + escaped(line) + "</text>\n";
     y += kLine;
   }
-  for (const Panel& panel : panels_of(picture.series)) {
-    const Drawn drawn = draw(panel, picture);
+  for (const Panel& panel : panels_of(plot.series)) {
+    const Drawn drawn = draw(panel, plot);
     body += formatted("<g transform=\"translate(0 %.0f)\">", y) + drawn.svg + "</g>\n";
     y += drawn.height;
   }
@@ -227,20 +227,20 @@ std::string signal_svg(const SignalPicture& picture) {
       kPageWidth, y, kPageWidth, y);
   out += kPlotStyle;
   return out + "</style>\n<rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>\n" +
-         formatted("<text class=\"title\" x=\"%.0f\" y=\"20\">", kSide) + escaped(picture.title) +
+         formatted("<text class=\"title\" x=\"%.0f\" y=\"20\">", kSide) + escaped(plot.title) +
          "</text>\n" + body + "</svg>\n";
 }
 
-std::string signal_page(const SignalPicture& picture) {
-  const std::string title = escaped(picture.title);
+std::string signal_page(const SignalPlot& plot) {
+  const std::string title = escaped(plot.title);
   std::string out = "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><title>" +
                     title + "</title>\n<link rel=\"icon\" href=\"data:,\">\n<style>";
   out += kPlotStyle;
   out += kStyle;
   out += "</style></head>\n<body>\n<h1>" + title + "</h1>\n";
-  for (const std::string& line : picture.caption)
+  for (const std::string& line : plot.caption)
     out += "<p class=\"note\">" + escaped(line) + "</p>\n";
-  for (const Panel& panel : panels_of(picture.series)) out += draw(panel, picture).svg;
+  for (const Panel& panel : panels_of(plot.series)) out += draw(panel, plot).svg;
   out += "<script>";
   out += kScript;
   return out + "</script>\n</body></html>\n";

@@ -22,14 +22,14 @@ namespace pitwall::report {
 inline constexpr std::size_t kPanelSignals = 4;
 inline constexpr double kLeastDrawn_s = 1e-3;  // shortest time axis
 
-struct SignalPicture {
+struct SignalPlot {
   std::string title;
   std::vector<std::string> caption;
   std::span<const SignalSeries> series;
   double from_s = 0.0, to_s = kLeastDrawn_s;  // at least kLeastDrawn_s apart
 };
 
-std::string signal_svg(const SignalPicture& picture);
-std::string signal_page(const SignalPicture& picture);
+std::string signal_svg(const SignalPlot& picture);
+std::string signal_page(const SignalPlot& picture);
 
 }  // namespace pitwall::report

@@ -22,9 +22,9 @@ struct GaussMarkov {
     for (double& v : value) v = noise.normal();
   }
   void advance(Noise& noise, double dt_s, double correlation_s) {
-    const double keep = std::exp(-dt_s / correlation_s);
-    const double stir = std::sqrt(1.0 - keep * keep);
-    for (double& v : value) v = keep * v + stir * noise.normal();
+    const double decay = std::exp(-dt_s / correlation_s);
+    const double noise_gain = std::sqrt(1.0 - decay * decay);
+    for (double& v : value) v = decay * v + noise_gain * noise.normal();
   }
 };
 

@@ -63,18 +63,18 @@ void post_solution(Box& box, Sample sample, const Cadence& cadence, const Epoch&
   if (!f.outage && !way.lost) post(box, sample, way.takes + f.added_latency, e);
 }
 
-void spoil(const StreamFault& f, world::GnssPosition& s) {
+void apply_fault(const StreamFault& f, world::GnssPosition& s) {
   if (f.not_a_number) s.latitude_deg = s.height_m = kNan;
   if (!f.negative_sigma) return;
   s.latitude_sigma_m = -s.latitude_sigma_m, s.longitude_sigma_m = -s.longitude_sigma_m;
   s.height_sigma_m = -s.height_sigma_m;
 }
 
-void spoil(const StreamFault& f, world::GnssVelocity& s) {
+void apply_fault(const StreamFault& f, world::GnssVelocity& s) {
   if (f.not_a_number) s.horizontal_mps = s.vertical_mps = kNan;
 }
 
-void spoil(const StreamFault& f, world::GnssHeading& s) {
+void apply_fault(const StreamFault& f, world::GnssHeading& s) {
   if (f.not_a_number) s.heading_rad = kNan;
   if (f.negative_sigma) s.heading_sigma_rad = -s.heading_sigma_rad;
 }
@@ -92,8 +92,8 @@ void at_position_epoch(const Params& p, const plant::Truth& t, const Sky& sky, c
   if (e.fault.stream.position_frozen && u.gnss.has_last_position) position = u.gnss.last_position;
   u.gnss.last_position = position;
   u.gnss.has_last_position = true;
-  spoil(e.fault.stream, position);
-  spoil(e.fault.stream, velocity);
+  apply_fault(e.fault.stream, position);
+  apply_fault(e.fault.stream, velocity);
   post_solution(u.positions, position, p.position, e);
   post_solution(u.velocities, velocity, p.velocity, e);
   post_solution(u.attitudes, attitude, p.attitude, e);
@@ -102,7 +102,7 @@ void at_position_epoch(const Params& p, const plant::Truth& t, const Sky& sky, c
 void at_heading_epoch(const Params& p, const plant::Truth& t, const Epoch& e, UnitState& u) {
   auto heading =
       measure_heading(p.unit[e.unit], e.fault.solution, t, p.heading.period.seconds(), u.gnss);
-  spoil(e.fault.stream, heading);
+  apply_fault(e.fault.stream, heading);
   UnitFault fault = e.fault;
   fault.stream.outage = fault.stream.outage || fault.stream.heading_outage;
   post_solution(u.headings, heading, p.heading, {e.unit, e.now, fault, e.arrival, e.overflows});

@@ -16,8 +16,8 @@
 namespace pitwall::can {
 namespace {
 
-constexpr std::string_view kParkedName = "VECTOR__INDEPENDENT_SIG_MSG";
-constexpr std::uint32_t kParkedBit = 0x40000000;
+constexpr std::string_view kIndependentName = "VECTOR__INDEPENDENT_SIG_MSG";
+constexpr std::uint32_t kIndependentBit = 0x40000000;
 constexpr std::size_t kMaxStops = kMaxFindings / 2;  // statements that cannot be read, of one file
 constexpr std::size_t kMaxLongSignals = 8 * kMaxTransportBytes;  // as many as bits
 
@@ -52,8 +52,8 @@ class Parser {
     if (stops_ == kMaxStops) give_up();
     close();
     draft_.index();
-    for (const auto& turn : details_) {
-      for (const std::size_t begin : turn) {
+    for (const auto& pass : details_) {
+      for (const std::size_t begin : pass) {
         scan_.rewind(begin);
         read_detail(scan_, draft_);
       }
@@ -68,11 +68,11 @@ class Parser {
   void section() {
     const std::string_view word = scan_.word();
     if (word == "SG_") return add_signal();
-    const int turn = turn_of(word);
-    if (turn >= 0) {
+    const int pass = pass_of(word);
+    if (pass >= 0) {
       close();
       (void)scan_.statement();
-      return details_[static_cast<std::size_t>(turn)].push_back(begin_);
+      return details_[static_cast<std::size_t>(pass)].push_back(begin_);
     }
     if (word == "BO_") return message();
     if (!is_section(word) || is_unused_section(word)) return keep(word);
@@ -210,7 +210,7 @@ class Parser {
     } else if (scan_.next_word().empty() && !scan_.at_end() && !scan_.begins_line(scan_.here())) {
       (void)scan_.word();  // stops
     } else {
-      m.sender = kNobody;
+      m.sender = kNoNode;
       draft_.flaw(m, {FindingKind::kSyntax, scan_.place(), "message " + m.name + " has no sender",
                       "it is read as if it named " + m.sender, m.name});
     }
@@ -230,9 +230,10 @@ class Parser {
                               " is left out with " + its_signals,
                           m.name});
     }
-    if (o.key == kIndependentSignals || ((o.key & kParkedBit) != 0 && m.name == kParkedName)) {
+    if (o.key == kIndependentSignals ||
+        ((o.key & kIndependentBit) != 0 && m.name == kIndependentName)) {
       draft_.leave_out(o.key);
-      return draft_.find({FindingKind::kParked, m.place,
+      return draft_.find({FindingKind::kIndependentSignals, m.place,
                           m.name + " is no message; " + its_signals + " are skipped", "", m.name});
     }
     if (m.id > (m.extended ? kMaxExtendedId : kMaxStandardId) && !is_kept_as_extended(o)) return;
@@ -317,7 +318,7 @@ class Parser {
       const std::string_view word = scan_.next_word();
       if (word.empty() || is_section(word)) return;
       (void)scan_.word();
-      if (word != kNobody) s.receivers.push_back(scan_.utf8(word));
+      if (word != kNoNode) s.receivers.push_back(scan_.utf8(word));
     } while (scan_.take(',') || !scan_.begins_line(scan_.here()));
   }
 
@@ -346,7 +347,7 @@ class Parser {
   std::optional<OpenMessage> open_;
   bool has_messages_ = false;
   std::size_t stops_ = 0;
-  std::array<std::vector<std::size_t>, kTurns> details_;
+  std::array<std::vector<std::size_t>, kPasses> details_;
 };
 
 // What UTF-16 lost on the way.

@@ -5,7 +5,8 @@ namespace pitwall::can {
 
 FindingSeverity severity_of(FindingKind kind) {
   if (kind < FindingKind::kRange) return FindingSeverity::kError;
-  return kind < FindingKind::kParked ? FindingSeverity::kWarning : FindingSeverity::kNote;
+  return kind < FindingKind::kIndependentSignals ? FindingSeverity::kWarning
+                                                 : FindingSeverity::kNote;
 }
 
 const char* name_of(FindingSeverity severity) {

@@ -32,7 +32,7 @@ enum class FindingKind : std::uint8_t {
   kNoMessage,
   kNode,
   kUnreceived,
-  kParked,  // notes from here on
+  kIndependentSignals,  // notes from here on
   kConverted,
 };
 inline constexpr std::size_t kFindingKinds = 20;

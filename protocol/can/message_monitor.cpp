@@ -176,7 +176,7 @@ FrameVerdict verdict_of(const MonitorRules& rules, MessageMonitor& m, bool is_wh
 }
 
 void report_overdue(const MessageRow& row, MessageMonitor& m, Instant now, LossLog& losses) {
-  const Duration beyond = now - m.base - slack_of(row);
+  const Duration beyond = now - m.base - tolerance_of(row);
   const std::uint32_t overdue = held((beyond - nanoseconds(1)) / row.period);
   if (overdue <= m.reported) return;
   m.lost += overdue - m.reported;

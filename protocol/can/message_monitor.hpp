@@ -114,7 +114,7 @@ struct MessageMonitor {
 static_assert(std::is_trivially_copyable_v<MessageMonitor>);
 
 // How much later than its period a frame may arrive.
-constexpr Duration slack_of(const MessageRow& row) {
+constexpr Duration tolerance_of(const MessageRow& row) {
   return std::min(row.period / 2, milliseconds(80));
 }
 

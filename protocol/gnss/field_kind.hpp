@@ -45,7 +45,7 @@ enum class Kind : std::uint8_t {
 
 inline constexpr std::size_t kMostEntries = 6;
 
-inline std::optional<DecodeError> judge(Kind kind, double value) {
+inline std::optional<DecodeError> check_field(Kind kind, double value) {
   constexpr double kMaxLatitude_deg = 90.0, kMaxLongitude_deg = 180.0, kWeek_s = 604'800.0;
   if (kind == Kind::kReserved) return std::nullopt;
   if (!std::isfinite(value)) return DecodeError::kNotFinite;
@@ -59,12 +59,12 @@ inline std::optional<DecodeError> judge(Kind kind, double value) {
 }
 
 // Keeps the first reason to refuse a message while its fields are visited.
-class Judge {
+class FieldCheck {
  public:
   template <class T>
-  void see(Kind kind, T value) {
+  void add(Kind kind, T value) {
     if constexpr (std::is_floating_point_v<T>) {
-      if (!refusal_) refusal_ = judge(kind, static_cast<double>(value));
+      if (!refusal_) refusal_ = check_field(kind, static_cast<double>(value));
     } else if constexpr (std::is_same_v<T, std::uint32_t>) {
       if (kind == Kind::kEntries && value > kMostEntries) refuse(DecodeError::kTooMany);
     }

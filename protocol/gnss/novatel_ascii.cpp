@@ -96,7 +96,7 @@ bool read_text(std::string_view text, std::array<char, 4>& value) {
 
 struct TextReader {
   Fields fields;
-  Judge judge;
+  FieldCheck check;
 
   template <class... Field>
   void operator()(Kind kind, Field&... field) {
@@ -107,9 +107,9 @@ struct TextReader {
   template <class T>
   void read(Kind kind, T& value) {
     const auto text = fields.next();
-    if (!text) return judge.refuse(DecodeError::kTooShort);
-    if (!parse(kind, *text, value)) return judge.refuse(DecodeError::kBadText);
-    judge.see(kind, value);
+    if (!text) return check.refuse(DecodeError::kTooShort);
+    if (!parse(kind, *text, value)) return check.refuse(DecodeError::kBadText);
+    check.add(kind, value);
   }
   static bool parse(Kind, std::string_view text, std::array<char, 4>& value) {
     return read_text(text, value);
@@ -123,7 +123,7 @@ struct TextReader {
 // Milliseconds of the week from seconds.
 bool read_milliseconds(std::string_view text, std::uint32_t& milliseconds) {
   double seconds = 0.0;
-  if (!read_number(text, seconds) || judge(Kind::kSeconds, seconds)) return false;
+  if (!read_number(text, seconds) || check_field(Kind::kSeconds, seconds)) return false;
   milliseconds = static_cast<std::uint32_t>(std::llround(seconds * 1e3));
   return true;
 }
@@ -294,7 +294,7 @@ Result<NovatelMessage, DecodeError> decode_ascii(std::uint16_t id, std::string_v
   if (!message) return Unexpected{DecodeError::kUnknownId};
   TextReader reader{Fields{fields}, {}};
   std::visit([&reader](auto& m) { visit_fields(m, reader); }, *message);
-  if (reader.judge.refusal()) return Unexpected{*reader.judge.refusal()};
+  if (reader.check.refusal()) return Unexpected{*reader.check.refusal()};
   return *message;
 }
 

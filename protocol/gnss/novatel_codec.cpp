@@ -16,7 +16,7 @@ constexpr std::uint8_t kResponseBit = 0x80, kFormatBits = 0x60;
 
 struct FieldReader {
   ByteReader in;
-  Judge judge;
+  FieldCheck check;
 
   template <class... Field>
   void operator()(Kind kind, Field&... field) {
@@ -27,12 +27,12 @@ struct FieldReader {
   template <class T>
   void read(Kind kind, T& field) {
     field = in.get<T>();
-    if (!in.ok()) return judge.refuse(DecodeError::kTooShort);
-    judge.see(kind, field);
+    if (!in.ok()) return check.refuse(DecodeError::kTooShort);
+    check.add(kind, field);
   }
   void read(Kind, std::array<char, 4>& text) {
     for (char& c : text) c = static_cast<char>(in.get<std::uint8_t>());
-    if (!in.ok()) judge.refuse(DecodeError::kTooShort);
+    if (!in.ok()) check.refuse(DecodeError::kTooShort);
   }
 };
 
@@ -59,7 +59,7 @@ Result<NovatelMessage, DecodeError> decode_binary(const NovatelFrame& frame) {
   if (!message) return Unexpected{DecodeError::kUnknownId};
   FieldReader reader{ByteReader{frame.body}, {}};
   std::visit([&reader](auto& m) { visit_fields(m, reader); }, *message);
-  if (reader.judge.refusal()) return Unexpected{*reader.judge.refusal()};
+  if (reader.check.refusal()) return Unexpected{*reader.check.refusal()};
   return *message;
 }
 

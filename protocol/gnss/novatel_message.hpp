@@ -48,7 +48,7 @@ struct NovatelHeader {
 
 // True if week and time of week are valid. A short header has no time status: there the week is
 // zero until the receiver has the time.
-constexpr bool knows_time(const NovatelHeader& h) {
+constexpr bool has_time(const NovatelHeader& h) {
   const bool status = h.short_form || h.time_status >= static_cast<int>(TimeStatus::kCoarse);
   return status && is_week(h.week) && h.milliseconds < kWeek_ms;
 }

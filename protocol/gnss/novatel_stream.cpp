@@ -131,7 +131,7 @@ bool NovatelStream::next(NovatelFrame& frame) {
     if (found == Found::kNotYet) return false;
     if (found == Found::kFrame) {
       ++counters_.frames;
-      astray_ = false;
+      out_of_sync_ = false;
       return true;
     }
     discard(1);
@@ -204,8 +204,8 @@ void NovatelStream::skip_to_sync() {
 void NovatelStream::discard(std::size_t n) {
   window_.take_off(n);
   counters_.garbage_bytes += n;
-  if (n > 0 && !astray_) ++counters_.resyncs;
-  astray_ = astray_ || n > 0;
+  if (n > 0 && !out_of_sync_) ++counters_.resyncs;
+  out_of_sync_ = out_of_sync_ || n > 0;
 }
 
 }  // namespace pitwall::gnss

@@ -47,7 +47,7 @@ class NovatelStream {
 
   StreamWindow<kMaxFrameBytes> window_;
   StreamCounters counters_;
-  bool astray_ = false;  // inside bytes that belong to no frame
+  bool out_of_sync_ = false;  // inside bytes that belong to no frame
 };
 
 }  // namespace pitwall::gnss

@@ -44,7 +44,7 @@ Measurer measure(VectorNavGroup group, std::uint32_t mask) {
 struct PayloadReader {
   ByteReader in;
   std::uint32_t mask = 0;
-  Judge judge;
+  FieldCheck check;
 
   template <class... Field>
   void operator()(unsigned bit, Kind kind, Field&... field) {
@@ -59,8 +59,8 @@ struct PayloadReader {
   template <class T>
   void read(Kind kind, T& value) {
     value = in.get<T>();
-    if (!in.ok()) return judge.refuse(DecodeError::kTooShort);
-    judge.see(kind, value);
+    if (!in.ok()) return check.refuse(DecodeError::kTooShort);
+    check.add(kind, value);
   }
   template <class T, std::size_t N>
   void read(Kind kind, std::array<T, N>& values) {
@@ -140,7 +140,7 @@ Result<VectorNavMessage, DecodeError> decode(const VectorNavFrame& frame) {
     reader.mask = frame.output.fields[i];
     visit_fields(group_of(i), message, reader);
   }
-  if (reader.judge.refusal()) return Unexpected{*reader.judge.refusal()};
+  if (reader.check.refusal()) return Unexpected{*reader.check.refusal()};
   return message;
 }
 

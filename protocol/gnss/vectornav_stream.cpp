@@ -41,7 +41,7 @@ bool VectorNavStream::next(VectorNavFrame& frame) {
              .bytes = whole.size()};
     window_.take_off(whole.size());
     ++counters_.frames;
-    astray_ = false;
+    out_of_sync_ = false;
     return true;
   }
 }
@@ -54,8 +54,8 @@ bool VectorNavStream::is_expected(const VectorNavOutput& output) const {
 void VectorNavStream::discard(std::size_t n) {
   window_.take_off(n);
   counters_.garbage_bytes += n;
-  if (n > 0 && !astray_) ++counters_.resyncs;
-  astray_ = astray_ || n > 0;
+  if (n > 0 && !out_of_sync_) ++counters_.resyncs;
+  out_of_sync_ = out_of_sync_ || n > 0;
 }
 
 }  // namespace pitwall::gnss

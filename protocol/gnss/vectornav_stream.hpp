@@ -45,7 +45,7 @@ class VectorNavStream {
   FixedVector<VectorNavOutput, kMaxOutputs> expected_;
   StreamWindow<kMaxVectorNavBytes> window_;
   StreamCounters counters_;
-  bool astray_ = false;  // inside bytes that belong to no frame
+  bool out_of_sync_ = false;  // inside bytes that belong to no frame
 };
 
 }  // namespace pitwall::gnss

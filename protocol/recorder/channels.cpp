@@ -20,7 +20,7 @@ using telemetry::kFieldCount;
 
 constexpr std::array<std::uint8_t, kCdrHeader> kLittleEndianCdr{0, 1, 0, 0};
 constexpr std::string_view kFieldsKey = "fields", kClockKey = "utc_minus_base_ns",
-                           kBootKey = "boot", kPictureTopic = "/base/picture";
+                           kBootKey = "boot", kSnapshotTopic = "/base/picture";
 constexpr std::string_view kAnyObject = R"({"type":"object"})";
 
 std::string path_of(const FieldRow& row) {
@@ -59,12 +59,12 @@ recording::Channel group_channel(const telemetry::GroupRow& row) {
           {{std::string{kFieldsKey}, fields}}};
 }
 
-recording::Channel picture_channel() {
+recording::Channel snapshot_channel() {
   const std::string count = std::to_string(kFieldCount);
   std::string fields;
   for (const FieldRow& row : telemetry::kFields)
     fields += (fields.empty() ? "" : ",") + path_of(row);
-  return {std::string{kPictureTopic},
+  return {std::string{kSnapshotTopic},
           "cdr",
           {"pitwall_msgs/msg/Picture", "ros2msg",
            "float64[" + count + "] value\nint64[" + count + "] sampled_ns\n"},
@@ -100,7 +100,7 @@ std::vector<recording::Channel> channels() {
                    {"pitwall_msgs/msg/" + std::string{name}, "jsonschema", std::string{kAnyObject}},
                    {}});
   }
-  all.push_back(picture_channel());
+  all.push_back(snapshot_channel());
   for (const char* topic : {"/radio/down", "/radio/up"}) {
     all.push_back(
         {topic, kDatagramEncoding, {}, {{"layout", "version, path, port, address, data"}}});
@@ -170,7 +170,7 @@ std::optional<ChannelFields> ChannelFields::of(const recording::Channel& channel
   const std::string* const names = find(channel.metadata, kFieldsKey);
   if (names == nullptr) return std::nullopt;
   ChannelFields fields;
-  fields.picture_ = channel.topic == kPictureTopic;
+  fields.snapshot_ = channel.topic == kSnapshotTopic;
   std::string_view rest{*names};
   while (!rest.empty()) {
     const std::string_view name = rest.substr(0, rest.find(','));
@@ -182,7 +182,7 @@ std::optional<ChannelFields> ChannelFields::of(const recording::Channel& channel
 }
 
 bool ChannelFields::decode(std::span<const std::uint8_t> sample, telemetry::Values& values) const {
-  if (picture_ || !is_cdr(sample, places_.size())) return false;
+  if (snapshot_ || !is_cdr(sample, places_.size())) return false;
   for (std::size_t i = 0; i < places_.size(); ++i) {
     if (places_[i]) values[*places_[i]] = std::bit_cast<double>(get(sample, i));
   }
@@ -190,7 +190,7 @@ bool ChannelFields::decode(std::span<const std::uint8_t> sample, telemetry::Valu
 }
 
 bool ChannelFields::decode(std::span<const std::uint8_t> sample, Known& known) const {
-  if (!picture_ || !is_cdr(sample, 2 * places_.size())) return false;
+  if (!snapshot_ || !is_cdr(sample, 2 * places_.size())) return false;
   for (std::size_t i = 0; i < places_.size(); ++i) {
     if (!places_[i]) continue;
     known.value[*places_[i]] = std::bit_cast<double>(get(sample, i));

@@ -69,8 +69,8 @@ constexpr std::uint16_t channel_of(Topic topic) {
   return static_cast<std::uint16_t>(telemetry::kGroups + static_cast<std::size_t>(topic));
 }
 constexpr bool is_group(std::uint16_t channel) { return channel < telemetry::kGroups; }
-inline constexpr auto kPictureChannel = static_cast<std::uint16_t>(telemetry::kGroups + kTopics);
-inline constexpr std::uint16_t kDownChannel = kPictureChannel + 1, kUpChannel = kDownChannel + 1;
+inline constexpr auto kSnapshotChannel = static_cast<std::uint16_t>(telemetry::kGroups + kTopics);
+inline constexpr std::uint16_t kDownChannel = kSnapshotChannel + 1, kUpChannel = kDownChannel + 1;
 inline constexpr std::uint16_t kCanInChannel = kUpChannel + 1, kCanOutChannel = kCanInChannel + 1;
 // Of unit 0; that of unit 1 follows.
 inline constexpr std::uint16_t kReceiverChannel = kCanOutChannel + 1;
@@ -117,7 +117,7 @@ class ChannelFields {
  public:
   static std::optional<ChannelFields> of(const recording::Channel& channel);
 
-  bool is_picture() const { return picture_; }
+  bool is_snapshot() const { return snapshot_; }
   // Writes all fields of one group into the values; leaves the others unchanged. False if the bytes
   // are not a sample of this channel.
   bool decode(std::span<const std::uint8_t> sample, telemetry::Values& values) const;
@@ -128,7 +128,7 @@ class ChannelFields {
  private:
   std::vector<std::optional<telemetry::FieldIndex>> places_;
   std::optional<telemetry::Group> group_;
-  bool picture_ = false;
+  bool snapshot_ = false;
 };
 
 }  // namespace pitwall::recorder

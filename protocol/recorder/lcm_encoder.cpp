@@ -73,7 +73,7 @@ LcmEncoder::LcmEncoder(const ClockMap& clock) : utc_of_zero_(clock.to_file(Insta
 }
 
 bool LcmEncoder::has(std::uint16_t channel) const {
-  return channel != kPictureChannel && channel != kTickChannel && channel < kinds_.size();
+  return channel != kSnapshotChannel && channel != kTickChannel && channel < kinds_.size();
 }
 
 void LcmEncoder::encode(const Record& record, std::vector<std::uint8_t>& out) const {

@@ -5,7 +5,7 @@
 //          fingerprint, utime of the sample in microseconds since 1970, members. Types:
 //          `pitwall-base export lcm`
 //   invariants
-//          the picture of all known values has no LCM message, because the groups have its values;
+//          the snapshot of all known values has no LCM message, because the groups have its values;
 //          the tick record has none either
 //   errors encode() must not be called for a channel for which has() is false
 //   cost   no allocation once the buffer has grown

@@ -36,7 +36,7 @@ void SegmentChain::keep(const Record& record) {
     ++figures_.lost;
     return;
   }
-  if (record.logged >= picture_at_) put_picture(record.logged);
+  if (record.logged >= snapshot_at_) write_snapshot(record.logged);
   if (!writer_) return;
   if (!put(record)) return fail(disk_.problem());
   if (lcm_) lcm_->take(record);
@@ -84,7 +84,7 @@ bool SegmentChain::open(Instant stamp) {
   has_chunk_ = false;
   segment_end_ = stamp + params_.segment;
   flush_at_ = now_ + params_.chunk;
-  put_picture(stamp);
+  write_snapshot(stamp);
   if (!writer_) return false;
   if (lcm_) lcm_->begin(name);
   ++number_;
@@ -148,11 +148,11 @@ void SegmentChain::reached_disk(std::uint64_t still_waiting) {
   retry_at_.reset();
 }
 
-void SegmentChain::put_picture(Instant stamp) {
-  picture_at_ = stamp + params_.picture;
+void SegmentChain::write_snapshot(Instant stamp) {
+  snapshot_at_ = stamp + params_.snapshot;
   const std::vector<std::uint8_t> bytes = encode(known_);
   const Record record{
-      .channel = kPictureChannel, .logged = stamp, .published = stamp, .data = bytes};
+      .channel = kSnapshotChannel, .logged = stamp, .published = stamp, .data = bytes};
   if (!put(record)) fail(disk_.problem());
 }
 

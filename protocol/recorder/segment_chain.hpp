@@ -1,7 +1,7 @@
 // Writer of a chain of one-minute segments, which continues after a full disk.
 //   in     records, the time; a Disk
-//   out    segments as MCAP, each complete in itself: metadata, channels, then the picture of all
-//          known values, repeated every `picture`, so that a reader can begin there
+//   out    segments as MCAP, each complete in itself: metadata, channels, then the snapshot of all
+//          known values, repeated every `snapshot`, so that a reader can begin there
 //          with a second Disk, an LCM event log beside each segment, under the same name
 //   invariants
 //          a chunk is written at 1 MiB, or earlier after half a second by the stamps or by the
@@ -22,7 +22,7 @@
 
 #include "protocol/recorder/channels.hpp"
 #include "protocol/recorder/disk.hpp"
-#include "protocol/recorder/lcm_twin.hpp"
+#include "protocol/recorder/lcm_segment_writer.hpp"
 #include "protocol/recorder/record_queue.hpp"
 #include "protocol/recording/mcap_writer.hpp"
 #include "protocol/vocabulary/result.hpp"
@@ -30,7 +30,7 @@
 namespace pitwall::recorder {
 
 struct ChainParams {
-  Duration segment = seconds(60), chunk = milliseconds(500), picture = seconds(10);
+  Duration segment = seconds(60), chunk = milliseconds(500), snapshot = seconds(10);
   Duration retry = seconds(1);
   std::uint64_t room_to_resume = std::uint64_t{8} << 20U;  // free bytes needed after a failure
   recording::Metadata run{};
@@ -67,7 +67,7 @@ class SegmentChain {
   bool flush();
   void reached_disk(std::uint64_t still_waiting);
   std::string name_of_segment(UtcTime at) const;
-  void put_picture(Instant stamp);
+  void write_snapshot(Instant stamp);
   bool put(const Record& record);
 
   Disk& disk_;
@@ -75,11 +75,11 @@ class SegmentChain {
   ChainFigures figures_;
   Known known_;  // with the sample times of the file
   std::unique_ptr<recording::McapWriter> writer_;
-  std::optional<LcmTwin> lcm_;
+  std::optional<LcmSegmentWriter> lcm_;
   std::uint64_t waiting_ = 0;  // records of the open chunk
   std::uint64_t number_ = 0;
   std::optional<Instant> retry_at_;  // set after a failure of the disk
-  Instant now_{}, segment_end_{}, picture_at_{}, flush_at_{};
+  Instant now_{}, segment_end_{}, snapshot_at_{}, flush_at_{};
   bool has_chunk_ = false;  // a chunk of the open segment is on the disk
 };
 

@@ -94,18 +94,18 @@ std::optional<McapMessage> McapReader::next() {
 }
 
 std::uint64_t McapReader::place_in_chunk(std::span<const std::uint8_t> rest) const {
-  return chunk_apart_ ? chunk_place_ : place_of(rest);
+  return chunk_compressed_ ? chunk_place_ : place_of(rest);
 }
 
-void McapReader::pass_over(std::uint64_t place, std::uint64_t bytes, std::string what) {
+void McapReader::skip_damaged(std::uint64_t place, std::uint64_t bytes, std::string what) {
   gaps_.push_back({place, bytes, std::move(what)});
 }
 
 // To the next chunk that the summary names. False: it names none.
-bool McapReader::go_on_behind(std::uint64_t place) {
+bool McapReader::resume_after(std::uint64_t place) {
   const auto next = std::ranges::upper_bound(chunk_places_, std::max(place, chunk_place_));
   if (next == chunk_places_.end()) return false;
-  pass_over(place, *next - place, "bytes that contradict themselves");
+  skip_damaged(place, *next - place, "bytes that contradict themselves");
   counters_.bytes_skipped += *next - place;
   rest_ = file_.subspan(static_cast<std::size_t>(*next));
   in_chunk_ = false;
@@ -113,7 +113,7 @@ bool McapReader::go_on_behind(std::uint64_t place) {
 }
 
 std::optional<McapMessage> McapReader::stop_or_go_on(McapEnd end, std::uint64_t place) {
-  if (go_on_behind(place)) return std::nullopt;
+  if (resume_after(place)) return std::nullopt;
   return stop(end, place);
 }
 
@@ -122,9 +122,9 @@ std::optional<McapMessage> McapReader::leave_chunk(std::uint64_t place) {
   in_chunk_ = false;
   if (chunk_cut_) return stop_or_go_on(McapEnd::kTruncated, place);
   ++counters_.broken_chunks;
-  const std::uint64_t bytes = chunk_apart_ ? chunk_.size() : place_of(rest_) - place;
+  const std::uint64_t bytes = chunk_compressed_ ? chunk_.size() : place_of(rest_) - place;
   counters_.bytes_skipped += bytes;
-  pass_over(place, bytes, "rest of a chunk that contradicts itself");
+  skip_damaged(place, bytes, "rest of a chunk that contradicts itself");
   return std::nullopt;
 }
 
@@ -181,13 +181,15 @@ std::optional<McapMessage> McapReader::read_message(const Record& record, bool v
   if (!in.ok()) return in_chunk_ ? leave_chunk(place) : stop_or_go_on(McapEnd::kMalformed, place);
   if (!channels_.contains(message.channel)) {
     ++counters_.unknown_channel;
-    pass_over(place, record.content.size(), "message of a channel that the file does not declare");
+    skip_damaged(place, record.content.size(),
+                 "message of a channel that the file does not declare");
     return std::nullopt;
   }
   const bool in_time = message.logged_ns >= chunk_start_ns_ && message.logged_ns <= chunk_end_ns_;
   if (in_chunk_ && chunk_cut_ && !in_time) {
     ++counters_.implausible;
-    pass_over(place, record.content.size(), "message of a cut chunk at a time that is none of its");
+    skip_damaged(place, record.content.size(),
+                 "message of a cut chunk at a time that is none of its");
     return std::nullopt;
   }
   message_place_ = place;
@@ -295,8 +297,8 @@ bool McapReader::open_chunk(const Record& record) {
   chunk_ = in.rest();
   chunk_cut_ = record.cut;
   if (!record.cut && bytes != chunk_.size()) return false;
-  chunk_apart_ = !compression.empty();
-  if (chunk_apart_) {
+  chunk_compressed_ = !compression.empty();
+  if (chunk_compressed_) {
     if (record.cut) return false;
     if (!decompress_chunk(record, compression, plain_bytes)) return true;
   } else if (plain_bytes != bytes) {
@@ -306,7 +308,7 @@ bool McapReader::open_chunk(const Record& record) {
   in_chunk_ = !chunk_verified_ || crc == bits::crc32_ieee(chunk_);
   if (in_chunk_) return true;
   ++counters_.bad_chunk_crc;
-  pass_over(chunk_place_, record.content.size(), "chunk whose checksum is wrong");
+  skip_damaged(chunk_place_, record.content.size(), "chunk whose checksum is wrong");
   return true;
 }
 
@@ -320,7 +322,7 @@ bool McapReader::decompress_chunk(const Record& record, std::string_view compres
     return true;
   }
   ++counters_.compressed_chunks;
-  pass_over(chunk_place_, record.content.size(), plain.error());
+  skip_damaged(chunk_place_, record.content.size(), plain.error());
   return false;
 }
 

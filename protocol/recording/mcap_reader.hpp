@@ -96,10 +96,10 @@ class McapReader {
   std::uint64_t place_of(std::span<const std::uint8_t> rest) const;
   // The same for bytes of the open chunk; for a compressed chunk, the offset of its record.
   std::uint64_t place_in_chunk(std::span<const std::uint8_t> rest) const;
-  void pass_over(std::uint64_t place, std::uint64_t bytes, std::string what);
+  void skip_damaged(std::uint64_t place, std::uint64_t bytes, std::string what);
   void read_summary();
   void read_summary_record(const Record& record);
-  bool go_on_behind(std::uint64_t place);
+  bool resume_after(std::uint64_t place);
   std::optional<McapMessage> stop_or_go_on(McapEnd end, std::uint64_t place);
   std::optional<McapMessage> leave_chunk(std::uint64_t place);
   std::optional<McapMessage> stop(McapEnd end, std::uint64_t place);
@@ -121,7 +121,7 @@ class McapReader {
   std::vector<McapGap> gaps_;
   std::vector<std::uint64_t> chunk_places_;  // from the summary, ascending
   std::uint64_t chunk_place_ = 0;            // offset of the record of the open chunk
-  bool in_chunk_ = false, chunk_verified_ = false, chunk_cut_ = false, chunk_apart_ = false;
+  bool in_chunk_ = false, chunk_verified_ = false, chunk_cut_ = false, chunk_compressed_ = false;
   std::uint64_t chunk_start_ns_ = 0, chunk_end_ns_ = 0;
   McapEnd end_ = McapEnd::kReading;
   std::uint64_t place_ = 0, message_place_ = 0;

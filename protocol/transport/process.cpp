@@ -188,13 +188,14 @@ std::optional<ExitStatus> Process::poll() { return reap(WNOHANG); }
 ExitStatus Process::wait() { return *reap(0); }
 
 std::optional<ExitStatus> Process::wait_until(Instant deadline) {
-  constexpr Duration kLook = milliseconds(5);  // only where the kernel has no pidfd (before 5.3)
+  constexpr Duration kPollPeriod =
+      milliseconds(5);  // only where the kernel has no pidfd (before 5.3)
   while (true) {
     if (const auto status = poll()) return status;
     const Instant now = monotonic_now();
     if (now >= deadline) return std::nullopt;
     const int watched[] = {pidfd_.get()};
-    wait_readable(watched, pidfd_.valid() ? deadline : std::min(deadline, now + kLook));
+    wait_readable(watched, pidfd_.valid() ? deadline : std::min(deadline, now + kPollPeriod));
   }
 }
 

@@ -29,7 +29,7 @@ std::uint32_t wait_readable(std::span<const int> descriptors, Instant deadline, 
     });
   };
   PosixOutcome outcome;
-  const Instant give_up = longest == kHoweverLong ? Instant::max() : wall_now() + longest;
+  const Instant give_up = longest == kNoTimeout ? Instant::max() : wall_now() + longest;
   if (BenchClock* const bench = BenchClock::used()) {
     bench->wait_until(deadline, [&](Duration span) {
       const Instant at = wall_now();

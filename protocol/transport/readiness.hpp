@@ -17,10 +17,10 @@ namespace pitwall::transport {
 
 inline constexpr std::size_t kMaxWatched = 32;
 
-inline constexpr Duration kHoweverLong{INT64_MAX};
+inline constexpr Duration kNoTimeout{INT64_MAX};
 
 std::uint32_t wait_readable(std::span<const int> descriptors, Instant deadline,
-                            Duration longest = kHoweverLong);
+                            Duration longest = kNoTimeout);
 
 struct ReadOutcome {
   std::size_t bytes = 0;

@@ -41,7 +41,7 @@ void release_realtime() {
   static_cast<void>(posix_call([] { return munlockall(); }));
 }
 
-void give_way() {
+void lower_priority() {
   constexpr int kNicer = 10;
   static_cast<void>(nice(kNicer));  // of this thread alone on Linux; never refused upwards
 }
@@ -55,7 +55,7 @@ std::string to_string(const RealtimeReport& report) {
          say(report.fifo, report.fifo_error);
 }
 
-bool prefer(pid_t process) {
+bool raise_priority(pid_t process) {
   constexpr int kPreferred = -15;
   return posix_call(
              [&] { return setpriority(PRIO_PROCESS, static_cast<id_t>(process), kPreferred); })

@@ -25,10 +25,10 @@ RealtimeReport request_realtime(int priority);
 void release_realtime();
 // Raises the priority of another process, and of those that it starts from now on, above ordinary
 // ones on the same processor. False: not permitted.
-bool prefer(pid_t process);
+bool raise_priority(pid_t process);
 // Lowers the priority of the calling thread, and of threads that it starts, below ordinary ones on
 // the same processor.
-void give_way();
+void lower_priority();
 // Locks present and future pages only.
 bool lock_memory();
 // Returns freed memory to the kernel, for example after reading a large file.

@@ -46,7 +46,7 @@ struct RadioRig {
   inputs::TextOperator person{inputs::kScriptPerson};
   telemetry::Snapshot snapshot;
   telemetry::GroupSet sampled;  // groups with a new sample at each tick
-  std::deque<Travelling> air;
+  std::deque<Travelling> in_flight;
   std::vector<telemetry::DueCommand> reported;  // commands that arrived at the car
   // Returns true for a datagram to lose.
   std::function<bool(bool to_base, telemetry::PathId)> loses = [](bool, telemetry::PathId) {
@@ -101,12 +101,12 @@ struct RadioRig {
   }
   void send(bool to_base, const telemetry::Outgoing& out) {
     if (loses(to_base, out.path)) return;
-    air.push_back({now + kDelay, to_base, out.path, {out.bytes.begin(), out.bytes.end()}});
+    in_flight.push_back({now + kDelay, to_base, out.path, {out.bytes.begin(), out.bytes.end()}});
   }
   void deliver() {
-    while (!air.empty() && air.front().arrives <= now) {
-      const Travelling t = air.front();
-      air.pop_front();
+    while (!in_flight.empty() && in_flight.front().arrives <= now) {
+      const Travelling t = in_flight.front();
+      in_flight.pop_front();
       if (t.to_base) {
         base->receive(t.bytes, t.path, kCarAt, now);
       } else {

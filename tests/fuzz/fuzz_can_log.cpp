@@ -36,7 +36,7 @@ namespace {
 using namespace pitwall;
 using namespace pitwall::replay;
 
-struct VirtualRim {
+struct VirtualIo {
   Instant time{};
   std::uint64_t sent = 0;
 
@@ -77,10 +77,9 @@ void play(const CanLog& log, const TimelineOptions& options, LatePolicy late) {
     frames += track.frames.size();
   }
   CHECK(frames == timeline->frames);
-  VirtualRim rim;
-  const PlayReport report = Player(*timeline, {.passes = 2, .late = late}, rim).play({});
-  CHECK(report.frames.sent == 2 * frames && rim.sent == report.frames.sent &&
-        report.dropped() == 0);
+  VirtualIo io;
+  const PlayReport report = Player(*timeline, {.passes = 2, .late = late}, io).play({});
+  CHECK(report.frames.sent == 2 * frames && io.sent == report.frames.sent && report.dropped() == 0);
 }
 
 void check(const Result<CanLog, Problem>& log) {

@@ -214,7 +214,7 @@ class Adversary {
     if (latched_ && !latched) CHECK(released_.count(challenge_) == 1);
     if (latched) challenge_ = view.stop_challenge;
     latched_ = latched;
-    CHECK(radio_.falsehoods().all() == 0);
+    CHECK(radio_.content_errors().all() == 0);
   }
   // The base that gave it may have died since, so it is looked for in all runs of the base.
   void consume() {

@@ -11,7 +11,7 @@
 
 #include "protocol/telemetry/packet/body.hpp"
 #include "protocol/vocabulary/check.hpp"
-#include "tests/support/body_again.hpp"
+#include "tests/support/reencode_body.hpp"
 #include "tests/support/reference_body.hpp"
 
 namespace {
@@ -74,7 +74,7 @@ void read_both(const Bytes& bytes, Direction direction) {
     return;
   }
   compare(*body, *reference);
-  CHECK(testing::body_again(*body, direction) == bytes);
+  CHECK(testing::reencode_body(*body, direction) == bytes);
 }
 
 // A receiver that does not know some of the sender's groups skips them: what it knows is the same.

@@ -53,9 +53,9 @@ inline std::uint32_t number_in(const Packet& packet) {
 class RawClient {
  public:
   explicit RawClient(const std::string& bus,
-                     transport::Hearing hearing = transport::Hearing::kEverything) {
+                     transport::ReceiveMode mode = transport::ReceiveMode::kEverything) {
     const auto address = transport::unix_bus_address(bus);
-    if (address) connected_ = transport::connect_to_hub(*address, hearing, fd_).ok();
+    if (address) connected_ = transport::connect_to_hub(*address, mode, fd_).ok();
   }
 
   bool connected() const { return connected_; }

@@ -41,7 +41,8 @@ void begin(IdentityState& state, Instant now) {
   state.listening = true;
   state.since = state.difference = now;
   state.stranger = {};
-  for (ReceivedMessage& message : state.messages) message = {.acquitted = message.acquitted};
+  for (ReceivedMessage& message : state.messages)
+    message = {.period_confirmed = message.period_confirmed};
 }
 
 void differs(IdentityState& state, std::size_t index, IdentityDifference difference,
@@ -76,7 +77,7 @@ void judge_pace(const IdentityParams& params, IdentityState& state, std::size_t 
       mean_s >= kPeriodsLeast * period.seconds() && mean_s <= kPeriodsMost * period.seconds();
   if (!fits && (span < params.listen || message.intervals < 2)) return;
   if (!fits) differs(state, index, IdentityDifference::kWrongPeriod, mean_s, now);
-  message.acquitted = fits;
+  message.period_confirmed = fits;
   message.first = message.last;
   message.intervals = 0;
 }
@@ -117,7 +118,7 @@ void look_for_silence(const IdentityParams& params, IdentityState& state, Instan
     const bool proven = is_proof(message.difference) && now - message.differed < params.listen;
     if (!kMessages[i].required || silence < params.listen || proven) continue;
     differs(state, i, IdentityDifference::kNotReceived, silence.seconds(), now);
-    message.acquitted = false;
+    message.period_confirmed = false;
   }
 }
 
@@ -152,7 +153,7 @@ BusIdentity named(const IdentityParams& params, const IdentityState& state, Inst
 
 bool all_acquitted(const IdentityState& state) {
   for (std::size_t i = 0; i < kMessages.size(); ++i)
-    if (kMessages[i].required && !state.messages[i].acquitted) return false;
+    if (kMessages[i].required && !state.messages[i].period_confirmed) return false;
   return true;
 }
 

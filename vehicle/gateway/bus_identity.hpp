@@ -10,14 +10,14 @@
 //          a frame that the database does not describe is proof: kWrong at once. Absence and period
 //          are judged over time, so that a right bus that stalls or loses frames never becomes
 //          wrong:
-//            acquitted  the intervals over at least 0.75 of the longer of 1 s and the period have a
-//                       mean of 0.4 to 2.5 periods. This tolerates that race control also sends on
-//                       every change of a flag, and that every second frame is lost
+//            period_confirmed  the intervals over at least 0.75 of the longer of 1 s and the period
+//                       have a mean of 0.4 to 2.5 periods. This tolerates that race control also
+//                       sends on every change of a flag, and that every second frame is lost
 //            convicted  two intervals or more over `listen` without such a mean. A stall of up to
 //                       2 s at any period, or two lost frames of 1 s in a row, are tolerated
 //            absent     a required message is not received for `listen`
-//          kListening becomes kRight when every required message is acquitted: within 2 s for
-//          messages of 1 s. kWrong becomes kRight when in addition a whole `listen` has passed
+//          kListening becomes kRight when the period of every required message is confirmed: within
+//          2 s for messages of 1 s. kWrong becomes kRight when in addition a whole `listen` passed
 //          without a difference; it never becomes kListening. A car in kRight that is not armed
 //          continues to check.
 //          While armed the verdict is kept: a wrong frame at speed is a matter of integrity, not of
@@ -62,11 +62,11 @@ struct IdentityParams {
 
 // State of one message of the database.
 struct ReceivedMessage {
-  Instant last{};             // newest frame
-  Instant first{};            // first frame of the interval measurement
-  std::uint32_t intervals{};  // since `first`
-  bool received = false;      // since listening began
-  bool acquitted = false;     // its period was right at the last judgement
+  Instant last{};                 // newest frame
+  Instant first{};                // first frame of the interval measurement
+  std::uint32_t intervals{};      // since `first`
+  bool received = false;          // since listening began
+  bool period_confirmed = false;  // its period was right at the last judgement
   world::IdentityDifference difference = world::IdentityDifference::kNone;  // the newest
   Instant differed{};
   double measured = 0.0;  // bytes or seconds, by the kind of difference

@@ -132,7 +132,7 @@ void receive_also(const InboundParams& params, InboundState& state, std::size_t 
 
 void receive_own(const InboundParams& params, InboundState& state, Instant at) {
   ++state.own_frames;
-  if (state.stand_in.covers(at) || !refuses(params, state, Monitor::kOwnId)) return;
+  if (state.guardian_control.covers(at) || !refuses(params, state, Monitor::kOwnId)) return;
   state.own_id_seen = true;
 }
 

@@ -109,7 +109,7 @@ struct FlagSource {
 };
 
 // Period in which the guardian drove the car: commands received then are not from an unknown node.
-struct StandIn {
+struct GuardianControl {
   Instant from{}, until{};  // both included; equal: never
 
   constexpr bool covers(Instant at) const { return from < until && from <= at && at <= until; }
@@ -131,8 +131,8 @@ struct InboundState {
   world::FrameRefusals refused;
   std::uint64_t frames_applied = 0;
   std::uint64_t own_frames = 0;
-  bool own_id_seen = false;  // latched
-  StandIn stand_in;          // set by the pipeline
+  bool own_id_seen = false;          // latched
+  GuardianControl guardian_control;  // set by the pipeline
   Instant last_frame{};
   std::array<can::MessageMonitor, kAlsoMax> also{};
   BusLoad load;

@@ -19,14 +19,15 @@ constexpr Duration kPeriod = milliseconds(100);
 Result<std::unique_ptr<BusWatch>, Problem> BusWatch::start(std::string_view interface) {
   auto opened = transport::CanInterface::open(interface);
   if (!opened) return Unexpected{opened.error()};
-  transport::FileDescriptor bell(
+  transport::FileDescriptor wake_fd(
       transport::posix_call([] { return eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK); }));
-  if (!bell.valid()) return Unexpected{Problem{std::string(interface), "cannot be added to epoll"}};
-  return std::unique_ptr<BusWatch>(new BusWatch(*std::move(opened), std::move(bell)));
+  if (!wake_fd.valid())
+    return Unexpected{Problem{std::string(interface), "cannot be added to epoll"}};
+  return std::unique_ptr<BusWatch>(new BusWatch(*std::move(opened), std::move(wake_fd)));
 }
 
-BusWatch::BusWatch(transport::CanInterface interface, transport::FileDescriptor bell)
-    : interface_(std::move(interface)), bell_(std::move(bell)) {
+BusWatch::BusWatch(transport::CanInterface interface, transport::FileDescriptor wake_fd)
+    : interface_(std::move(interface)), wake_fd_(std::move(wake_fd)) {
   mine_.interface = shared_.interface = seen_.interface = interface_.status();
   thread_ = std::thread([this] { serve(); });
 }
@@ -38,7 +39,7 @@ BusWatch::~BusWatch() {
 
 void BusWatch::ask(std::atomic<bool>& request) {
   if (request.exchange(true)) return;
-  eventfd_write(bell_.get(), 1);
+  eventfd_write(wake_fd_.get(), 1);
 }
 
 const BusReport& BusWatch::newest() {
@@ -50,10 +51,10 @@ const BusReport& BusWatch::newest() {
 void BusWatch::serve() {
   Instant next = transport::monotonic_now() + kPeriod;
   while (!end_.load()) {
-    const int watched[] = {bell_.get()};
+    const int watched[] = {wake_fd_.get()};
     if (transport::wait_readable(watched, next) != 0) {
-      eventfd_t rings = 0;
-      eventfd_read(bell_.get(), &rings);
+      eventfd_t count = 0;
+      eventfd_read(wake_fd_.get(), &count);
     }
     if (restart_asked_.load()) carry_out_restart();
     if (flush_asked_.load()) carry_out_flush();

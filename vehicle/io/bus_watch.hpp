@@ -52,7 +52,7 @@ class BusWatch {
   bool flushing() const { return flush_asked_.load(); }
 
  private:
-  BusWatch(transport::CanInterface interface, transport::FileDescriptor bell);
+  BusWatch(transport::CanInterface interface, transport::FileDescriptor wake_fd);
   void ask(std::atomic<bool>& request);
   void serve();
   void carry_out_restart();
@@ -61,7 +61,7 @@ class BusWatch {
   void publish();
 
   transport::CanInterface interface_;
-  transport::FileDescriptor bell_;
+  transport::FileDescriptor wake_fd_;
   std::atomic<bool> restart_asked_{false}, flush_asked_{false}, end_{false};
   BusReport mine_;  // of the thread
   std::mutex shared_lock_;

@@ -73,21 +73,21 @@ double temperature_of(std::string_view zone) {
 }
 
 std::unique_ptr<ComputerWatch> ComputerWatch::start(std::string proc, std::string zones) {
-  transport::FileDescriptor bell(
+  transport::FileDescriptor wake_fd(
       transport::posix_call([] { return eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK); }));
-  if (!bell.valid()) return nullptr;
+  if (!wake_fd.valid()) return nullptr;
   return std::unique_ptr<ComputerWatch>(
-      new ComputerWatch(std::move(proc), std::move(zones), std::move(bell)));
+      new ComputerWatch(std::move(proc), std::move(zones), std::move(wake_fd)));
 }
 
-ComputerWatch::ComputerWatch(std::string proc, std::string zones, transport::FileDescriptor bell)
-    : proc_(std::move(proc)), zones_(std::move(zones)), bell_(std::move(bell)) {
+ComputerWatch::ComputerWatch(std::string proc, std::string zones, transport::FileDescriptor wake_fd)
+    : proc_(std::move(proc)), zones_(std::move(zones)), wake_fd_(std::move(wake_fd)) {
   thread_ = std::thread([this] { serve(); });
 }
 
 ComputerWatch::~ComputerWatch() {
   end_.store(true);
-  eventfd_write(bell_.get(), 1);
+  eventfd_write(wake_fd_.get(), 1);
   thread_.join();
 }
 
@@ -98,7 +98,7 @@ void ComputerWatch::serve() {
       read();
       next += kBeat;
     }
-    const int watched[] = {bell_.get()};
+    const int watched[] = {wake_fd_.get()};
     transport::wait_readable(watched, next);
   }
 }

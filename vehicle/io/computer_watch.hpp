@@ -55,13 +55,13 @@ class ComputerWatch {
   std::uint64_t readings() const { return readings_.load(); }
 
  private:
-  ComputerWatch(std::string proc, std::string zones, transport::FileDescriptor bell);
+  ComputerWatch(std::string proc, std::string zones, transport::FileDescriptor wake_fd);
   void serve();
   void read();
   double hottest() const;
 
   std::string proc_, zones_;
-  transport::FileDescriptor bell_;
+  transport::FileDescriptor wake_fd_;
   std::optional<ProcessorTime> before_;  // of the thread
   std::atomic<double> share_{kUnset}, memory_mib_{kUnset}, temperature_c_{kUnset};
   std::atomic<std::uint64_t> readings_{0};

@@ -84,7 +84,7 @@ Radio::Radio(const telemetry::LinkEndpointConfig& config, std::vector<UdpSocket>
       inbox_(UdpSocket::kBatch),
       bench_keys_(config.association.keys.bench) {}
 
-void Radio::listen(BlackBox& box) {
+void Radio::receive(BlackBox& box) {
   for (std::size_t path = 0; path < paths_.size(); ++path)
     for (std::size_t taken = 0, count = inbox_.size();
          count == inbox_.size() && taken < kReadsPerTick; taken += count) {
@@ -97,7 +97,7 @@ void Radio::listen(BlackBox& box) {
     }
 }
 
-void Radio::speak(const telemetry::Snapshot& snapshot, Instant now, BlackBox& box) {
+void Radio::send(const telemetry::Snapshot& snapshot, Instant now, BlackBox& box) {
   while (const auto out = endpoint_.poll(snapshot, now)) {
     const UdpAddress to = address_of(out->to);
     paths_[out->path].send_to(to, out->bytes);

@@ -1,5 +1,5 @@
 // Radio of the car process: one UDP socket per path, and the endpoint of the radio protocol.
-// listen() is called before the step, speak() after it.
+// receive() is called before the step, send() after it.
 //   in     arguments (addresses of base stations by path, key file), budgets of the car file; the
 //          UTC time, once in open(), for the stamps of the key exchange; the newest snapshot
 //   out    datagrams, marked as expedited forwarding; the endpoint, for the pipeline's RadioAdapter
@@ -39,9 +39,9 @@ class Radio {
                                      const pipeline::RadioParams& params, bool real_car);
 
   // Every datagram is recorded in `box`.
-  void listen(BlackBox& box);
+  void receive(BlackBox& box);
   bool due(Instant now) const { return endpoint_.due() <= now + kEarly; }
-  void speak(const telemetry::Snapshot& snapshot, Instant now, BlackBox& box);
+  void send(const telemetry::Snapshot& snapshot, Instant now, BlackBox& box);
 
   telemetry::CarEndpoint& endpoint() { return endpoint_; }
   const telemetry::CarEndpoint& endpoint() const { return endpoint_; }

@@ -15,7 +15,7 @@ using world::TrackFlag;
 
 constexpr double kYes = 1.0;
 
-struct BenchServer {
+struct OrderHandler {
   OperatorOrders& orders;
   const OrderInputs& in;
   Answers& answers;
@@ -31,7 +31,7 @@ struct BenchServer {
   void take(const OperatorCommand& command);
 };
 
-void BenchServer::give_what_was_let_go() {
+void OrderHandler::give_what_was_let_go() {
   if (!orders.arming) return;
   orders.close_next = false;
   if (in.now <= orders.arming->expires) {
@@ -43,7 +43,7 @@ void BenchServer::give_what_was_let_go() {
   orders.arming.reset();
 }
 
-void BenchServer::arm(const OperatorCommand& command) {
+void OrderHandler::arm(const OperatorCommand& command) {
   if (command.argument != kYes) {
     orders.arm = false;
     if (orders.arming) answer(*orders.arming, CommandAnswer::kRefused);
@@ -62,14 +62,14 @@ void BenchServer::arm(const OperatorCommand& command) {
   orders.close_next = true;
 }
 
-void BenchServer::reset(const OperatorCommand& command) {
+void OrderHandler::reset(const OperatorCommand& command) {
   const bool now = in.stands || in.mode == Mode::kHalted;
   if (command.argument != kYes || orders.reset || !now)
     return answer(command, CommandAnswer::kRefused);
   orders.reset = command;
 }
 
-void BenchServer::exclude(const OperatorCommand& command) {
+void OrderHandler::exclude(const OperatorCommand& command) {
   constexpr double kAll = (1U << world::kExcludables) - 1U;
   const bool is_set = command.argument >= 0.0 && command.argument <= kAll &&
                       command.argument == std::floor(command.argument);
@@ -80,7 +80,7 @@ void BenchServer::exclude(const OperatorCommand& command) {
   answer(command, CommandAnswer::kApplied);
 }
 
-void BenchServer::take(const OperatorCommand& command) {
+void OrderHandler::take(const OperatorCommand& command) {
   if (in.now > command.expires) return answer(command, CommandAnswer::kExpired);
   switch (command.kind) {
     case OperatorCommandKind::kArm:
@@ -104,7 +104,7 @@ void BenchServer::take(const OperatorCommand& command) {
     case OperatorCommandKind::kRole:
     case OperatorCommandKind::kEndRun:
     case OperatorCommandKind::kSendParameters:
-      break;  // this car drives one line, alone; the rest is the rim's
+      break;  // this car drives one line, alone; the rest is for the I/O
   }
   answer(command, CommandAnswer::kUnsupported);
 }
@@ -136,11 +136,11 @@ int severity(TrackFlag flag) {
 
 safety::OperatorRequests execute(OperatorOrders& orders, const OrderInputs& inputs,
                                  Answers& answers) {
-  BenchServer adapter{orders, inputs, answers};
-  adapter.give_what_was_let_go();
+  OrderHandler handler{orders, inputs, answers};
+  handler.give_what_was_let_go();
   if (inputs.switches.arm && !orders.switch_was) orders.arm.reset();
   orders.switch_was = inputs.switches.arm;
-  for (const OperatorCommand& command : inputs.commands) adapter.take(command);
+  for (const OperatorCommand& command : inputs.commands) handler.take(command);
 
   safety::OperatorRequests requests = inputs.switches;
   requests.arm = inputs.may_arm && orders.arm.value_or(inputs.switches.arm);

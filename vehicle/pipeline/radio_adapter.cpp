@@ -71,7 +71,7 @@ Outcome outcome_of(CommandAnswer answer) {
   CHECK(false);
 }
 
-void count(const telemetry::LinkReport& report, RimCounters& figures) {
+void count(const telemetry::LinkReport& report, IoCounters& figures) {
   figures.heartbeats = report.association.opened;
   figures.heartbeats_refused = report.bad_records;
   for (const std::uint64_t n : report.association.refused) figures.heartbeats_refused += n;
@@ -110,7 +110,7 @@ void RadioAdapter::fill(telemetry::CarEndpoint& radio, Inputs& in) {
   in.commands = commands_.span();
 }
 
-void RadioAdapter::show(const telemetry::CarEndpoint& radio, RimCounters& figures, Instant now) {
+void RadioAdapter::show(const telemetry::CarEndpoint& radio, IoCounters& figures, Instant now) {
   if (!counted_at_ || now - *counted_at_ >= kFiguresPeriod) {
     counted_at_ = now;
     count(radio.report(now), counted_);
@@ -159,7 +159,7 @@ void RadioAdapter::take(telemetry::CarEndpoint& radio, const Setup& setup, const
   stands_ = out.chosen.standstill;
   radio.standstill(stands_);
   if (std::isfinite(out.place.s_m)) radio.place(out.place.s_m, setup.track.length_m(), now);
-  for (const telemetry::Event& event : events_.look(car, out, now))
+  for (const telemetry::Event& event : events_.detect(car, out, now))
     if (!radio.log(event)) ++events_refused_;
   take_threats(radio);
   show_path(radio, car, now);

@@ -23,10 +23,10 @@
 #include "protocol/vocabulary/fixed_vector.hpp"
 #include "protocol/vocabulary/time.hpp"
 #include "vehicle/pipeline/car.hpp"
-#include "vehicle/pipeline/event_tap.hpp"
+#include "vehicle/pipeline/event_detector.hpp"
 #include "vehicle/pipeline/setup.hpp"
 #include "vehicle/pipeline/step.hpp"
-#include "vehicle/pipeline/telemetry_tap.hpp"
+#include "vehicle/pipeline/telemetry_mapper.hpp"
 
 namespace pitwall::pipeline {
 
@@ -44,7 +44,7 @@ class RadioAdapter {
             Instant now);
 
   // Writes the radio figures for telemetry; the statistics are updated each kFiguresPeriod.
-  void show(const telemetry::CarEndpoint& radio, RimCounters& figures, Instant now);
+  void show(const telemetry::CarEndpoint& radio, IoCounters& figures, Instant now);
 
   // Attacks and key errors that began or ended in the newest take().
   std::span<const telemetry::ThreatChange> threats() const { return threats_.span(); }
@@ -60,11 +60,11 @@ class RadioAdapter {
   std::string_view parameters_;
   FixedVector<world::OperatorCommand, world::kOperatorCommandsMax> commands_;
   FixedVector<telemetry::ThreatChange, telemetry::kThreats> threats_;
-  EventTap events_;
+  EventDetector events_;
   bool stands_ = false, end_asked_ = false;
   std::uint64_t events_refused_ = 0;
   std::optional<Instant> path_at_, counted_at_;
-  RimCounters counted_;  // radio figures at counted_at_
+  IoCounters counted_;  // radio figures at counted_at_
   telemetry::PathBuffer path_{};
 };
 

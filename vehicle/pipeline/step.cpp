@@ -155,9 +155,9 @@ world::CtState handshake(const Setup& setup, Car& car, const Outputs& out, const
 
 // The guardian's frames bear the car's ids; its last command is where the car goes on.
 void apply_guardian(Car& car, const GuardianView& guardian, Instant now) {
-  car.inbound.stand_in = {.from = guardian.drove_from,
-                          .until = guardian.drove_until + kGuardianEcho};
-  if (guardian.drove_from == guardian.drove_until) car.inbound.stand_in = {};
+  car.inbound.guardian_control = {.from = guardian.drove_from,
+                                  .until = guardian.drove_until + kGuardianEcho};
+  if (guardian.drove_from == guardian.drove_until) car.inbound.guardian_control = {};
   if (!guardian.drives || car.supervisor.mode == Mode::kDisarmed) return;
   car.supervisor.last = guardian.command;
   car.supervisor.last_known = true;

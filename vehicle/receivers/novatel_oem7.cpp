@@ -72,7 +72,7 @@ void NovatelOem7::take(const gnss::NovatelFrame& frame, Instant arrival, world::
   const auto message = gnss::decode(frame);
   if (!message) return counters.refused.count(message.error());
   const Arrived arrived{.header = frame.header, .at = arrival, .out = out};
-  const bool timed = gnss::knows_time(frame.header);
+  const bool timed = gnss::has_time(frame.header);
   std::visit(
       [&](const auto& m) {
         if (kOfItself<std::remove_cvref_t<decltype(m)>> || timed)

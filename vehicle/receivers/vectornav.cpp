@@ -105,7 +105,7 @@ void VectorNav::use_fix(const gnss::VectorNavMessage& m, Instant arrival, world:
   const gnss::VectorNavSolution& s = m.gnss[0];
   constexpr std::uint8_t kTimeKnown = vn::kTowValid | vn::kDateValid;
   time_valid_ = (s.time_status & kTimeKnown) == kTimeKnown;
-  tell_health(arrival, out);
+  put_health(arrival, out);
   const auto valid = time_of(s);
   if (!valid || !time_valid_) return static_cast<void>(++writer_.counters().time_unknown);
   const bool leap_known = (s.time_status & vn::kUtcValid) != 0;
@@ -153,7 +153,7 @@ void VectorNav::use_velocity(const gnss::VectorNavSolution& s, gnss::GpsTime val
 // Its pitch is nose up, its roll right side down.
 void VectorNav::use_ins(const gnss::VectorNavMessage& m, Instant arrival, world::SensorInput& out) {
   ins_status_ = m.ins_status;
-  tell_health(arrival, out);
+  put_health(arrival, out);
   const auto valid = time_of(m);
   if (!valid) return static_cast<void>(++writer_.counters().time_unknown);
   const auto [yaw_deg, pitch_deg, roll_deg] = wide(m.yaw_pitch_roll_deg);
@@ -185,7 +185,7 @@ void VectorNav::use_heading(const world::InsAttitude& attitude, gnss::GpsTime va
                 out.headings, out);
 }
 
-void VectorNav::tell_health(Instant arrival, world::SensorInput& out) {
+void VectorNav::put_health(Instant arrival, world::SensorInput& out) {
   world::ReceiverHealth health;
   health.error_word =
       ins_status_ & (vn::kInsImuError | vn::kInsMagPressureError | vn::kInsGnssError);

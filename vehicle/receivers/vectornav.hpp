@@ -52,7 +52,7 @@ class VectorNav {
   void use_ins(const gnss::VectorNavMessage& m, Instant arrival, world::SensorInput& out);
   void use_heading(const world::InsAttitude& attitude, gnss::GpsTime valid, Instant arrival,
                    world::SensorInput& out);
-  void tell_health(Instant arrival, world::SensorInput& out);
+  void put_health(Instant arrival, world::SensorInput& out);
 
   Mounting mounting_;
   gnss::VectorNavStream stream_;

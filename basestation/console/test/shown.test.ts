@@ -62,7 +62,7 @@ test("a screen reader hears the judgement of what is known, else why there is no
   }
   for (const judgement of judged) {
     expect(stateWord(reading(Quality.stale, 1, judgement))).toBe("stale");
-    expect(stateWord(reading(Quality.never, 1, judgement))).toBe("never heard");
+    expect(stateWord(reading(Quality.never, 1, judgement))).toBe("not received yet");
   }
 });
 

@@ -38,14 +38,14 @@ Result<bool, Problem> BenchLink::ask(const BenchRequest& run_request, std::uint8
 }
 
 void BenchLink::publish(const service::CarService& car, Instant now) {
-  if (tried_ && now - looked_ < kLook) return;
-  looked_ = now;
+  if (tried_ && now - polled_at_ < kPollPeriod) return;
+  polled_at_ = now;
   real_ = car.link().source() == link::Station::Source::kCar;
   if (!up() && (!tried_ || now - *tried_ >= kRetry)) connect(now);
   if (socket_) receive(now);
-  if (!observer_.publish || (reported_ && now - *reported_ < kTellEvery)) return;
+  if (!observer_.publish || (reported_ && now - *reported_ < kPublishPeriod)) return;
   reported_ = now;
-  for (const Reported& reported : book_.news()) observer_.publish(reported, now);
+  for (const Reported& reported : bench_.news()) observer_.publish(reported, now);
   std::string state = state_text();
   if (state == state_reported_) return;
   state_reported_ = state;
@@ -61,19 +61,19 @@ void BenchLink::connect(Instant now) {
   }
   problem_.clear();
   socket_.emplace(*std::move(made));
-  book_.connected();
+  bench_.connected();
 }
 
 void BenchLink::receive(Instant now) {
   for (const std::string& line : socket_->receive()) {
-    if (const auto taken = book_.take(line); !taken) problem_ = to_string(taken.error());
-    if (auto refused = book_.refusal(); refused && observer_.refused)
+    if (const auto taken = bench_.take(line); !taken) problem_ = to_string(taken.error());
+    if (auto refused = bench_.refusal(); refused && observer_.refused)
       observer_.refused(asker_, *refused, now);
   }
   if (!socket_->closed()) return;
   too_long_ += socket_->counters().too_long;
   socket_.reset();
-  problem_ = "the server has hung up";
+  problem_ = "the server closed the connection";
 }
 
 std::string BenchLink::state_text() const {
@@ -83,7 +83,7 @@ std::string BenchLink::state_text() const {
       .text("type", "bench")
       .flag("up", up())
       .json("problem", problem_.empty() ? "null" : json::quoted(problem_))
-      .number("malformed", book_.counters().refused + skipped)
+      .number("malformed", bench_.counters().refused + skipped)
       .flag("may_start", *why == '\0')
       .json("why_not", *why == '\0' ? "null" : json::quoted(why))
       .str();

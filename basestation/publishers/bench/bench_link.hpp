@@ -6,8 +6,8 @@
 //          no run is started while the connected car reports that it is a real one. A stop is
 //          always forwarded: it only ends a simulation
 //          without a server a connection is tried each kRetry, and consoles show that there is
-//          none. Messages of the server within kTellEvery are forwarded together: a lockstep run
-//          is a hundred times faster than real time and must not flood consoles
+//          none. Messages of the server within kPublishPeriod are forwarded together: a lockstep
+//          run is a hundred times faster than real time and must not flood consoles
 //   errors a malformed line is counted and shown; reading goes on with the next line
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
@@ -17,7 +17,7 @@
 #include <optional>
 #include <string>
 
-#include "basestation/publishers/bench/bench_book.hpp"
+#include "basestation/publishers/bench/bench_state.hpp"
 #include "basestation/service/publisher.hpp"
 #include "protocol/transport/stream/line_socket.hpp"
 #include "protocol/vocabulary/result.hpp"
@@ -43,20 +43,20 @@ struct BenchObserver {
 
 class BenchLink : public service::Publisher {
  public:
-  static constexpr Duration kRetry = seconds(1), kTellEvery = milliseconds(200);
-  static constexpr Duration kLook = milliseconds(50);
+  static constexpr Duration kRetry = seconds(1), kPublishPeriod = milliseconds(200);
+  static constexpr Duration kPollPeriod = milliseconds(50);
 
   explicit BenchLink(std::string path) : path_(std::move(path)) {}
   void observe_by(BenchObserver observer) { observer_ = std::move(observer); }
 
   void publish(const service::CarService& car, Instant now) override;
-  Instant due() const override { return looked_ + kLook; }
+  Instant due() const override { return polled_at_ + kPollPeriod; }
 
   // `client`: the console that sends the request; `by`: its operator.
   Result<bool, Problem> ask(const BenchRequest& run_request, std::uint8_t client,
                             const std::string& by);
   bool up() const { return socket_ && !socket_->closed(); }
-  const BenchBook& book() const { return book_; }
+  const BenchState& bench() const { return bench_; }
 
  private:
   void connect(Instant now);
@@ -65,10 +65,10 @@ class BenchLink : public service::Publisher {
 
   std::string path_;
   BenchObserver observer_;
-  BenchBook book_;
+  BenchState bench_;
   std::optional<transport::LineSocket> socket_;
   std::optional<Instant> tried_, reported_;
-  Instant looked_{};
+  Instant polled_at_{};
   std::uint64_t too_long_ = 0;
   std::uint8_t asker_ = 0;
   bool real_ = false;

@@ -18,7 +18,7 @@ ClientSet only(ClientId client) { return ClientSet{}.set(client); }
 }  // namespace
 
 void ClientRegistry::send(const ClientSet& to, std::string text) {
-  welcome();
+  greet_new_clients();
   if (to.none()) return;
   out_.push_back({to, std::make_shared<const Message>(Message{.text = std::move(text)})});
 }
@@ -43,14 +43,14 @@ void ClientRegistry::joined(ClientId client, const Identity& who, Instant now) {
   present_.set(client);
   who_[client] = who;
   if (who.name.empty()) who_[client].name = "console " + std::to_string(client);
-  newcomers_.push_back({client, now});
+  new_clients_.push_back({client, now});
   snapshots_.want_full();
 }
 
-void ClientRegistry::welcome() {
-  if (newcomers_.empty()) return;
+void ClientRegistry::greet_new_clients() {
+  if (new_clients_.empty()) return;
   ClientSet all;
-  for (const auto& [client, came] : std::exchange(newcomers_, {})) {
+  for (const auto& [client, came] : std::exchange(new_clients_, {})) {
     send(only(client), hello(client, came));
     all.set(client);
   }
@@ -62,7 +62,7 @@ void ClientRegistry::welcome() {
 }
 
 void ClientRegistry::left(ClientId client) {
-  std::erase_if(newcomers_, [&](const Newcomer& newcomer) { return newcomer.client == client; });
+  std::erase_if(new_clients_, [&](const NewClient& newcomer) { return newcomer.client == client; });
   present_.reset(client);
   who_[client] = {};
 }
@@ -77,20 +77,20 @@ command::Person ClientRegistry::person(ClientId client) const {
 }
 
 std::optional<Request> ClientRegistry::receive_text(ClientId client, std::string_view text,
-                                                    const StateSource& eyes, Instant now) {
+                                                    const StateSource& source, Instant now) {
   if (!present_.test(client)) return std::nullopt;
   auto request = parse_request(text);
   if (!request) {
-    tell_error(client, request.error());
+    send_error(client, request.error());
     return std::nullopt;
   }
   if (role_for(*request) == Role::kOperator && who_[client].role != Role::kOperator) {
-    tell_error(client, {"role", "a viewer looks only"});
+    send_error(client, {"role", "a viewer looks only"});
     return std::nullopt;
   }
   ++counters_.requests;
   if (const auto* ask = std::get_if<AskHistory>(&*request)) {
-    tell_history(client, *ask, eyes, now);
+    send_history(client, *ask, source, now);
     return std::nullopt;
   }
   if (const auto* ask = std::get_if<AskPing>(&*request)) {
@@ -102,29 +102,29 @@ std::optional<Request> ClientRegistry::receive_text(ClientId client, std::string
 }
 
 void ClientRegistry::receive_binary(ClientId client) {
-  tell_error(client, {"message", "this base takes texts only"});
+  send_error(client, {"message", "this base takes texts only"});
 }
 
-void ClientRegistry::tell_history(ClientId client, const AskHistory& ask, const StateSource& eyes,
+void ClientRegistry::send_history(ClientId client, const AskHistory& ask, const StateSource& source,
                                   Instant now) {
-  if (!state::is_field(ask.field)) return tell_error(client, {"history.field", "no such field"});
-  welcome();
-  const auto points = eyes.past(ask.field, now - from_seconds(ask.from_s),
-                                now - from_seconds(ask.to_s), ask.points);
+  if (!state::is_field(ask.field)) return send_error(client, {"history.field", "no such field"});
+  greet_new_clients();
+  const auto points = source.past(ask.field, now - from_seconds(ask.from_s),
+                                  now - from_seconds(ask.to_s), ask.points);
   out_.push_back({only(client), std::make_shared<const Message>(
                                     Message{.frame = web::history_frame(ask.field, points, now)})});
 }
 
-void ClientRegistry::tell_error(ClientId client, const Problem& problem) {
+void ClientRegistry::send_error(ClientId client, const Problem& problem) {
   ++counters_.refused;
   send(
       only(client),
       Object{}.text("type", "error").text("place", problem.place).text("what", problem.what).str());
 }
 
-void ClientRegistry::tell_all(std::string text) { send(present_, std::move(text)); }
+void ClientRegistry::send_to_all(std::string text) { send(present_, std::move(text)); }
 
-void ClientRegistry::tell_catalogue(std::string catalogue) {
+void ClientRegistry::send_catalogue(std::string catalogue) {
   catalogue_ = std::move(catalogue);
   send(present_, catalogue_);
 }
@@ -138,11 +138,11 @@ void ClientRegistry::identify(const service::CarIdentity& identity, Instant now)
   }
 }
 
-void ClientRegistry::serve(const StateSource& eyes, UtcTime utc, Instant now) {
-  welcome();
+void ClientRegistry::serve(const StateSource& source, UtcTime utc, Instant now) {
+  greet_new_clients();
   utc_ = utc;
   utc_at_ = now;
-  auto frame = snapshots_.make(eyes, now);
+  auto frame = snapshots_.make(source, now);
   if (!frame || present_.none()) return;
   frame->car = static_cast<std::uint8_t>(identity_.car);
   out_.push_back({present_, std::make_shared<const Message>(Message{.frame = *std::move(frame)})});

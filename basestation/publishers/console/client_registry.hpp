@@ -37,7 +37,7 @@ struct Sending {
   SharedMessage message;
 };
 
-struct RoomCounters {
+struct RequestCounters {
   std::uint64_t requests = 0, refused = 0;
 };
 
@@ -51,31 +51,31 @@ class ClientRegistry {
   void left(ClientId client);
   // Returns a request that the caller must execute; nullopt if the registry has handled it.
   std::optional<Request> receive_text(ClientId client, std::string_view text,
-                                      const StateSource& eyes, Instant now);
+                                      const StateSource& source, Instant now);
   void receive_binary(ClientId client);
 
-  void tell_error(ClientId client, const Problem& problem);
-  void tell_all(std::string text);
-  void tell_catalogue(std::string catalogue);
+  void send_error(ClientId client, const Problem& problem);
+  void send_to_all(std::string text);
+  void send_catalogue(std::string catalogue);
   // Makes the next frame a full one, after a jump of a replay.
   void want_full() { snapshots_.want_full(); }
   void identify(const service::CarIdentity& identity, Instant now);
 
   void receive() { snapshots_.receive(); }
-  void serve(const StateSource& eyes, UtcTime utc, Instant now);
+  void serve(const StateSource& source, UtcTime utc, Instant now);
   Instant due() const { return snapshots_.due(); }
   std::vector<Sending> take() {
-    welcome();
+    greet_new_clients();
     return std::exchange(out_, {});
   }
 
   command::Person person(ClientId client) const;
   std::optional<Role> role(ClientId client) const;
   std::size_t clients() const { return present_.count(); }
-  const RoomCounters& counters() const { return counters_; }
+  const RequestCounters& counters() const { return counters_; }
 
  private:
-  struct Newcomer {
+  struct NewClient {
     ClientId client = 0;
     Instant came{};
   };
@@ -83,9 +83,9 @@ class ClientRegistry {
   void send(const ClientSet& to, std::string text);
   // Greets all clients that have joined since the last call together, so that they share messages;
   // called before anything else is sent.
-  void welcome();
+  void greet_new_clients();
   std::string hello(ClientId client, Instant now) const;
-  void tell_history(ClientId client, const AskHistory& ask, const StateSource& eyes, Instant now);
+  void send_history(ClientId client, const AskHistory& ask, const StateSource& source, Instant now);
 
   std::string catalogue_;
   const service::MessageLog& messages_;
@@ -93,11 +93,11 @@ class ClientRegistry {
   UtcTime utc_{};
   Instant utc_at_{};
   ClientSet present_;
-  std::vector<Newcomer> newcomers_;  // not greeted yet
+  std::vector<NewClient> new_clients_;  // not greeted yet
   std::array<Identity, 256> who_{};
   Snapshots snapshots_;
   std::vector<Sending> out_;
-  RoomCounters counters_;
+  RequestCounters counters_;
 };
 
 }  // namespace pitwall::publishers::console

@@ -31,28 +31,28 @@ ConsoleService::ConsoleService(ConsoleConfig config, service::CarService& car,
       clients_(catalogue_of(car), car.messages()),
       catalogue_of_(car.requests().settings().revision()) {
   car.messages().subscribe([this](std::string_view type, std::string_view text, Instant) {
-    if (type != "hello") clients_.tell_all(std::string{text});
+    if (type != "hello") clients_.send_to_all(std::string{text});
   });
 }
 
 void ConsoleService::submit(service::CarService& car, Instant now) {
   for (std::size_t taken = 0; taken < kNewsPerTurn; ++taken) {
-    const auto news = server_.next_news(config_.place);
+    const auto news = server_.next_event(config_.place);
     if (!news) return;
     switch (news->kind) {
-      case web::ClientNews::Kind::kJoined:
+      case web::ClientEvent::Kind::kJoined:
         clients_.joined(news->client, news->who, now);
         break;
-      case web::ClientNews::Kind::kLeft:
+      case web::ClientEvent::Kind::kLeft:
         car.requests().left(clients_.person(news->client), now);
         clients_.left(news->client);
         break;
-      case web::ClientNews::Kind::kText:
+      case web::ClientEvent::Kind::kText:
         if (const auto request = clients_.receive_text(news->client, news->text, *this, now)) {
           execute(news->client, *request, now);
         }
         break;
-      case web::ClientNews::Kind::kBinary:
+      case web::ClientEvent::Kind::kBinary:
         clients_.receive_binary(news->client);
         break;
     }
@@ -73,7 +73,7 @@ void ConsoleService::execute(web::ClientId client, const Request& request, Insta
   } else if (std::holds_alternative<AskPlayback>(request)) {
     done = Unexpected{Problem{"playback", "this base shows a live car, not a replay"}};
   }
-  if (!done) clients_.tell_error(client, done.error());
+  if (!done) clients_.send_error(client, done.error());
 }
 
 command::Request ConsoleService::with_second_person(const AskSend& ask) const {
@@ -110,7 +110,7 @@ void ConsoleService::attach(bench::BenchLink& bench) {
                         [this](std::uint8_t client, const Problem& problem, Instant now) {
                           car_.requests().note(clients_.person(client), "bench",
                                                "refused: " + problem.what, now);
-                          clients_.tell_error(client, problem);
+                          clients_.send_error(client, problem);
                         }});
 }
 
@@ -119,7 +119,7 @@ void ConsoleService::publish(const service::CarService& car, Instant now) {
   link_shown_ = car.evaluator().link_state();
   clients_.identify(car.identity(), now);
   const std::uint64_t revision = car.requests().settings().revision();
-  if (revision != catalogue_of_) clients_.tell_catalogue(catalogue_of(car));
+  if (revision != catalogue_of_) clients_.send_catalogue(catalogue_of(car));
   catalogue_of_ = revision;
   if (auto text = pauses_.news(transport::bench_pause(), now))
     car_.messages().set_state("bench_time", *std::move(text), now);
@@ -131,8 +131,8 @@ state::FieldView ConsoleService::view(state::FieldId id, Instant now) const {
   return car_.view(id, now);
 }
 
-alarms::Judgement ConsoleService::judge(state::FieldId id, const state::FieldView& v) const {
-  return car_.evaluator().judge(id, v);
+alarms::Evaluation ConsoleService::evaluate(state::FieldId id, const state::FieldView& v) const {
+  return car_.evaluator().evaluate(id, v);
 }
 
 std::vector<state::TrendPoint> ConsoleService::past(state::FieldId id, Instant from, Instant to,

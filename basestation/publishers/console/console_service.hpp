@@ -15,7 +15,7 @@
 #include "basestation/publishers/bench/bench_link.hpp"
 #include "basestation/publishers/console/client_registry.hpp"
 #include "basestation/publishers/console/pause_report.hpp"
-#include "basestation/publishers/web/admission/token_book.hpp"
+#include "basestation/publishers/web/admission/token_store.hpp"
 #include "basestation/publishers/web/web_server.hpp"
 #include "basestation/service/publisher.hpp"
 
@@ -23,8 +23,8 @@ namespace pitwall::publishers::console {
 
 struct ConsoleConfig {
   std::size_t place = 0;  // of this car among the cars of the server
-  std::shared_ptr<web::TokenBook> tokens =
-      std::make_shared<web::TokenBook>();  // identify the second person of an override
+  std::shared_ptr<web::TokenStore> tokens =
+      std::make_shared<web::TokenStore>();  // identify the second person of an override
 };
 
 class ConsoleService : public service::Publisher, private StateSource {
@@ -47,7 +47,7 @@ class ConsoleService : public service::Publisher, private StateSource {
 
  private:
   state::FieldView view(state::FieldId field, Instant now) const override;
-  alarms::Judgement judge(state::FieldId field, const state::FieldView& v) const override;
+  alarms::Evaluation evaluate(state::FieldId field, const state::FieldView& v) const override;
   std::vector<state::TrendPoint> past(state::FieldId field, Instant from, Instant to,
                                       std::size_t points) const override;
 

@@ -184,7 +184,7 @@ RecordingList::RecordingList(std::string folder, std::string track, Show show)
     : folder_(std::move(folder)),
       track_(std::move(track)),
       show_(std::move(show)),
-      thread_([this] { look_again_and_again(); }) {}
+      thread_([this] { refresh_periodically(); }) {}
 
 RecordingList::~RecordingList() {
   {
@@ -195,8 +195,8 @@ RecordingList::~RecordingList() {
   thread_.join();
 }
 
-void RecordingList::look_again_and_again() {
-  transport::give_way();
+void RecordingList::refresh_periodically() {
+  transport::lower_priority();
   std::unique_lock lock{mutex_};
   while (!ends_) {
     lock.unlock();

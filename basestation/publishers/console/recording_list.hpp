@@ -68,7 +68,7 @@ class RecordingList {
   RecordingList& operator=(const RecordingList&) = delete;
 
  private:
-  void look_again_and_again();
+  void refresh_periodically();
 
   std::string folder_, track_;
   Show show_;

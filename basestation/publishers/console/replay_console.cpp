@@ -31,7 +31,7 @@ ReplayConsole::ReplayConsole(service::ServiceConfig config, replay::Player playe
                    config_.evaluator.derive.fuel.attempt_laps),
                messages_) {
   messages_.subscribe([this](std::string_view, std::string_view text, Instant) {
-    clients_.tell_all(std::string{text});
+    clients_.send_to_all(std::string{text});
   });
   restart(player_.begin());
   jumps_ = 0;
@@ -50,21 +50,21 @@ void ReplayConsole::serve(Duration passed) {
 }
 
 void ReplayConsole::receive() {
-  while (const auto news = server_.next_news()) {
+  while (const auto news = server_.next_event()) {
     switch (news->kind) {
-      case web::ClientNews::Kind::kJoined:
+      case web::ClientEvent::Kind::kJoined:
         clients_.joined(news->client, news->who, player_.now());
         break;
-      case web::ClientNews::Kind::kLeft:
+      case web::ClientEvent::Kind::kLeft:
         clients_.left(news->client);
         break;
-      case web::ClientNews::Kind::kText:
+      case web::ClientEvent::Kind::kText:
         if (const auto request =
                 clients_.receive_text(news->client, news->text, *this, player_.now())) {
           execute(news->client, *request);
         }
         break;
-      case web::ClientNews::Kind::kBinary:
+      case web::ClientEvent::Kind::kBinary:
         clients_.receive_binary(news->client);
         break;
     }
@@ -74,21 +74,21 @@ void ReplayConsole::receive() {
 void ReplayConsole::execute(web::ClientId client, const Request& request) {
   const auto* const ask = std::get_if<AskPlayback>(&request);
   if (ask == nullptr)
-    return clients_.tell_error(client, {"replay", "a recording takes no commands"});
+    return clients_.send_error(client, {"replay", "a recording takes no commands"});
   std::optional<Instant> to;
   if (ask->to_ms) to = Instant{static_cast<std::int64_t>(*ask->to_ms * kNanosecondsPerMillisecond)};
-  wind(ask->speed.value_or(player_.speed()), to);
+  control_playback(ask->speed.value_or(player_.speed()), to);
 }
 
-void ReplayConsole::wind(double speed, std::optional<Instant> to) {
+void ReplayConsole::control_playback(double speed, std::optional<Instant> to) {
   player_.set_speed(speed);
   if (to) player_.jump(*to, *this);
-  unreported_ = kTellEvery;
+  unreported_ = kPublishPeriod;
 }
 
 void ReplayConsole::publish(Duration passed) {
   unreported_ = unreported_ + passed;
-  if (unreported_ < kTellEvery) return;
+  if (unreported_ < kPublishPeriod) return;
   unreported_ = {};
   messages_.set_state("playback", playback_text(), player_.now());
 }
@@ -108,8 +108,8 @@ state::FieldView ReplayConsole::view(state::FieldId id, Instant now) const {
   return evaluator_->view(vehicle_, id, now);
 }
 
-alarms::Judgement ReplayConsole::judge(state::FieldId id, const state::FieldView& v) const {
-  return evaluator_->judge(id, v);
+alarms::Evaluation ReplayConsole::evaluate(state::FieldId id, const state::FieldView& v) const {
+  return evaluator_->evaluate(id, v);
 }
 
 std::vector<state::TrendPoint> ReplayConsole::past(state::FieldId id, Instant from, Instant to,
@@ -121,7 +121,7 @@ std::vector<state::TrendPoint> ReplayConsole::past(state::FieldId id, Instant fr
 void ReplayConsole::state(const telemetry::Snapshot& state, telemetry::GroupSet groups,
                           Instant received) {
   for (replay::Listener* const other : others_) other->state(state, groups, received);
-  unsettled_ = false;
+  settings_pending_ = false;
   evaluator_->advance(vehicle_, received);
   evaluator_->receive(received);
   vehicle_.update(state, groups);
@@ -142,7 +142,7 @@ void ReplayConsole::text(recorder::Topic topic, Instant at, std::string_view jso
     case kJudge:
       return settle(json);
     case kInput:
-      return tell_judge(at, json);
+      return apply_judge_input(at, json);
     case kAlarms:
     case kAuthority:
     case kLink:
@@ -159,13 +159,13 @@ void ReplayConsole::text(recorder::Topic topic, Instant at, std::string_view jso
 void ReplayConsole::settle(std::string_view json) {
   auto settings = service::read_judge_text(json);
   // A change within a process comes as an input besides, and forgets nothing.
-  if (!settings || !(settings->begins || unsettled_)) return;
-  unsettled_ = false;
+  if (!settings || !(settings->begins || settings_pending_)) return;
+  settings_pending_ = false;
   settings->config.course = config_.evaluator.course;
   evaluator_.emplace(std::move(settings->config));
 }
 
-void ReplayConsole::tell_judge(Instant at, std::string_view json) {
+void ReplayConsole::apply_judge_input(Instant at, std::string_view json) {
   const auto input = service::read_input_text(json, at);
   if (!input) return;
   evaluator_->advance(vehicle_, at);
@@ -177,7 +177,7 @@ void ReplayConsole::restart(Instant to) {
   vehicle_ = {};
   trends_.emplace();
   evaluator_.emplace(config_.evaluator);
-  unsettled_ = true;
+  settings_pending_ = true;
   received_.reset();
   messages_.clear();
   clients_.want_full();
@@ -186,14 +186,14 @@ void ReplayConsole::restart(Instant to) {
   messages_.set_state("playback", playback_text(), to);
 }
 
-void run_replay(ReplayConsole& wall, int server, int stop, Duration duration,
+void run_replay(ReplayConsole& console, int server, int stop, Duration duration,
                 const std::function<void(Instant now)>& also) {
   const Instant begun = transport::monotonic_now();
   const std::array<int, 2> watched{stop, server};
   for (Instant last = begun;;) {
     const std::uint32_t ready = transport::wait_readable(watched, last + kTurn);
     const Instant now = transport::monotonic_now();
-    wall.serve(now - last);
+    console.serve(now - last);
     if (also) also(now);
     last = now;
     if ((ready & 1U) != 0 || (duration.ns > 0 && now >= begun + duration)) return;

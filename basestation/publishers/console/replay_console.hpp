@@ -28,16 +28,16 @@ class ReplayConsole : private StateSource, private replay::Listener {
   ReplayConsole(service::ServiceConfig config, replay::Player player, web::WebServer& server);
 
   void serve(Duration passed);
-  // Adds a listener for all that the consoles get. wind(): playback control by a tool.
+  // Adds a listener for all that the consoles get. control_playback(): playback control by a tool.
   void tell_also(replay::Listener& listener) { others_.push_back(&listener); }
-  void wind(double speed, std::optional<Instant> to);
+  void control_playback(double speed, std::optional<Instant> to);
   const replay::Player& player() const { return player_; }
 
  private:
-  static constexpr Duration kTellEvery = milliseconds(500);
+  static constexpr Duration kPublishPeriod = milliseconds(500);
 
   state::FieldView view(state::FieldId field, Instant now) const override;
-  alarms::Judgement judge(state::FieldId field, const state::FieldView& v) const override;
+  alarms::Evaluation evaluate(state::FieldId field, const state::FieldView& v) const override;
   std::vector<state::TrendPoint> past(state::FieldId field, Instant from, Instant to,
                                       std::size_t points) const override;
   void state(const telemetry::Snapshot& state, telemetry::GroupSet groups,
@@ -46,7 +46,7 @@ class ReplayConsole : private StateSource, private replay::Listener {
   void restart(Instant to) override;
 
   void settle(std::string_view json);
-  void tell_judge(Instant at, std::string_view json);
+  void apply_judge_input(Instant at, std::string_view json);
   void receive();
   void execute(web::ClientId client, const Request& request);
   void publish(Duration passed);
@@ -60,16 +60,16 @@ class ReplayConsole : private StateSource, private replay::Listener {
   std::optional<alarms::Evaluator> evaluator_;
   service::MessageLog messages_;
   ClientRegistry clients_;
-  bool unsettled_ = true;  // no state has been received since the jump
+  bool settings_pending_ = true;  // no state has been received since the jump
   std::optional<Instant> received_;
   std::uint64_t jumps_ = 0;
-  Duration unreported_ = kTellEvery;  // since the last playback message
+  Duration unreported_ = kPublishPeriod;  // since the last playback message
   std::vector<replay::Listener*> others_;
 };
 
 // Serves the console until `stop` is readable or, if it is not zero, the duration is over. `also`
 // is called in every turn.
-void run_replay(ReplayConsole& wall, int server, int stop, Duration duration,
+void run_replay(ReplayConsole& console, int server, int stop, Duration duration,
                 const std::function<void(Instant now)>& also = {});
 
 }  // namespace pitwall::publishers::console

@@ -44,15 +44,15 @@ Snapshots::Snapshots() : fields_(reported_fields()), reported_(fields_.size()) {
   }
 }
 
-bool Snapshots::safety_changed(const StateSource& eyes, Instant now) const {
+bool Snapshots::safety_changed(const StateSource& source, Instant now) const {
   return std::ranges::any_of(watched_, [&](std::size_t place) {
-    return !same_value(reported_[place].value, eyes.view(fields_[place], now).value);
+    return !same_value(reported_[place].value, source.view(fields_[place], now).value);
   });
 }
 
-std::optional<Frame> Snapshots::make(const StateSource& eyes, Instant now) {
+std::optional<Frame> Snapshots::make(const StateSource& source, Instant now) {
   const Duration since = now - last_;
-  const bool at_once = news_ && safety_changed(eyes, now);
+  const bool at_once = news_ && safety_changed(source, now);
   if (!at_once && !full_wanted_ && since < kAtLatest && !(news_ && since >= kEvery)) {
     news_ = false;
     return std::nullopt;
@@ -64,8 +64,8 @@ std::optional<Frame> Snapshots::make(const StateSource& eyes, Instant now) {
               .at = now};
   frame.entries.reserve(fields_.size() * web::kSnapshotEntry);
   for (std::size_t i = 0; i < fields_.size(); ++i) {
-    const state::FieldView view = eyes.view(fields_[i], now);
-    const Entry entry = web::entry_of(fields_[i], view, eyes.judge(fields_[i], view));
+    const state::FieldView view = source.view(fields_[i], now);
+    const Entry entry = web::entry_of(fields_[i], view, source.evaluate(fields_[i], view));
     if (!full && entry.same(reported_[i])) continue;
     reported_[i] = entry;
     append(frame, entry);

@@ -32,7 +32,7 @@ class StateSource {
  public:
   virtual ~StateSource() = default;
   virtual state::FieldView view(state::FieldId field, Instant now) const = 0;
-  virtual alarms::Judgement judge(state::FieldId field, const state::FieldView& v) const = 0;
+  virtual alarms::Evaluation evaluate(state::FieldId field, const state::FieldView& v) const = 0;
   virtual std::vector<state::TrendPoint> past(state::FieldId field, Instant from, Instant to,
                                               std::size_t points) const = 0;
 };
@@ -47,11 +47,11 @@ class Snapshots {
   void receive() { news_ = true; }  // a packet of the car
   void want_full() { full_wanted_ = true; }
   // Returns the next frame if one is due.
-  std::optional<Frame> make(const StateSource& eyes, Instant now);
+  std::optional<Frame> make(const StateSource& source, Instant now);
   Instant due() const { return last_ + kAtLatest; }
 
  private:
-  bool safety_changed(const StateSource& eyes, Instant now) const;
+  bool safety_changed(const StateSource& source, Instant now) const;
 
   std::vector<state::FieldId> fields_, watched_;
   std::vector<Entry> reported_;  // by place in fields_

@@ -26,7 +26,7 @@ using pitwall::dds::Domain;
 using pitwall::dds::Writer;
 using ros_view::BaseStatus;
 
-constexpr Duration kLookEvery = milliseconds(100);
+constexpr Duration kPollPeriod = milliseconds(100);
 constexpr int kTfDepth = 100, kUsualDepth = 10, kLatchedDepth = 1;
 
 pitwall::dds::Quality quality_of(const ros_view::Topic& topic) {
@@ -57,7 +57,7 @@ std::vector<std::uint8_t> node_list(const Domain& domain, const std::string& nod
 class RosPublisher : public service::Publisher {
  public:
   RosPublisher(RosConfig config, std::unique_ptr<Domain> domain)
-      : look_(std::move(config.look)),
+      : read_status_(std::move(config.read_status)),
         distribution_(config.distribution),
         node_(std::move(config.node)),
         view_(std::move(config.view)),
@@ -90,9 +90,9 @@ class RosPublisher : public service::Publisher {
 
   void publish(const service::CarService& /*car*/, Instant now) override {
     if (now < due_) return;
-    due_ = now + kLookEvery;
+    due_ = now + kPollPeriod;
     BaseStatus base_status{.at = now};
-    if (look_) look_(base_status, now);
+    if (read_status_) read_status_(base_status, now);
     const service::PublisherFigures own = figures_now();
     for (const auto& [name, count] : own.dropped)
       base_status.publishers.emplace_back("ros " + name, count);
@@ -126,7 +126,7 @@ class RosPublisher : public service::Publisher {
   }
 
   void serve_readers() {
-    transport::give_way();
+    transport::lower_priority();
     const ros_view::Sink sink = [this](const ros_view::Message& message) { write(message); };
     view_.statics(transport::monotonic_now(), transport::realtime_minus_monotonic(), sink);
     Instant look_at = transport::monotonic_now();
@@ -139,7 +139,7 @@ class RosPublisher : public service::Publisher {
         view_.car((*sample)->state, (*sample)->groups, (*sample)->received, utc_minus_base, sink);
       }
       if (transport::monotonic_now() < look_at) continue;
-      look_at = transport::monotonic_now() + kLookEvery;
+      look_at = transport::monotonic_now() + kPollPeriod;
       if (const auto base_status = take_base_status())
         view_.base(*base_status, utc_minus_base, sink);
     }
@@ -177,7 +177,7 @@ class RosPublisher : public service::Publisher {
     return figures;
   }
 
-  std::function<void(BaseStatus&, Instant)> look_;
+  std::function<void(BaseStatus&, Instant)> read_status_;
   Distribution distribution_;
   std::string node_;
   ros_view::View view_;  // of the thread, once it runs; its topics never change
@@ -203,7 +203,7 @@ Result<Distribution, Problem> distribution_named(const std::string& name) {
 Result<std::unique_ptr<service::Publisher>, Problem> start(RosConfig config) {
   // Fast DDS starts threads of its own, which take after the one that starts them.
   auto domain = std::async(std::launch::async, [&] {
-                  transport::give_way();
+                  transport::lower_priority();
                   return Domain::join(config.domain);
                 }).get();
   if (!domain) return Unexpected{domain.error()};

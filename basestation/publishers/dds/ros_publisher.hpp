@@ -1,6 +1,7 @@
 // ROS 2 publisher over DDS: tools attach to the base as to any node, for example with
 // `ros2 topic echo /vehicle/odom`.
-//   in     packets as they come; ten times a second the values and alarms of the base, by `look`
+//   in     packets as they come; ten times a second the values and alarms of the base, by
+//          `read_status`
 //   out    the topics of ros_view::View; the node pitwall_base in `ros2 node list`
 //   invariants
 //          it only writes and subscribes to nothing, so that no ROS node can command a car
@@ -33,7 +34,7 @@ struct RosConfig {
   std::string node = "pitwall_base";
   ros_view::ViewConfig view{};
   // Fills in values and alarms, in the loop; empty: the base publishes none.
-  std::function<void(ros_view::BaseStatus&, Instant)> look{};
+  std::function<void(ros_view::BaseStatus&, Instant)> read_status{};
 };
 
 // "humble" or "jazzy"; for releases in between use jazzy.

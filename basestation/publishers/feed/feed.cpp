@@ -27,7 +27,7 @@ std::vector<std::string> channel_names() {
 }
 
 Feed::Feed()
-    : bell_(transport::posix_call([] { return ::eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK); })) {}
+    : wake_fd_(transport::posix_call([] { return ::eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK); })) {}
 
 void Feed::sample(const telemetry::Snapshot& state, telemetry::GroupSet groups, Instant received) {
   if (groups.empty()) return;
@@ -54,7 +54,7 @@ void Feed::push(Item item) {
       drop_oldest();
     }
   }
-  if (first) ring();
+  if (first) wake();
 }
 
 void Feed::drop_oldest() {
@@ -72,9 +72,9 @@ void Feed::drop_oldest() {
   waiting_.pop_front();
 }
 
-void Feed::ring() const {
+void Feed::wake() const {
   const std::uint64_t one = 1;
-  (void)transport::posix_call([&] { return ::write(bell_.get(), &one, sizeof one); });
+  (void)transport::posix_call([&] { return ::write(wake_fd_.get(), &one, sizeof one); });
 }
 
 void Feed::close() {
@@ -82,7 +82,7 @@ void Feed::close() {
     const std::lock_guard hold(lock_);
     closed_ = true;
   }
-  ring();
+  wake();
 }
 
 bool Feed::closed() const {
@@ -93,9 +93,9 @@ bool Feed::closed() const {
 std::vector<Item> Feed::take() {
   const std::lock_guard hold(lock_);
   // Under the lock: what comes from now on rings again. Once it is closed it stays readable.
-  std::uint64_t rung = 0;
+  std::uint64_t count = 0;
   if (!closed_) {
-    (void)transport::posix_call([&] { return ::read(bell_.get(), &rung, sizeof rung); });
+    (void)transport::posix_call([&] { return ::read(wake_fd_.get(), &count, sizeof count); });
   }
   std::vector<Item> items{std::make_move_iterator(waiting_.begin()),
                           std::make_move_iterator(waiting_.end())};

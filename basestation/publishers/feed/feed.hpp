@@ -62,7 +62,7 @@ class Feed {
   void base_status(std::unique_ptr<const BaseStatus> base_status);
   void close();  // asks the thread to end
 
-  int fd() const { return bell_.get(); }  // readable while items wait, or once it is closed
+  int fd() const { return wake_fd_.get(); }  // readable while items wait, or once it is closed
   std::vector<Item> take();
   bool closed() const;
   ChannelCounts drops() const;
@@ -70,9 +70,9 @@ class Feed {
  private:
   void push(Item item);
   void drop_oldest();
-  void ring() const;
+  void wake() const;
 
-  transport::FileDescriptor bell_;
+  transport::FileDescriptor wake_fd_;
   mutable std::mutex lock_;
   std::deque<Item> waiting_;  // from here on under the lock
   std::size_t text_bytes_ = 0;

@@ -58,7 +58,7 @@ std::optional<PlaybackControl> ClientRegistry::handle_request(ClientId client,
   }
   if (const auto* const ask = std::get_if<Subscribe>(&*request)) subscribe(client, *ask);
   if (const auto* const ask = std::get_if<Unsubscribe>(&*request)) unsubscribe(client, *ask);
-  if (const auto* const ask = std::get_if<GetParameters>(&*request)) tell_parameters(client, *ask);
+  if (const auto* const ask = std::get_if<GetParameters>(&*request)) send_parameters(client, *ask);
   if (const auto* const ask = std::get_if<WatchParameters>(&*request)) watch(client, *ask);
   if (const auto* const ask = std::get_if<WatchGraph>(&*request)) watch(client, *ask);
   if (const auto* const ask = std::get_if<Refusable>(&*request)) {
@@ -108,7 +108,7 @@ void ClientRegistry::unsubscribe(ClientId client, const Unsubscribe& ask) {
   }
 }
 
-void ClientRegistry::tell_parameters(ClientId client, const GetParameters& ask) {
+void ClientRegistry::send_parameters(ClientId client, const GetParameters& ask) {
   std::vector<Parameter> reported;
   for (const auto& [name, parameter] : parameters_) {
     const bool wanted = ask.names.empty() || std::ranges::count(ask.names, name) > 0;

@@ -75,7 +75,7 @@ class ClientRegistry {
                                                 Result<Request, Problem> request);
   void subscribe(web::ClientId client, const Subscribe& ask);
   void unsubscribe(web::ClientId client, const Unsubscribe& ask);
-  void tell_parameters(web::ClientId client, const GetParameters& ask);
+  void send_parameters(web::ClientId client, const GetParameters& ask);
   void watch(web::ClientId client, const WatchParameters& ask);
   void watch(web::ClientId client, const WatchGraph& ask);
   void refuse(web::ClientId client, std::string_view kind, std::string_view why);

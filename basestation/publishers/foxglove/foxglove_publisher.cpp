@@ -10,17 +10,17 @@
 
 namespace pitwall::publishers::foxglove {
 
-Result<std::unique_ptr<FoxglovePublisher>, Problem> FoxglovePublisher::start(ServerConfig config,
-                                                                             Look look) {
+Result<std::unique_ptr<FoxglovePublisher>, Problem> FoxglovePublisher::start(
+    ServerConfig config, ReadStatus read_status) {
   auto server = FoxgloveServer::start(std::move(config));
   if (!server) return Unexpected{server.error()};
   return std::unique_ptr<FoxglovePublisher>{
-      new FoxglovePublisher{*std::move(server), std::move(look)}};
+      new FoxglovePublisher{*std::move(server), std::move(read_status)}};
 }
 
-FoxglovePublisher::FoxglovePublisher(std::unique_ptr<FoxgloveServer> server, Look look)
+FoxglovePublisher::FoxglovePublisher(std::unique_ptr<FoxgloveServer> server, ReadStatus read_status)
     : server_(std::move(server)),
-      look_(std::move(look)),
+      read_status_(std::move(read_status)),
       figures_(server_->figures()),
       thread_([this] { run(); }) {}
 
@@ -35,15 +35,15 @@ void FoxglovePublisher::packet(const service::CarService& car, const telemetry::
 
 void FoxglovePublisher::publish(const service::CarService&, Instant now) {
   if (now < due()) return;
-  looked_ = now;
+  polled_at_ = now;
   auto base_status = std::make_unique<feed::BaseStatus>();
   base_status->at = now;
-  look_(*base_status, now);
+  read_status_(*base_status, now);
   feed_.base_status(std::move(base_status));
 }
 
 void FoxglovePublisher::run() {
-  transport::give_way();
+  transport::lower_priority();
   const std::array<int, 2> watched{feed_.fd(), server_->fd()};
   while (!feed_.closed()) {
     transport::wait_readable(watched, server_->due());

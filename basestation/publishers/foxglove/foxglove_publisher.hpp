@@ -22,18 +22,18 @@ namespace pitwall::publishers::foxglove {
 
 class FoxglovePublisher : public service::Publisher {
  public:
-  static constexpr Duration kLookEvery = milliseconds(100);
+  static constexpr Duration kPollPeriod = milliseconds(100);
   // Fills in values and alarms of the base.
-  using Look = std::function<void(ros_view::BaseStatus&, Instant)>;
+  using ReadStatus = std::function<void(ros_view::BaseStatus&, Instant)>;
 
   static Result<std::unique_ptr<FoxglovePublisher>, Problem> start(ServerConfig config,
-                                                                   Look look = {});
+                                                                   ReadStatus read_status = {});
   ~FoxglovePublisher() override;
 
   transport::UdpAddress local() const { return server_->local(); }
   void packet(const service::CarService& car, const telemetry::Arrival& arrival) override;
   void publish(const service::CarService& car, Instant now) override;
-  Instant due() const override { return look_ ? looked_ + kLookEvery : Instant::max(); }
+  Instant due() const override { return read_status_ ? polled_at_ + kPollPeriod : Instant::max(); }
   void text(recorder::Topic topic, Instant at, std::string_view json) {
     feed_.text(topic, at, json);
   }
@@ -41,12 +41,12 @@ class FoxglovePublisher : public service::Publisher {
   feed::Feed& feed() { return feed_; }
 
  private:
-  FoxglovePublisher(std::unique_ptr<FoxgloveServer> server, Look look);
+  FoxglovePublisher(std::unique_ptr<FoxgloveServer> server, ReadStatus read_status);
   void run();
 
   std::unique_ptr<FoxgloveServer> server_;  // used by the thread only
-  Look look_;
-  Instant looked_{};
+  ReadStatus read_status_;
+  Instant polled_at_{};
   feed::Feed feed_;
   const std::vector<std::string> names_ = feed::channel_names();
   mutable std::mutex lock_;

@@ -37,14 +37,15 @@ void FoxgloveReplay::restart(Instant to) {
   jumped_ = true;
 }
 
-void FoxgloveReplay::serve(const replay::Player& player, const Wind& wind, Instant now) {
+void FoxgloveReplay::serve(const replay::Player& player, const PlaybackHandler& control_playback,
+                           Instant now) {
   for (const PlaybackControl& ask : server_->receive()) {
     std::optional<Instant> to;
     if (ask.seek) to = player.clock().to_base(Instant{ask.seek->ns});
-    wind(ask.play ? static_cast<double>(ask.speed) : 0.0, to);
+    control_playback(ask.play ? static_cast<double>(ask.speed) : 0.0, to);
     publish(player, ask.request, now);
   }
-  if (status_ != status_of(player) || jumped_ || now - reported_ >= kTellEvery)
+  if (status_ != status_of(player) || jumped_ || now - reported_ >= kPublishPeriod)
     publish(player, {}, now);
   server_->turn(now, player.now());
 }

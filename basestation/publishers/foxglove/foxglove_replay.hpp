@@ -1,6 +1,7 @@
 // Foxglove publisher of a replay: a FoxgloveServer whose client controls the playback.
 //   in     states and texts of a recording; the state of its playback
-//   out    messages to clients; through Wind, the speed and the time that a client requests
+//   out    messages to clients; the speed and the time that a client
+//          requests, through PlaybackHandler
 //   invariants
 //          every client and every console shows the same moment
 //          the playback state is sent when it changed, once a second, and as the answer to each
@@ -22,7 +23,7 @@ namespace pitwall::publishers::foxglove {
 class FoxgloveReplay : public replay::Listener {
  public:
   // Sets the speed and jumps to the time, if one is given; takes effect before it returns.
-  using Wind = std::function<void(double speed, std::optional<Instant> to)>;
+  using PlaybackHandler = std::function<void(double speed, std::optional<Instant> to)>;
 
   static Result<std::unique_ptr<FoxgloveReplay>, Problem> start(ServerConfig config,
                                                                 const replay::Player& player);
@@ -34,10 +35,10 @@ class FoxgloveReplay : public replay::Listener {
   void text(recorder::Topic topic, Instant at, std::string_view json) override;
   void restart(Instant to) override;
 
-  void serve(const replay::Player& player, const Wind& wind, Instant now);
+  void serve(const replay::Player& player, const PlaybackHandler& control_playback, Instant now);
 
  private:
-  static constexpr Duration kTellEvery = seconds(1);
+  static constexpr Duration kPublishPeriod = seconds(1);
 
   explicit FoxgloveReplay(std::unique_ptr<FoxgloveServer> server) : server_(std::move(server)) {}
   void publish(const replay::Player& player, const std::string& request, Instant now);

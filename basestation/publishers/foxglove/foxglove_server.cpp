@@ -14,7 +14,7 @@ Result<std::unique_ptr<FoxgloveServer>, Problem> FoxgloveServer::start(ServerCon
   http.access.local_pages = true;
   http.tls = config.tls;
   http.subprotocols.assign(kSubprotocols.begin(), kSubprotocols.end());
-  http.queue = {.pictures = kMessages, .picture_bytes = kMessageBytes};
+  http.queue = {.snapshots = kMessages, .snapshot_bytes = kMessageBytes};
   auto server = web::WebServer::start(config.listen, std::move(http));
   if (!server) return Unexpected{Problem{"--foxglove", server.error().what}};
   return std::unique_ptr<FoxgloveServer>{new FoxgloveServer{std::move(config), *std::move(server)}};
@@ -23,33 +23,33 @@ Result<std::unique_ptr<FoxgloveServer>, Problem> FoxgloveServer::start(ServerCon
 FoxgloveServer::FoxgloveServer(ServerConfig config, std::unique_ptr<web::WebServer> server)
     : server_(std::move(server)),
       sources_(std::move(config.view), std::move(config.clock)),
-      room_({.name = std::move(config.name),
-             .session = std::to_string(transport::utc_now().ns),
-             .playback = config.playback},
-            sources_.channels()),
+      clients_({.name = std::move(config.name),
+                .session = std::to_string(transport::utc_now().ns),
+                .playback = config.playback},
+               sources_.channels()),
       sink_([this](std::size_t channel, UtcTime at, std::span<const std::uint8_t> body) {
-        room_.message(channel, at, body);
+        clients_.message(channel, at, body);
       }) {
   sources_.statics(transport::monotonic_now(), sink_);
 }
 
 std::vector<PlaybackControl> FoxgloveServer::receive() {
   std::vector<PlaybackControl> asked;
-  while (const auto news = server_->next_news()) {
+  while (const auto news = server_->next_event()) {
     std::optional<PlaybackControl> control;
     switch (news->kind) {
-      case web::ClientNews::Kind::kJoined:
-        room_.joined(news->client);
+      case web::ClientEvent::Kind::kJoined:
+        clients_.joined(news->client);
         break;
-      case web::ClientNews::Kind::kLeft:
-        room_.left(news->client);
+      case web::ClientEvent::Kind::kLeft:
+        clients_.left(news->client);
         break;
-      case web::ClientNews::Kind::kText:
-        control = room_.receive_text(news->client, news->text);
+      case web::ClientEvent::Kind::kText:
+        control = clients_.receive_text(news->client, news->text);
         break;
-      case web::ClientNews::Kind::kBinary: {
+      case web::ClientEvent::Kind::kBinary: {
         const auto* const bytes = reinterpret_cast<const std::uint8_t*>(news->text.data());
-        control = room_.receive_bytes(news->client, {bytes, news->text.size()});
+        control = clients_.receive_bytes(news->client, {bytes, news->text.size()});
         break;
       }
     }
@@ -63,39 +63,40 @@ void FoxgloveServer::take(const feed::Item& item) {
     take(**sample);
   } else if (const auto* const reported = std::get_if<feed::Reported>(&item)) {
     take(*reported);
-  } else if (room_.anybody()) {
+  } else if (clients_.anybody()) {
     sources_.take(*std::get<std::unique_ptr<const feed::BaseStatus>>(item), sink_);
   }
 }
 
 void FoxgloveServer::take(const feed::Sample& sample) {
-  if (room_.anybody()) sources_.take(sample, sink_);
+  if (clients_.anybody()) sources_.take(sample, sink_);
 }
 
 void FoxgloveServer::take(const feed::Reported& reported) {
   sources_.take(reported, sink_);
-  if (reported.topic == recorder::Topic::kSettings) room_.parameters(thresholds_of(reported.json));
+  if (reported.topic == recorder::Topic::kSettings)
+    clients_.parameters(thresholds_of(reported.json));
 }
 
 void FoxgloveServer::forget(Instant now) {
-  room_.forget();
+  clients_.forget();
   sources_.statics(now, sink_);
 }
 
 void FoxgloveServer::turn(Instant now, Instant shown) {
   if (now >= due()) {
     time_reported_ = now;
-    room_.time(utc(shown));
+    clients_.time(utc(shown));
   }
   if (now - losses_reported_ >= kLossEvery) {
     losses_reported_ = now;
-    room_.lost(server_->take_drops());
+    clients_.lost(server_->take_drops());
   }
-  for (Sending& sending : room_.take()) server_->send(sending.to, std::move(sending.message));
+  for (Sending& sending : clients_.take()) server_->send(sending.to, std::move(sending.message));
 }
 
 service::PublisherFigures FoxgloveServer::figures() const {
-  service::PublisherFigures figures = room_.figures();
+  service::PublisherFigures figures = clients_.figures();
   const web::WebCounters web = server_->counters();
   figures.sent = web.messages_sent;
   figures.failed = web.posts_dropped;

@@ -46,7 +46,7 @@ class FoxgloveServer {
   void take(const feed::Item& item);
   void take(const feed::Sample& sample);
   void take(const feed::Reported& reported);
-  void playback(const PlaybackState& state) { room_.playback(state); }
+  void playback(const PlaybackState& state) { clients_.playback(state); }
   // Drops latched messages after a jump of the recording, and sends the static ones again.
   void forget(Instant now);
   // Sends what is due; `shown` is the time that clients are to show.
@@ -60,7 +60,7 @@ class FoxgloveServer {
 
   std::unique_ptr<web::WebServer> server_;
   Sources sources_;
-  ClientRegistry room_;
+  ClientRegistry clients_;
   Sources::Sink sink_;
   Instant time_reported_{}, losses_reported_{};
 };

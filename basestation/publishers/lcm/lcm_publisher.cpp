@@ -40,7 +40,7 @@ void LcmPublisher::packet(const service::CarService& car, const telemetry::Arriv
 }
 
 void LcmPublisher::run() {
-  transport::give_way();
+  transport::lower_priority();
   const int fd = feed_.fd();
   for (bool more = true; more;) {
     transport::wait_readable({&fd, 1}, Instant::max());

@@ -55,7 +55,7 @@ void look_at_alarms(const service::CarService& car, CarStatus& status) {
   for (const Priority priority : {Priority::kHigh, Priority::kMedium, Priority::kLow}) {
     status.alarms.push_back({.priority = std::string{alarms::text_of(priority)},
                              .active = engine.count(priority),
-                             .unseen = engine.unseen(priority)});
+                             .unacknowledged = engine.unacknowledged(priority)});
   }
 }
 

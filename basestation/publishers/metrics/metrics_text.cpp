@@ -45,7 +45,7 @@ void add_alarms(const CarStatus& status, const std::string& car, Exposition& out
     out.add(Kind::kGauge, "pitwall_alarms", "alarms in the active list", labels,
             number(alarms.active));
     out.add(Kind::kGauge, "pitwall_alarms_unseen", "active alarms that nobody has acknowledged",
-            labels, number(alarms.unseen));
+            labels, number(alarms.unacknowledged));
   }
 }
 

@@ -50,7 +50,7 @@ struct CarStatus {
   }();
   struct Alarms {
     std::string priority;
-    std::uint64_t active = 0, unseen = 0;
+    std::uint64_t active = 0, unacknowledged = 0;
   };
   std::vector<Alarms> alarms{};
   // `name`: without pitwall_ and _total.

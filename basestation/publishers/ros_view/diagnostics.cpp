@@ -141,7 +141,7 @@ class Listing {
            const std::vector<FieldIndex>& fields) {
     const Duration age = base_.at - state_.at(group);
     const bool ever = state_.ever(group);
-    if (!ever) level = Level::kStale, message = "never heard of";
+    if (!ever) level = Level::kStale, message = "not received yet";
     if (ever && age > state::stale_after(telemetry::row_of(group).target_age)) {
       level = Level::kStale;
       message = "not heard of for " + std::to_string(age.ns / kNanosecondsPerSecond) + " s";

@@ -69,11 +69,11 @@ void View::put_group(std::size_t place, Instant at, Duration utc_minus_base,
 }
 
 void View::statics(Instant now, Duration utc_minus_base, const Sink& sink) {
-  const CarMessages say{frames_, utc_minus_base};
+  const CarMessages messages{frames_, utc_minus_base};
   if (config_.course)
-    put(kRaceline, now, raceline(*config_.course, say.header(now, frames_.map)), sink);
+    put(kRaceline, now, raceline(*config_.course, messages.header(now, frames_.map)), sink);
   if (!ground_) return;
-  ros::TransformStamped earth{.header = say.header(now, "earth"),
+  ros::TransformStamped earth{.header = messages.header(now, "earth"),
                               .child_frame_id = frames_.map,
                               .transform = ground_->earth_to_map()};
   put(kTfStatic, now, ros::TFMessage{{std::move(earth)}}, sink);
@@ -82,45 +82,46 @@ void View::statics(Instant now, Duration utc_minus_base, const Sink& sink) {
 void View::car(const telemetry::Snapshot& state, telemetry::GroupSet fresh, Instant now,
                Duration utc_minus_base, const Sink& sink) {
   newest_ = state;
-  const CarMessages say{frames_, utc_minus_base};
+  const CarMessages messages{frames_, utc_minus_base};
   if (fresh.has(Group::kEgo)) {
     const Instant at = state.at(Group::kEgo);
-    put_if(kOdom, at, say.odometry(state), sink);
-    put_if(kTf, at, say.transform(state), sink);
-    if (ground_) put_if(kFix, at, say.fix(state, *ground_), sink);
+    put_if(kOdom, at, messages.odometry(state), sink);
+    put_if(kTf, at, messages.transform(state), sink);
+    if (ground_) put_if(kFix, at, messages.fix(state, *ground_), sink);
   }
-  if (fresh.has(Group::kDynamics)) put_if(kImu, state.at(Group::kDynamics), say.imu(state), sink);
+  if (fresh.has(Group::kDynamics))
+    put_if(kImu, state.at(Group::kDynamics), messages.imu(state), sink);
   if (fresh.has(Group::kGnss0))
-    put(kTop, state.at(Group::kGnss0), say.receiver_fix(state, 0), sink);
+    put(kTop, state.at(Group::kGnss0), messages.receiver_fix(state, 0), sink);
   if (fresh.has(Group::kGnss1))
-    put(kBottom, state.at(Group::kGnss1), say.receiver_fix(state, 1), sink);
+    put(kBottom, state.at(Group::kGnss1), messages.receiver_fix(state, 1), sink);
   bool opponents = false;
   for (std::size_t i = 0; i < kOpponents; ++i)
     opponents |= fresh.has(static_cast<Group>(telemetry::index_of(Group::kOpponent1) + i));
   if (opponents && config_.course)
-    put(kOpponentsTopic, now, say.opponents(state, *config_.course, now), sink);
-  const auto& messages = group_messages();
+    put(kOpponentsTopic, now, messages.opponents(state, *config_.course, now), sink);
+  const auto& groups = group_messages();
   for (const telemetry::GroupRow& row : telemetry::kGroupTable) {
     if (!fresh.has(row.group) || row.direction != telemetry::Direction::kDown) continue;
     const std::size_t place = message_index(row.group);
-    put_group(place, state.at(row.group), utc_minus_base,
-              std::span{state.values.at}.subspan(messages[place].rows.front(),
-                                                 messages[place].rows.size()),
-              sink);
+    put_group(
+        place, state.at(row.group), utc_minus_base,
+        std::span{state.values.at}.subspan(groups[place].rows.front(), groups[place].rows.size()),
+        sink);
   }
 }
 
 void View::base(const BaseStatus& base_status, Duration utc_minus_base, const Sink& sink) {
-  const auto& messages = group_messages();
+  const auto& groups = group_messages();
   std::vector<double> values;
-  for (std::size_t place = 0; place < messages.size(); ++place) {
-    if (!messages[place].of_base) continue;
+  for (std::size_t place = 0; place < groups.size(); ++place) {
+    if (!groups[place].of_base) continue;
     values.clear();
-    for (const std::size_t row : messages[place].rows) values.push_back(base_status.values[row]);
+    for (const std::size_t row : groups[place].rows) values.push_back(base_status.values[row]);
     const bool known = std::ranges::any_of(values, [](double v) { return !std::isnan(v); });
     if (known) put_group(place, base_status.at, utc_minus_base, values, sink);
   }
-  look_at_health(base_status, utc_minus_base, sink);
+  publish_health(base_status, utc_minus_base, sink);
 }
 
 bool View::loses(const BaseStatus& base_status) {
@@ -131,7 +132,7 @@ bool View::loses(const BaseStatus& base_status) {
   return lost_at_ && base_status.at - *lost_at_ < kLossShown;
 }
 
-void View::look_at_health(const BaseStatus& base_status, Duration utc_minus_base,
+void View::publish_health(const BaseStatus& base_status, Duration utc_minus_base,
                           const Sink& sink) {
   ros::DiagnosticArray health{
       .header = CarMessages{frames_, utc_minus_base}.header(base_status.at, ""),

@@ -89,7 +89,7 @@ class View {
   void put_if(std::size_t topic, Instant at, const std::optional<M>& message, const Sink& sink);
   void put_group(std::size_t place, Instant at, Duration utc_minus_base,
                  std::span<const double> values, const Sink& sink);
-  void look_at_health(const BaseStatus& base_status, Duration utc_minus_base, const Sink& sink);
+  void publish_health(const BaseStatus& base_status, Duration utc_minus_base, const Sink& sink);
   bool loses(const BaseStatus& base_status);
 
   ViewConfig config_;

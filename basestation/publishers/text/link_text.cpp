@@ -41,7 +41,7 @@ TextLine head_line(const service::CarService& car, Instant now) {
 
 std::string link_line(const service::CarService& car, const LinkReport& report, Instant now) {
   const link::PacketRate& rate = car.link().rate();
-  if (!rate.ever()) return "link      nothing heard";
+  if (!rate.ever()) return "link      nothing received";
   std::string text = formatted(
       "link      session %llu   %.1f Hz   %llu packets, %llu lost (%.1f %%)   "
       "last %s ago   round trip %s   ",
@@ -177,7 +177,7 @@ void add_commands(const service::CarService& car, Instant now, std::vector<TextL
   const std::size_t first = commands.size() - std::min(commands.size(), kLogLines);
   for (std::size_t i = first; i < commands.size(); ++i) {
     const telemetry::CommandProgress& c = commands[i];
-    const bool refused = c.fate && *c.fate != telemetry::Outcome::kApplied;
+    const bool refused = c.outcome && *c.outcome != telemetry::Outcome::kApplied;
     lines.push_back({formatted("command   %s ago   #%u %s: %s", age_text(now - c.issued).c_str(),
                                unsigned{c.id}, state::command_text(c.command).c_str(),
                                state::progress_text(c, now).c_str()),

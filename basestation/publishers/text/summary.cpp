@@ -47,7 +47,7 @@ std::string ages_json(const link::AgeHistogram& ages) {
       .text();
 }
 
-std::string ages_by_class(const link::AgeBook& ages) {
+std::string ages_by_class(const link::AgeStatistics& ages) {
   constexpr std::array<std::pair<telemetry::Class, const char*>, telemetry::kClasses> kNames{
       {{telemetry::Class::kSafety, "safety"},
        {telemetry::Class::kMotion, "motion"},
@@ -58,7 +58,7 @@ std::string ages_by_class(const link::AgeBook& ages) {
   return object.text();
 }
 
-std::string ages_by_group(const link::AgeBook& ages) {
+std::string ages_by_group(const link::AgeStatistics& ages) {
   Object object;
   for (const telemetry::GroupRow& row : telemetry::kGroupTable) {
     if (row.direction != telemetry::Direction::kDown) continue;
@@ -137,7 +137,7 @@ std::string command_json(const telemetry::CommandProgress& c, Instant start) {
       .add("sent_ms", since_ms(c.sent, c.issued))
       .add("received_ms", since_ms(c.received, c.issued))
       .add("decided_ms", since_ms(c.decided, c.issued))
-      .add("fate", c.fate ? json::quoted(telemetry::text_of(*c.fate)) : "null")
+      .add("fate", c.outcome ? json::quoted(telemetry::text_of(*c.outcome)) : "null")
       .text();
 }
 
@@ -174,8 +174,8 @@ const char* source_text(link::Station::Source source) {
 }
 
 const char* car_text(const link::PacketRate& rate, Instant now) {
-  if (!rate.ever()) return "never heard";
-  return rate.lost(now) ? "lost" : "heard";
+  if (!rate.ever()) return "not received yet";
+  return rate.lost(now) ? "lost" : "received";
 }
 
 class Document {

@@ -128,7 +128,7 @@ std::vector<TextLine> group_lines(const state::VehicleState& vehicle, Instant no
     }
   }
   add_words("with --all:", hidden, lines);
-  add_words("never heard:", never, lines);
+  add_words("not received yet:", never, lines);
   return lines;
 }
 
@@ -170,7 +170,7 @@ std::optional<TextLine> bus_line(const state::VehicleState& vehicle, Instant now
   }
 }
 
-// One field as its value is said, with its unit; nothing to add where it was never heard.
+// One field as its value is said, with its unit; nothing to add where it was never received.
 class FieldTexts {
  public:
   FieldTexts(const state::VehicleState& vehicle, Instant now) : vehicle_(vehicle), now_(now) {}

@@ -9,12 +9,12 @@ namespace pitwall::publishers::web {
 bool ClientQueue::push(SharedMessage message) {
   const std::size_t bytes = message->bytes();
   if (message->vehicle()) {
-    while (pictures_ > 0 &&
-           (pictures_ == limits_.pictures || picture_bytes_ + bytes > limits_.picture_bytes)) {
-      drop_oldest_picture();
+    while (snapshots_ > 0 &&
+           (snapshots_ == limits_.snapshots || snapshot_bytes_ + bytes > limits_.snapshot_bytes)) {
+      drop_oldest_snapshot();
     }
-    ++pictures_;
-    picture_bytes_ += bytes;
+    ++snapshots_;
+    snapshot_bytes_ += bytes;
   } else {
     unread_ += bytes;
   }
@@ -22,12 +22,12 @@ bool ClientQueue::push(SharedMessage message) {
   return unread_ <= limits_.unread_bytes;
 }
 
-void ClientQueue::drop_oldest_picture() {
+void ClientQueue::drop_oldest_snapshot() {
   const auto oldest = std::ranges::find_if(waiting_, [](const auto& m) { return m->vehicle(); });
-  picture_bytes_ -= (*oldest)->bytes();
+  snapshot_bytes_ -= (*oldest)->bytes();
   if ((*oldest)->binary) lost_tags_.push_back((*oldest)->binary->tag);
   waiting_.erase(oldest);
-  --pictures_;
+  --snapshots_;
   ++dropped_;
 }
 
@@ -36,8 +36,8 @@ SharedMessage ClientQueue::pop() {
   SharedMessage message = std::move(waiting_.front());
   waiting_.pop_front();
   if (message->vehicle()) {
-    --pictures_;
-    picture_bytes_ -= message->bytes();
+    --snapshots_;
+    snapshot_bytes_ -= message->bytes();
   } else {
     unread_ -= message->bytes();
   }

@@ -55,8 +55,8 @@ struct Message {
 using SharedMessage = std::shared_ptr<const Message>;
 
 struct QueueLimits {
-  std::size_t pictures = 25;  // one second of the console's snapshots
-  std::size_t picture_bytes = 4 * 1'024 * 1'024;
+  std::size_t snapshots = 25;  // one second of the console's snapshots
+  std::size_t snapshot_bytes = 4 * 1'024 * 1'024;
   std::size_t unread_bytes = 4 * 1'024 * 1'024;
 };
 
@@ -68,17 +68,17 @@ class ClientQueue {
   bool push(SharedMessage message);
   SharedMessage pop();  // nullptr: the queue is empty
   bool empty() const { return waiting_.empty(); }
-  std::size_t bytes() const { return picture_bytes_ + unread_; }
+  std::size_t bytes() const { return snapshot_bytes_ + unread_; }
   std::uint32_t dropped() const { return dropped_; }
   // Tags of the bytes dropped since the last call.
   std::vector<std::uint32_t> take_lost_tags() { return std::exchange(lost_tags_, {}); }
 
  private:
-  void drop_oldest_picture();
+  void drop_oldest_snapshot();
 
   QueueLimits limits_;
   std::deque<SharedMessage> waiting_;
-  std::size_t pictures_ = 0, picture_bytes_ = 0, unread_ = 0;
+  std::size_t snapshots_ = 0, snapshot_bytes_ = 0, unread_ = 0;
   std::uint32_t dropped_ = 0;
   std::vector<std::uint32_t> lost_tags_;
 };

@@ -59,11 +59,11 @@ std::uint8_t age_code(Duration age) {
   return 0;
 }
 
-Entry entry_of(std::uint16_t field, const state::FieldView& view, alarms::Judgement judgement) {
+Entry entry_of(std::uint16_t field, const state::FieldView& view, alarms::Evaluation evaluation) {
   const bool old = view.quality >= state::Quality::kStale;
-  const auto judged = static_cast<unsigned>(old ? alarms::Judgement::kNone : judgement);
-  const unsigned status = static_cast<unsigned>(view.quality) | judged << kJudgementShift |
-                          (view.unset ? kUnsetBit : 0U);
+  const auto code = static_cast<unsigned>(old ? alarms::Evaluation::kNone : evaluation);
+  const unsigned status =
+      static_cast<unsigned>(view.quality) | code << kJudgementShift | (view.unset ? kUnsetBit : 0U);
   const bool never = view.quality == state::Quality::kNever;
   return {.field = field,
           .status = static_cast<std::uint8_t>(status),

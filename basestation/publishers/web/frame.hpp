@@ -1,5 +1,5 @@
 // Binary frames from base to console, as PROTOCOL.md describes them.
-//   in     fields with value, age, quality, judgement; points of the history of a field
+//   in     fields with value, age, quality, evaluation; points of the history of a field
 //   out    bytes, little endian. The header of 24 bytes is made for each client, because it counts
 //          the frames that this client has lost
 //   cost   O(entries)
@@ -44,7 +44,7 @@ struct Entry {
   bool same(const Entry& other) const;  // bit by bit: a NaN equals itself
 };
 std::uint8_t age_code(Duration age);  // at most 254; never received: 255, set by entry_of()
-Entry entry_of(std::uint16_t field, const state::FieldView& view, alarms::Judgement judgement);
+Entry entry_of(std::uint16_t field, const state::FieldView& view, alarms::Evaluation evaluation);
 
 void append(Frame& frame, const Entry& entry);
 Frame history_frame(std::uint16_t field, std::span<const state::TrendPoint> points, Instant at);

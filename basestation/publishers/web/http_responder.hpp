@@ -88,7 +88,7 @@ struct HttpConfig {
   std::shared_ptr<ssl_ctx_st> tls{};  // not null: TLS only
   std::function<UtcTime()> utc = transport::utc_now;
   // Log line for the operator of the base; called by the thread that answers.
-  std::function<void(const std::string&)> say = [](const std::string&) {};
+  std::function<void(const std::string&)> log = [](const std::string&) {};
 };
 
 inline constexpr std::string_view kJsonType = "application/json";

@@ -22,7 +22,7 @@ namespace pitwall::publishers::web {
 
 class WebServer::Engine::HttpSession : public std::enable_shared_from_this<HttpSession> {
  public:
-  HttpSession(Engine& engine, Wire&& wire, WaitingRoom::Connection number)
+  HttpSession(Engine& engine, Wire&& wire, PendingConnections::Connection number)
       : engine_(engine), stream_(std::move(wire)), number_(number) {}
   ~HttpSession() {
     engine_.waiting.leave(number_);
@@ -32,7 +32,7 @@ class WebServer::Engine::HttpSession : public std::enable_shared_from_this<HttpS
 
   void begin() {
     if (stream_.tls() == nullptr) return read();
-    stream_.next_layer().expires_after(kHttpPatience);
+    stream_.next_layer().expires_after(kHttpTimeout);
     stream_.tls()->async_handshake(asio::ssl::stream_base::server,
                                    [self = shared_from_this()](error_code failed) {
                                      if (failed) return self->no_tls(failed);
@@ -49,7 +49,7 @@ class WebServer::Engine::HttpSession : public std::enable_shared_from_this<HttpS
     parser_.emplace();
     parser_->body_limit(HttpResponder::kLayoutBytes);
     parser_->header_limit(kHeaderMax);
-    stream_.next_layer().expires_after(kHttpPatience);
+    stream_.next_layer().expires_after(kHttpTimeout);
     http::async_read(stream_, buffer_, *parser_,
                      [self = shared_from_this()](error_code failed, std::size_t) {
                        if (failed) return self->malformed(failed);
@@ -140,7 +140,7 @@ class WebServer::Engine::HttpSession : public std::enable_shared_from_this<HttpS
     response_.keep_alive(keep_alive);
     response_.content_length(answer.body ? answer.body->size() : 0);
     if (answer.body && !only_head) response_.body() = *answer.body;
-    stream_.next_layer().expires_after(kHttpPatience);
+    stream_.next_layer().expires_after(kHttpTimeout);
     head_ = head_of(response_);
     const std::array<asio::const_buffer, 2> parts{asio::buffer(head_),
                                                   asio::buffer(response_.body())};
@@ -173,7 +173,7 @@ class WebServer::Engine::HttpSession : public std::enable_shared_from_this<HttpS
 
   Engine& engine_;
   Wire stream_;
-  WaitingRoom::Connection number_;
+  PendingConnections::Connection number_;
   beast::flat_buffer buffer_;
   std::optional<http::request_parser<http::string_body>> parser_;
   http::response<http::string_body> response_;

@@ -25,7 +25,7 @@
 #include <vector>
 
 #include "basestation/publishers/web/admission/pace.hpp"
-#include "basestation/publishers/web/admission/waiting_room.hpp"
+#include "basestation/publishers/web/admission/pending_connections.hpp"
 #include "basestation/publishers/web/web_server.hpp"
 #include "basestation/publishers/web/wire.hpp"
 #include "protocol/transport/clock.hpp"
@@ -40,9 +40,9 @@ using boost::system::error_code;
 using Tcp = asio::ip::tcp;
 
 inline constexpr std::size_t kHeaderMax = 16 * 1'024;
-inline constexpr auto kHttpPatience = std::chrono::seconds(15);
-inline constexpr auto kTending = std::chrono::seconds(1);
-inline constexpr Duration kSayingAgain = seconds(10);  // between log lines of the same cause
+inline constexpr auto kHttpTimeout = std::chrono::seconds(15);
+inline constexpr auto kHousekeepingPeriod = std::chrono::seconds(1);
+inline constexpr Duration kLogRepeatPeriod = seconds(10);  // between log lines of the same cause
 // Pause of accept() when no descriptor is free.
 inline constexpr auto kAcceptPause = std::chrono::milliseconds(50);
 inline constexpr auto kSilence = std::chrono::seconds(60);  // of a socket, with unanswered pings
@@ -58,7 +58,10 @@ struct WebServer::Engine {
   class Socket;
 
   Engine(const Tcp::endpoint& endpoint, HttpConfig config)
-      : acceptor(io, endpoint), responder(std::move(config)), tending(io), accepting(io) {
+      : acceptor(io, endpoint),
+        responder(std::move(config)),
+        housekeeping_timer(io),
+        accepting(io) {
     responder.serve_at(acceptor.local_endpoint().port());
     if (responder.config().tls == nullptr) return;
     SSL_CTX* const tls = responder.config().tls.get();
@@ -73,12 +76,12 @@ struct WebServer::Engine {
   std::string no_room_for(const Tcp::socket& socket) const;
   void refuse(std::uint64_t WebCounters::*counter, const std::string& why);
   // Once a second: revoked tokens, shortage of memory.
-  void tend();
+  void run_housekeeping();
   void drop_revoked();
   void make_room();     // on a shortage of memory
   void drop_largest();  // the viewer with most unread
   void drop_newest();   // the newest viewer, while an allocation has failed
-  void publish(std::size_t car, Role by, ClientNews news);
+  void publish(std::size_t car, Role by, ClientEvent news);
   void call();
   void deliver();
   // Returns 0 if no place is free for this role.
@@ -93,25 +96,26 @@ struct WebServer::Engine {
     ClientSet to;
     SharedMessage message;  // nullptr: one request of these clients was handled
   };
-  struct Door {
-    std::deque<ClientNews> operators, viewers;  // news, by role
-    ClientSet leaving;               // kLeft still waits among the news: number not reusable yet
-    transport::FileDescriptor bell;  // never changes
+  struct EventQueues {
+    std::deque<ClientEvent> operators, viewers;  // news, by role
+    ClientSet leaving;  // kLeft still waits among the news: number not reusable yet
+    transport::FileDescriptor event_fd;  // never changes
   };
   mutable std::mutex lock;
-  std::array<Door, kCars> doors;  // by car; from here on under the lock
+  std::array<EventQueues, kCars> queues;  // by car; from here on under the lock
   std::vector<Post> posts;
   std::map<std::string, Shown> shown;  // documents not yet given to the responder
   bool post_under_way = false;
   WebCounters counters;
   std::map<std::pair<ClientId, std::uint32_t>, std::uint64_t> drops;  // by client and tag
 
-  std::size_t connections = 0;                       // from here on for the web thread only
-  std::size_t newcomers = 0, earlier_newcomers = 0;  // accepted in this and in the last kTending
+  std::size_t connections = 0;  // from here on for the web thread only
+  std::size_t new_clients = 0,
+              earlier_clients = 0;  // accepted in this and in the last kHousekeepingPeriod
   ClientId newest = kLastClient;
-  WaitingRoom::Connection newest_connection = 0;
-  WaitingRoom waiting;
-  std::map<WaitingRoom::Connection, std::weak_ptr<HttpSession>> sessions;
+  PendingConnections::Connection newest_connection = 0;
+  PendingConnections waiting;
+  std::map<PendingConnections::Connection, std::weak_ptr<HttpSession>> sessions;
   std::string last_refusal;  // cause of the newest refusal
   std::optional<Instant> last_refusal_at;
   // Declared after the members that sessions in its handlers use, so that it is destroyed first.
@@ -119,7 +123,7 @@ struct WebServer::Engine {
   Tcp::acceptor acceptor;
   HttpResponder responder;
   std::optional<asio::ssl::context> context;
-  asio::steady_timer tending, accepting;
+  asio::steady_timer housekeeping_timer, accepting;
   std::array<std::shared_ptr<Socket>, 256> sockets{};  // by client
   std::thread thread;
 };
@@ -141,7 +145,7 @@ class WebServer::Engine::Socket : public std::enable_shared_from_this<Socket> {
 
   void accept(const http::request<http::string_body>& request) {
     beast::get_lowest_layer(stream_).expires_never();
-    stream_.set_option(websocket::stream_base::timeout{kHttpPatience, kSilence, true});
+    stream_.set_option(websocket::stream_base::timeout{kHttpTimeout, kSilence, true});
     stream_.read_message_max(kTextMax);
     stream_.auto_fragment(false);
     if (!subprotocol_.empty()) {
@@ -155,7 +159,7 @@ class WebServer::Engine::Socket : public std::enable_shared_from_this<Socket> {
       self->engine_.count([](WebCounters& c) { ++c.joined; });
       self->engine_.publish(
           self->car_, self->who_.role,
-          {.kind = ClientNews::Kind::kJoined, .client = self->client_, .who = self->who_});
+          {.kind = ClientEvent::Kind::kJoined, .client = self->client_, .who = self->who_});
       self->joined_ = true;
       self->read();
     });
@@ -229,8 +233,8 @@ class WebServer::Engine::Socket : public std::enable_shared_from_this<Socket> {
     ++unhandled_;
     pace_.receive(transport::wall_now());
     engine_.count([](WebCounters& c) { ++c.texts_received; });
-    ClientNews news{
-        .kind = stream_.got_text() ? ClientNews::Kind::kText : ClientNews::Kind::kBinary,
+    ClientEvent news{
+        .kind = stream_.got_text() ? ClientEvent::Kind::kText : ClientEvent::Kind::kBinary,
         .client = client_};
     news.text = beast::buffers_to_string(received_.data());
     received_.consume(received_.size());
@@ -273,7 +277,7 @@ class WebServer::Engine::Socket : public std::enable_shared_from_this<Socket> {
     engine_.sockets[client_].reset();
     if (!joined_) return;
     engine_.count([](WebCounters& c) { ++c.left; });
-    engine_.publish(car_, who_.role, {.kind = ClientNews::Kind::kLeft, .client = client_});
+    engine_.publish(car_, who_.role, {.kind = ClientEvent::Kind::kLeft, .client = client_});
   }
 
   Engine& engine_;

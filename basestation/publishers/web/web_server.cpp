@@ -48,7 +48,7 @@ void WebServer::Engine::accepted(Tcp::socket socket) {
     return refuse(&WebCounters::refused_room,
                   "connections: all of " + std::to_string(kConnections) + " are taken");
   ++connections;
-  ++newcomers;
+  ++new_clients;
   count([](WebCounters& c) { ++c.connections; });
   error_code ignored;
   socket.set_option(Tcp::no_delay(true), ignored);
@@ -59,7 +59,7 @@ void WebServer::Engine::accepted(Tcp::socket socket) {
   const auto number = ++newest_connection;
   const auto session = std::make_shared<HttpSession>(*this, std::move(wire), number);
   sessions[number] = session;
-  if (const auto goes = waiting.enter(number, address)) {
+  if (const auto goes = waiting.add(number, address)) {
     count([](WebCounters& c) { ++c.closed_waiting; });
     if (const auto silent = sessions[*goes].lock()) silent->cut();
   }
@@ -73,29 +73,29 @@ std::string WebServer::Engine::no_room_for(const Tcp::socket& socket) const {
   if (!why.empty()) return why;
   if (!reserve_is_held()) return "memory: an allocation failed, the reserve is in use";
   return short_of_memory(memory_use(),
-                         kRoomToCome + (newcomers + earlier_newcomers) * kRoomPerNewcomer);
+                         kMemoryToAccept + (new_clients + earlier_clients) * kMemoryPerClient);
 }
 
 void WebServer::Engine::refuse(std::uint64_t WebCounters::*counter, const std::string& why) {
   count([counter](WebCounters& c) { ++(c.*counter); });
   const Instant now = transport::wall_now();
   const std::string what = why.substr(0, why.find(':'));
-  if (what == last_refusal && last_refusal_at && now - *last_refusal_at < kSayingAgain) return;
+  if (what == last_refusal && last_refusal_at && now - *last_refusal_at < kLogRepeatPeriod) return;
   last_refusal = what;
   last_refusal_at = now;
-  responder.config().say("console refused: " + why);
+  responder.config().log("console refused: " + why);
 }
 
-void WebServer::Engine::tend() {
-  tending.expires_after(kTending);
-  tending.async_wait([this](error_code cancelled) {
+void WebServer::Engine::run_housekeeping() {
+  housekeeping_timer.expires_after(kHousekeepingPeriod);
+  housekeeping_timer.async_wait([this](error_code cancelled) {
     if (cancelled) return;
-    const auto changed = responder.config().access.tokens->look_again();
-    if (!changed) responder.config().say("tokens unchanged: " + to_string(changed.error()));
+    const auto changed = responder.config().access.tokens->refresh();
+    if (!changed) responder.config().log("tokens unchanged: " + to_string(changed.error()));
     if (changed && *changed) drop_revoked();
-    earlier_newcomers = std::exchange(newcomers, 0);
+    earlier_clients = std::exchange(new_clients, 0);
     make_room();
-    tend();
+    run_housekeeping();
   });
 }
 
@@ -103,13 +103,13 @@ void WebServer::Engine::drop_revoked() {
   for (const auto& socket : sockets) {
     if (socket == nullptr || responder.config().access.tokens->may_stay(socket->who())) continue;
     count([](WebCounters& c) { ++c.closed_revoked; });
-    responder.config().say("token of " + socket->who().name + " no longer holds: console closed");
+    responder.config().log("token of " + socket->who().name + " no longer holds: console closed");
     socket->close(websocket::close_code::policy_error);
   }
 }
 
 void WebServer::Engine::make_room() {
-  if (!short_of_memory(memory_use(), kRoomToStay).empty()) return drop_largest();
+  if (!short_of_memory(memory_use(), kMemoryToKeep).empty()) return drop_largest();
   if (!reserve_is_held()) hold_reserve();
 }
 
@@ -134,18 +134,18 @@ void WebServer::Engine::drop_newest() {
   }
 }
 
-void WebServer::Engine::publish(std::size_t car, Role by, ClientNews item) {
-  Door& door = doors[car];
+void WebServer::Engine::publish(std::size_t car, Role by, ClientEvent item) {
+  EventQueues& queue = queues[car];
   {
     const std::lock_guard hold(lock);
-    auto& news = by == Role::kOperator ? door.operators : door.viewers;
+    auto& news = by == Role::kOperator ? queue.operators : queue.viewers;
     // kUnhandled bounds what is said; joining and leaving is bounded by kConnections.
-    if (item.kind == ClientNews::Kind::kLeft) door.leaving.set(item.client);
-    if (news.size() < kNewsMax || item.kind == ClientNews::Kind::kLeft)
+    if (item.kind == ClientEvent::Kind::kLeft) queue.leaving.set(item.client);
+    if (news.size() < kNewsMax || item.kind == ClientEvent::Kind::kLeft)
       news.push_back(std::move(item));
   }
   const std::uint64_t one = 1;
-  (void)transport::posix_call([&] { return ::write(door.bell.get(), &one, sizeof one); });
+  (void)transport::posix_call([&] { return ::write(queue.event_fd.get(), &one, sizeof one); });
 }
 
 // Under the lock: the web thread takes what waits for it.
@@ -184,7 +184,7 @@ ClientId WebServer::Engine::free_number(Role role) {
   ClientSet leaving;
   {
     const std::lock_guard hold(lock);
-    for (const Door& door : doors) leaving |= door.leaving;
+    for (const EventQueues& queue : queues) leaving |= queue.leaving;
   }
   const auto is_free = [&](ClientId client) {
     return sockets[client] == nullptr && !leaving.test(client);
@@ -217,8 +217,8 @@ Result<std::unique_ptr<WebServer>, Problem> WebServer::start(transport::UdpAddre
   } catch (const std::exception& failed) {
     return Unexpected{Problem{"--web " + to_string(listen), failed.what()}};
   }
-  for (Engine::Door& door : engine->doors) {
-    door.bell = transport::FileDescriptor{
+  for (Engine::EventQueues& queue : engine->queues) {
+    queue.event_fd = transport::FileDescriptor{
         transport::posix_call([] { return ::eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK); })};
   }
   if (!hold_reserve()) {
@@ -226,7 +226,7 @@ Result<std::unique_ptr<WebServer>, Problem> WebServer::start(transport::UdpAddre
         Problem{"--web " + to_string(listen), "no memory for the reserve of the server"}};
   }
   engine->accept();
-  engine->tend();
+  engine->run_housekeeping();
   engine->thread = std::thread([raw = engine.get()] { raw->run(); });
   return std::unique_ptr<WebServer>{new WebServer(std::move(engine))};
 }
@@ -244,25 +244,26 @@ transport::UdpAddress WebServer::local() const {
   return {.ip = at.address().to_v4().to_uint(), .port = at.port()};
 }
 
-int WebServer::fd(std::size_t car) const { return engine_->doors[car].bell.get(); }
+int WebServer::fd(std::size_t car) const { return engine_->queues[car].event_fd.get(); }
 
-std::optional<ClientNews> WebServer::next_news(std::size_t car) {
-  Engine::Door& door = engine_->doors[car];
-  std::optional<ClientNews> item;
+std::optional<ClientEvent> WebServer::next_event(std::size_t car) {
+  Engine::EventQueues& queue = engine_->queues[car];
+  std::optional<ClientEvent> item;
   {
     const std::lock_guard hold(engine_->lock);
-    auto& news = door.operators.empty() ? door.viewers : door.operators;
+    auto& news = queue.operators.empty() ? queue.viewers : queue.operators;
     if (news.empty()) {
       // Under the lock: what is told from now on rings again.
-      std::uint64_t rung = 0;
-      (void)transport::posix_call([&] { return ::read(door.bell.get(), &rung, sizeof rung); });
+      std::uint64_t count = 0;
+      (void)transport::posix_call(
+          [&] { return ::read(queue.event_fd.get(), &count, sizeof count); });
       return item;
     }
     item = std::move(news.front());
     news.pop_front();
-    if (item->kind == ClientNews::Kind::kLeft) door.leaving.reset(item->client);
+    if (item->kind == ClientEvent::Kind::kLeft) queue.leaving.reset(item->client);
   }
-  if (item->kind == ClientNews::Kind::kText || item->kind == ClientNews::Kind::kBinary) {
+  if (item->kind == ClientEvent::Kind::kText || item->kind == ClientEvent::Kind::kBinary) {
     send(ClientSet{}.set(item->client), nullptr);
   }
   return item;

@@ -36,7 +36,7 @@
 
 namespace pitwall::publishers::web {
 
-struct ClientNews {
+struct ClientEvent {
   enum class Kind : std::uint8_t { kJoined, kLeft, kText, kBinary };
   Kind kind = Kind::kJoined;
   ClientId client = 0;
@@ -86,7 +86,7 @@ class WebServer {
   // For the consoles of one car, in the order of HttpConfig::cars: readable while news wait. News
   // of operators come before those of viewers; those of one client stay in order.
   int fd(std::size_t car = 0) const;
-  std::optional<ClientNews> next_news(std::size_t car = 0);
+  std::optional<ClientEvent> next_event(std::size_t car = 0);
   // Replaces the document of this path, or adds one.
   void show(const std::string& path, Shown document);
   void send(const ClientSet& to, SharedMessage message);

@@ -61,7 +61,7 @@ void AlarmCheck::compare(std::string_view reported, const std::string& again) {
     differences_.push_back("told: " + std::string{reported} + "\nagain: " + again);
 }
 
-Result<AlarmCheck, Problem> check_alarms(const std::string& folder, std::vector<std::string>& say) {
+Result<AlarmCheck, Problem> check_alarms(const std::string& folder, std::vector<std::string>& log) {
   const auto paths = recorder::segments_of(folder);
   if (!paths) return Unexpected{paths.error()};
   AlarmCheck judge;
@@ -69,14 +69,14 @@ Result<AlarmCheck, Problem> check_alarms(const std::string& folder, std::vector<
   for (const std::string& path : *paths) {
     const auto file = transport::read_file(path);
     if (!file) {
-      say.push_back(to_string(file.error()));
+      log.push_back(to_string(file.error()));
       continue;
     }
     recording::McapReader head{as_bytes(*file)};
     head.next();
     const auto clock = recorder::clock_of(head.run());
     if (!clock) {
-      say.push_back(path + ": no recording of a base station");
+      log.push_back(path + ": no recording of a base station");
       continue;
     }
     replay::SegmentReader reader{as_bytes(*file), *clock, known};

@@ -5,7 +5,7 @@
 //          a recording of a base evaluates to the same texts, byte for byte: the same states and
 //          inputs, in the same order, at the same times. Each process that recorded is evaluated
 //          on its own clock, with its own settings
-//   errors Problem if there is no segment; segments that cannot be read are reported in `say`
+//   errors Problem if there is no segment; segments that cannot be read are reported in `log`
 //   cost   the grid of the Evaluator: some seconds for each recorded hour
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
@@ -48,7 +48,7 @@ class AlarmCheck : public replay::Listener {
   std::vector<std::string> differences_;
 };
 
-// Checks the whole folder. `say`: lines for the log.
-Result<AlarmCheck, Problem> check_alarms(const std::string& folder, std::vector<std::string>& say);
+// Checks the whole folder. `log`: lines for the log.
+Result<AlarmCheck, Problem> check_alarms(const std::string& folder, std::vector<std::string>& log);
 
 }  // namespace pitwall::service

@@ -15,7 +15,7 @@ namespace pitwall::service {
 namespace {
 
 std::string reported(const replay::ReadBack& back, Duration took) {
-  return formatted("known again: %llu messages of %.0f s, read in %.0f ms",
+  return formatted("restored: %llu messages of %.0f s, read in %.0f ms",
                    static_cast<unsigned long long>(back.messages),
                    (back.last - back.first).seconds(), took.milliseconds());
 }
@@ -77,18 +77,18 @@ recording::Metadata run_metadata(int car, const std::string& name,
 
 Result<std::unique_ptr<recorder::Recorder>, Problem> start_recording(
     const std::string& folder, recording::Metadata run, CarService& car,
-    const std::function<void(const std::string&)>& say) {
-  for (const std::string& line : recorder::recover_folder(folder)) say(line);
+    const std::function<void(const std::string&)>& log) {
+  for (const std::string& line : recorder::recover_folder(folder)) log(line);
   auto recorder = recorder::Recorder::start(folder, std::move(run));
   if (!recorder) return recorder;
-  LogReader log{car};
+  LogReader reader{car};
   const Instant begun = transport::monotonic_now();
   const replay::ReadBack back =
-      replay::read_back(folder, (*recorder)->clock(), begun, replay::kHistorySpan, log);
-  for (const std::string& problem : back.problems) say(problem);
-  if (back.messages != 0) say(reported(back, transport::monotonic_now() - begun));
+      replay::read_back(folder, (*recorder)->clock(), begun, replay::kHistorySpan, reader);
+  for (const std::string& problem : back.problems) log(problem);
+  if (back.messages != 0) log(reported(back, transport::monotonic_now() - begun));
   record(car, **recorder, begun);
-  if (const auto restored = log.entries().result(begun))
+  if (const auto restored = reader.entries().result(begun))
     car.restore(restored->entries, restored->fuel_left_l, begun);
   transport::return_free_memory();  // that reading it took
   return recorder;

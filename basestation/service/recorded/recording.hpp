@@ -2,7 +2,7 @@
 // and read back into the service.
 //   in     the folder of the recordings, the metadata of the run; the car's service
 //   out    the recorder, which keeps everything, with the very messages that consoles get; lines
-//          for the log, by `say`; fields of the base that show the state of the recording
+//          for the log, by `log`; fields of the base that show the state of the recording
 //   invariants
 //          the inputs of the alarm evaluator that are not vehicle state are recorded too, so that
 //          check_alarms() computes the same alarm list from the recording
@@ -26,6 +26,6 @@ recording::Metadata run_metadata(int car, const std::string& name,
 // The recorder outlives the service.
 Result<std::unique_ptr<recorder::Recorder>, Problem> start_recording(
     const std::string& folder, recording::Metadata run, CarService& car,
-    const std::function<void(const std::string&)>& say);
+    const std::function<void(const std::string&)>& log);
 
 }  // namespace pitwall::service

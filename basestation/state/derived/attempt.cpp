@@ -24,7 +24,7 @@ std::optional<Role> role_of_flag(double vehicle_flag) {
   return vehicle_flag == kAttackerFlag ? Role::kAttacker : Role::kNone;
 }
 
-void AttemptBook::receive(const RaceSample& sample, double attempt_laps, Instant at) {
+void AttemptTracker::receive(const RaceSample& sample, double attempt_laps, Instant at) {
   const bool runs = state_ == AttemptState::kRunning || state_ == AttemptState::kUsedUp ||
                     state_ == AttemptState::kPassed;
   const std::optional<Role> role = role_of_flag(sample.vehicle_flag);
@@ -51,7 +51,7 @@ void AttemptBook::receive(const RaceSample& sample, double attempt_laps, Instant
   if (state_ == AttemptState::kRunning && laps_ >= attempt_laps) state_ = AttemptState::kUsedUp;
 }
 
-void AttemptBook::begin(Role role) {
+void AttemptTracker::begin(Role role) {
   ++number_;
   state_ = AttemptState::kRunning;
   role_ = role;
@@ -61,19 +61,19 @@ void AttemptBook::begin(Role role) {
 }
 
 // Half a lap away, ahead turns into behind without a pass.
-bool AttemptBook::passes(const RaceSample& sample) {
+bool AttemptTracker::passes(const RaceSample& sample) {
   if (sample.gap_ahead_m >= 0.0) was_behind_ = sample.gap_ahead_m <= kNear_m;
   return role_ == Role::kAttacker && was_behind_ && std::isnan(sample.gap_ahead_m) &&
          sample.gap_behind_m >= kPassGap_m && sample.gap_behind_m <= kNear_m;
 }
 
-void AttemptBook::follow_laps(const RaceSample& sample, Instant at) {
+void AttemptTracker::follow_laps(const RaceSample& sample, Instant at) {
   const double driven = driven_laps(sample, at);
   if (!std::isnan(driven)) laps_ = std::max(0.0, laps_ + driven);
 }
 
 // Since the newest sample; not a number where nobody can tell.
-double AttemptBook::driven_laps(const RaceSample& sample, Instant at) const {
+double AttemptTracker::driven_laps(const RaceSample& sample, Instant at) const {
   const double laps = sample.lap - lap_;
   const double along = (sample.station_m - station_m_) / sample.course_m;
   if (std::isnan(along)) return laps < 0.0 ? kUnset : laps;
@@ -82,7 +82,7 @@ double AttemptBook::driven_laps(const RaceSample& sample, Instant at) const {
   return laps + along;
 }
 
-Attempt AttemptBook::attempt() const {
+Attempt AttemptTracker::attempt() const {
   if (number_ == 0) return {};
   return {.number = static_cast<double>(number_), .laps = laps_, .state = state_};
 }

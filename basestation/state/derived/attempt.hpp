@@ -48,7 +48,7 @@ struct Attempt {
   AttemptState state = AttemptState::kNone;
 };
 
-class AttemptBook {
+class AttemptTracker {
  public:
   static constexpr Duration kEndsAfter = seconds(1), kByStation = seconds(2);
   static constexpr double kNear_m = 200.0;  // the opponent of a pass is nearer than this

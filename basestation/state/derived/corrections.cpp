@@ -6,8 +6,8 @@
 
 namespace pitwall::state {
 
-void CorrectionWatch::receive(std::size_t unit, double correction_age_s, double satellites,
-                              Instant at) {
+void CorrectionMonitor::receive(std::size_t unit, double correction_age_s, double satellites,
+                                Instant at) {
   Unit& one = units_.at(unit);
   if (satellites < kSatellites) {
     one.sky_lost = at;
@@ -30,11 +30,11 @@ void CorrectionWatch::receive(std::size_t unit, double correction_age_s, double 
   one.was_silent = true;
 }
 
-bool CorrectionWatch::sky_lost_near(const Unit& unit, Instant at) const {
+bool CorrectionMonitor::sky_lost_near(const Unit& unit, Instant at) const {
   return unit.sky_lost && at - *unit.sky_lost < kSession;
 }
 
-void CorrectionWatch::lose(std::size_t unit, Instant at) {
+void CorrectionMonitor::lose(std::size_t unit, Instant at) {
   units_[unit].lost = at;
   const std::optional<Instant>& other = units_[1 - unit].lost;
   if (!other) return;
@@ -44,7 +44,7 @@ void CorrectionWatch::lose(std::size_t unit, Instant at) {
   for (Unit& one : units_) one.lost.reset();
 }
 
-bool CorrectionWatch::conflict(Instant now) const {
+bool CorrectionMonitor::conflict(Instant now) const {
   if (count_ < kLosses) return false;
   return std::all_of(losses_.begin(), losses_.end(),
                      [now](Instant at) { return now - at <= kWindow; });

@@ -22,7 +22,7 @@
 
 namespace pitwall::state {
 
-class CorrectionWatch {
+class CorrectionMonitor {
  public:
   static constexpr Duration kSilence = seconds(5), kSession = seconds(20), kTogether = seconds(2),
                             kWindow = seconds(60);

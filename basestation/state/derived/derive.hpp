@@ -26,10 +26,10 @@ struct DeriveParams {
 
 // Monitors that keep a memory of earlier values.
 struct MonitorState {
-  FuelBook fuel;
-  CorrectionWatch corrections;
-  LinkWatch link;
-  AttemptBook attempts;
+  FuelEstimator fuel;
+  CorrectionMonitor corrections;
+  LinkStateMonitor link;
+  AttemptTracker attempts;
 
   // Processes each new sample of the groups that the monitors need; call it each step of the grid.
   void step(const VehicleState& vehicle, const Known& known, Instant now);
@@ -47,8 +47,8 @@ struct MonitorState {
   std::uint64_t fuel_entries_ = 0;
   bool fuel_measured_ = false;
   Instant fuel_at_ = telemetry::kNeverSampled, engine_at_ = telemetry::kNeverSampled;
-  std::array<Instant, CorrectionWatch::kUnits> gnss_at_{telemetry::kNeverSampled,
-                                                        telemetry::kNeverSampled};
+  std::array<Instant, CorrectionMonitor::kUnits> gnss_at_{telemetry::kNeverSampled,
+                                                          telemetry::kNeverSampled};
 };
 
 void derive(const DeriveParams& params, const VehicleState& vehicle, const Known& known,

@@ -11,7 +11,7 @@ constexpr double kFilled_l = 2.0;  // a level that rises by less sloshes
 
 }  // namespace
 
-void FuelBook::receive(double level_l, double used_l, double lap) {
+void FuelEstimator::receive(double level_l, double used_l, double lap) {
   if (!std::isfinite(level_l)) return;
   const bool by_used = std::isfinite(used_l);
   const double burnt_l = by_used ? used_l : -level_l;
@@ -29,7 +29,7 @@ void FuelBook::receive(double level_l, double used_l, double lap) {
   burnt_at_lap_l_ = burnt_l;
 }
 
-FuelLeft FuelBook::left(const FuelPlan& plan) const {
+FuelLeft FuelEstimator::left(const FuelPlan& plan) const {
   FuelLeft left{.level_l = level_l_, .measured = laps_ > 0};
   const auto known = static_cast<std::ptrdiff_t>(std::min<std::uint64_t>(laps_, kLaps));
   left.per_lap_l = left.measured ? *std::max_element(burnt_l_.begin(), burnt_l_.begin() + known)

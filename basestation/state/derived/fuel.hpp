@@ -35,7 +35,7 @@ struct FuelLeft {
   bool estimated = false;  // the level is estimated, not measured
 };
 
-class FuelBook {
+class FuelEstimator {
  public:
   static constexpr std::size_t kLaps = 3;
 

@@ -3,7 +3,7 @@
 
 namespace pitwall::state {
 
-void LinkWatch::step(const LinkFigures& link, Instant now) {
+void LinkStateMonitor::step(const LinkFigures& link, Instant now) {
   if (!link.received) return;
   if (now - *link.received >= kLostAfter) return become(LinkState::kLost, now);
   const bool poor =
@@ -18,7 +18,7 @@ void LinkWatch::step(const LinkFigures& link, Instant now) {
   if (now - *clean_since_ >= kGoodFor) become(LinkState::kGood, now);
 }
 
-void LinkWatch::become(LinkState state, Instant now) {
+void LinkStateMonitor::become(LinkState state, Instant now) {
   if (state_ == state) return;
   state_ = state;
   since_ = now;

@@ -21,7 +21,7 @@ namespace pitwall::state {
 
 enum class LinkState : std::uint8_t { kNone, kGood, kDegraded, kLost };
 
-class LinkWatch {
+class LinkStateMonitor {
  public:
   static constexpr Duration kLostAfter = milliseconds(400), kGoodFor = seconds(2);
   static constexpr double kLossMax = 0.10, kRoundTripMax_ms = 150.0;

@@ -38,10 +38,10 @@ void BenchTime::begin() {
 bool BenchTime::advance(Instant limit) {
   if (!line_) return keeper_.advance(limit);
   const Instant now = keeper_.now();
-  if (now - reported_ >= kWordEvery) {
+  if (now - reported_ >= kReportPeriod) {
     receive();
     publish(now);
-  } else if (now - followed_ >= kBehind - kWordEvery) {
+  } else if (now - followed_ >= kBehind - kReportPeriod) {
     receive();
   }
   return keeper_.advance(std::min(limit, followed_ + kBehind));
@@ -55,13 +55,14 @@ void BenchTime::end() {
 void BenchTime::publish(Instant now) {
   reported_ = now;
   if (!line_) return;
-  line_->send(can_bus::to_word(now));
+  line_->send(can_bus::encode_clock(now));
   line_->flush();
 }
 
 void BenchTime::receive() {
   while (const auto word = line_->receive())
-    if (const auto followed = can_bus::from_word(*word)) followed_ = std::max(followed_, *followed);
+    if (const auto followed = can_bus::decode_clock(*word))
+      followed_ = std::max(followed_, *followed);
 }
 
 }  // namespace pitwall::bench

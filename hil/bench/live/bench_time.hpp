@@ -19,7 +19,7 @@ namespace pitwall::bench {
 
 class BenchTime {
  public:
-  static constexpr Duration kWordEvery = milliseconds(5), kBehind = milliseconds(25);
+  static constexpr Duration kReportPeriod = milliseconds(5), kBehind = milliseconds(25);
 
   // Empty `line`: no other machine follows this time.
   static Result<BenchTime, Problem> open(const std::string& file, const std::string& line);

@@ -40,7 +40,7 @@ constexpr std::size_t kReadBatch = 256;
 // One wake-up per step of the rig: frames sent later than half their period would seem lost to the
 // car. A system call costs 16 us in the guest, so what is slow anyway is looked at once per tick.
 constexpr Duration kWake = milliseconds(1);
-constexpr Duration kLook = milliseconds(10);
+constexpr Duration kPollPeriod = milliseconds(10);
 constexpr Duration kCarry = milliseconds(2);  // how often the radio is served
 
 // Everything that a run is made of, opened before anything is started.
@@ -79,7 +79,7 @@ class Live {
       step(now);
       if (auto problem = parts_.processes.advance(now)) return Unexpected{*problem};
       if ((now - Instant{}).ns % kCarry.ns == 0) parts_.radio.serve(now);
-      if ((now - Instant{}).ns % kLook.ns != 0) continue;
+      if ((now - Instant{}).ns % kPollPeriod.ns != 0) continue;
       if (auto problem = look(now)) return Unexpected{*problem};
       if (!has_contact(result_.outcome)) continue;
       length_ = now - Instant{};
@@ -142,7 +142,8 @@ class Live {
   }
 
   void publish_done() {
-    for (const std::vector<Done>* list : {&parts_.processes.done(), &parts_.machine.done()}) {
+    for (const std::vector<CompletedAction>* list :
+         {&parts_.processes.done(), &parts_.machine.done()}) {
       std::size_t& next = list == &parts_.processes.done() ? actions_published_ : steps_published_;
       for (; next < list->size(); ++next) {
         result_.done.push_back((*list)[next]);
@@ -209,7 +210,7 @@ class Live {
     grading::add(result_.cross_track, parts_.rig.truth().speed_mps,
                  cross_track_m(parts_.rig, offset_m));
     result_.speed_max_mps = std::max(result_.speed_max_mps, parts_.rig.truth().speed_mps);
-    follow(result_.outcome, whereabouts(parts_.rig, offset_m, now));
+    follow(result_.outcome, vehicle_place(parts_.rig, offset_m, now));
     if (record_) record_->truth(parts_.rig, now, cross_track_m(parts_.rig, offset_m));
     if (plan_.follow) plan_.follow({now, parts_.rig, car.mode, parts_.grader, result_});
   }

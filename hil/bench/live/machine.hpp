@@ -37,7 +37,7 @@ class Machine {
   static Result<Machine, Problem> take(std::span<const faults::BenchFault> faults,
                                        const std::string& disk);
   std::optional<Problem> advance(Instant now);
-  const std::vector<Done>& done() const { return done_; }
+  const std::vector<CompletedAction>& done() const { return done_; }
 
  private:
   struct ProcessAction {
@@ -51,7 +51,7 @@ class Machine {
 
   std::vector<ProcessAction> actions_;
   std::string disk_;
-  std::vector<Done> done_;
+  std::vector<CompletedAction> done_;
 };
 
 }  // namespace pitwall::bench

@@ -24,13 +24,13 @@ std::string name_of(Role role) { return std::string(kRoleNames[static_cast<std::
 
 std::optional<Problem> ProcessSupervisor::start() {
   for (const ProcessAction& action : script_)
-    if (!plays(action.role))
+    if (!has_role(action.role))
       return Problem{name_of(action.role), "a fault acts on this process, but the run has none"};
   for (const ProcessAction& action : script_)
     if (action.act == Act::kStart)
       if (auto problem = prepare(action.role)) return problem;
   for (const Role role : kEveryRole)
-    if (plays(role))
+    if (has_role(role))
       if (auto problem = spawn(role)) return problem;
   return std::nullopt;
 }
@@ -50,17 +50,18 @@ std::optional<Problem> ProcessSupervisor::prepare(Role role) {
   argv.insert(argv.end(), command.begin(), command.end());
   auto process = Process::spawn({.argv = argv, .descriptors = {{line->second.get(), 0}}});
   if (!process) return process.error();
-  state(role).understudies.push_back({*std::move(process), std::move(line->first)});
+  state(role).standbys.push_back({*std::move(process), std::move(line->first)});
   return std::nullopt;
 }
 
-std::optional<Problem> ProcessSupervisor::enter(Role role) {
+std::optional<Problem> ProcessSupervisor::start_standby(Role role) {
   State& whom = state(role);
-  CHECK(!whom.understudies.empty());
-  Standby next = std::move(whom.understudies.back());
-  whom.understudies.pop_back();
+  CHECK(!whom.standbys.empty());
+  Standby next = std::move(whom.standbys.back());
+  whom.standbys.pop_back();
   if (!whom.absent) return std::nullopt;
-  const auto reported = transport::posix_call([&] { return ::write(next.cue.get(), "\n", 1); });
+  const auto reported =
+      transport::posix_call([&] { return ::write(next.start_pipe.get(), "\n", 1); });
   if (!reported.ok()) return Problem{name_of(role), reported.reason()};
   whom.process.emplace(std::move(next.process));
   whom.absent = false;
@@ -83,7 +84,7 @@ std::optional<Problem> ProcessSupervisor::carry_out(const ProcessAction& action)
       whom.process->kill(SIGKILL);
       return std::nullopt;
     case Act::kStart:
-      return enter(action.role);
+      return start_standby(action.role);
     case Act::kPause:
       whom.process->kill(SIGSTOP);
       return std::nullopt;
@@ -113,7 +114,7 @@ std::optional<Problem> ProcessSupervisor::missing() {
   return std::nullopt;
 }
 
-void ProcessSupervisor::ask_to_end() {
+void ProcessSupervisor::request_end() {
   for (State& one : states_) {
     if (!one.process) continue;
     one.process->kill(SIGCONT);
@@ -126,10 +127,10 @@ bool ProcessSupervisor::all_ended() {
                              [](State& one) { return !one.process || one.process->poll(); });
 }
 
-std::optional<Problem> ProcessSupervisor::finish(Duration patience,
+std::optional<Problem> ProcessSupervisor::finish(Duration timeout,
                                                  const std::function<void()>& idle) {
-  ask_to_end();
-  const Instant limit = transport::monotonic_now() + patience;
+  request_end();
+  const Instant limit = transport::monotonic_now() + timeout;
   while (!all_ended() && transport::monotonic_now() < limit) idle();
   for (const Role role : kEveryRole) {
     State& one = state(role);

@@ -42,22 +42,22 @@ class ProcessSupervisor {
   // Problem with a process that should run and has ended.
   std::optional<Problem> missing();
   // Continues all processes, sends SIGTERM and waits for their end; calls `idle` meanwhile.
-  std::optional<Problem> finish(Duration patience, const std::function<void()>& idle);
+  std::optional<Problem> finish(Duration timeout, const std::function<void()>& idle);
 
-  bool plays(Role role) const { return !member(role).command.empty(); }
+  bool has_role(Role role) const { return !member(role).command.empty(); }
   bool was_killed(Role role) const { return state(role).killed; }
   // The process ended on request with success, so that its files are complete.
   bool ended_well(Role role) const { return state(role).ended_well; }
-  const std::vector<Done>& done() const { return done_; }
+  const std::vector<CompletedAction>& done() const { return done_; }
 
  private:
   struct Standby {
     transport::Process process;
-    transport::FileDescriptor cue;
+    transport::FileDescriptor start_pipe;
   };
   struct State {
     std::optional<transport::Process> process;
-    std::vector<Standby> understudies;
+    std::vector<Standby> standbys;
     bool killed = false;  // at least once
     bool absent = false;  // killed and not started again
     bool ended_well = false;
@@ -68,17 +68,17 @@ class ProcessSupervisor {
   State& state(Role role) { return states_[static_cast<std::size_t>(role)]; }
   std::optional<Problem> spawn(Role role);
   std::optional<Problem> prepare(Role role);
-  std::optional<Problem> enter(Role role);
+  std::optional<Problem> start_standby(Role role);
   std::optional<Problem> carry_out(const ProcessAction& action);
   void note(const ProcessAction& action, Instant now);
-  void ask_to_end();
+  void request_end();
   bool all_ended();
 
   std::array<Member, kRoles> members_;
   std::vector<ProcessAction> script_;
   std::size_t next_ = 0;
   std::array<State, kRoles> states_;
-  std::vector<Done> done_;
+  std::vector<CompletedAction> done_;
 };
 
 }  // namespace pitwall::bench

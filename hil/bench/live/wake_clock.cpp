@@ -71,7 +71,7 @@ RealTime WakeClock::report() {
   if (time_) {
     report_.waits = time_->waits();
     report_.waits->longest_at = Instant{} + (report_.waits->longest_at - start_);
-  } else if (transport::has_bench_time()) {  // another keeps it and knows for whom it stood
+  } else if (transport::has_bench_time()) {  // another process runs the clock and reports the waits
     const Duration passed = transport::wall_now() - wall_start_;
     report_.waits.emplace().total = passed - (transport::monotonic_now() - start_);
   }

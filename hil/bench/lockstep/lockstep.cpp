@@ -220,7 +220,7 @@ class Lockstep {
                                   .off_path_m = off_m}));
     grading::add(result_.cross_track, rig_.truth().speed_mps, cross_track_m(rig_, offset_m));
     result_.speed_max_mps = std::max(result_.speed_max_mps, rig_.truth().speed_mps);
-    follow(result_.outcome, whereabouts(rig_, offset_m, now));
+    follow(result_.outcome, vehicle_place(rig_, offset_m, now));
     result_.gate_refusals = out.passed.refused_total;
     result_.bus_refusals = out.received.bus.refused.total();
     result_.bus_losses = out.received.bus.frames_lost;

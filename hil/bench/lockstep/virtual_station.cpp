@@ -27,8 +27,9 @@ Address on_path(std::uint16_t port, PathId path) {
 
 }  // namespace
 
-telemetry::LinkEndpointConfig conduit_of(const pipeline::RadioParams& params,
-                                         const telemetry::KeyFile& keys, std::uint8_t paths) {
+telemetry::LinkEndpointConfig endpoint_config_of(const pipeline::RadioParams& params,
+                                                 const telemetry::KeyFile& keys,
+                                                 std::uint8_t paths) {
   telemetry::LinkEndpointConfig config;
   config.association.keys = keys;
   config.association.greeting.signed_only = params.signed_only;
@@ -73,7 +74,8 @@ bool VirtualStation::has(BenchFaultKind kind) const {
 }
 
 telemetry::LinkEndpointConfig VirtualStation::config(const telemetry::KeyFile& keys) const {
-  telemetry::LinkEndpointConfig config = conduit_of(setup_.params.radio, keys, paths_of(scenario_));
+  telemetry::LinkEndpointConfig config =
+      endpoint_config_of(setup_.params.radio, keys, paths_of(scenario_));
   if (keys.role == telemetry::Role::kBase) {
     config.association.newest_stamp = newest_stamp_;
   } else if (has(BenchFaultKind::kBaseReplaced)) {
@@ -191,12 +193,12 @@ std::optional<telemetry::Snapshot> VirtualStation::publish(
   log_.note(in, out, setup_.track.length_m());
   adapter_->take(*car_, setup_, car, out, in.now);
   if (car_->due() > in.now + kEarly) return std::nullopt;
-  pipeline::RimCounters figures;
+  pipeline::IoCounters figures;
   figures.steps = car.ticks;
   figures.receivers = receivers;
   adapter_->show(*car_, figures, in.now);
-  const telemetry::Snapshot snapshot = pipeline::tap(
-      {.setup = setup_, .car = car, .out = out, .log = log_, .rim = figures, .now = in.now});
+  const telemetry::Snapshot snapshot = pipeline::map_telemetry(
+      {.setup = setup_, .car = car, .out = out, .log = log_, .io = figures, .now = in.now});
   while (const auto datagram = car_->poll(snapshot, in.now))
     channel_.offer(Way::kDown, datagram->path, {datagram->bytes, datagram->to.port}, in.now);
   return snapshot;

@@ -37,8 +37,9 @@
 namespace pitwall::bench {
 
 // Configuration of one link endpoint: both ends use the radio budgets of the car file.
-telemetry::LinkEndpointConfig conduit_of(const pipeline::RadioParams& params,
-                                         const telemetry::KeyFile& keys, std::uint8_t paths);
+telemetry::LinkEndpointConfig endpoint_config_of(const pipeline::RadioParams& params,
+                                                 const telemetry::KeyFile& keys,
+                                                 std::uint8_t paths);
 
 class VirtualStation {
  public:

@@ -10,33 +10,33 @@
 #include "vehicle/io/tick_inputs.hpp"
 #include "vehicle/parameters/car_file.hpp"
 #include "vehicle/parameters/track_file.hpp"
-#include "vehicle/pipeline/telemetry_tap.hpp"
+#include "vehicle/pipeline/telemetry_mapper.hpp"
 
 namespace pitwall::bench {
 namespace {
 
-// Every figure of it is another one than in a RimCounters without measurements.
-pipeline::RimCounters other_measurements() {
-  pipeline::RimCounters rim;
-  rim.frames_sent = rim.tx_drops = rim.steps = rim.missed_deadlines = 1;
-  rim.step_time_max_us = rim.step_time_p50_us = 1.0;
-  rim.processor_share = rim.memory_mib = rim.temperature_c = 1.0;
-  rim.heartbeats = rim.heartbeats_refused = rim.base_runs = rim.slots_skipped = 1;
-  rim.threats = rim.round_trip_ms = 1.0;
-  rim.paths.fill({.loss = 1.0, .delay_p99_ms = 1.0, .budget_use = 1.0});
+// Every figure of it is another one than in a IoCounters without measurements.
+pipeline::IoCounters other_measurements() {
+  pipeline::IoCounters io;
+  io.frames_sent = io.tx_drops = io.steps = io.missed_deadlines = 1;
+  io.step_time_max_us = io.step_time_p50_us = 1.0;
+  io.processor_share = io.memory_mib = io.temperature_c = 1.0;
+  io.heartbeats = io.heartbeats_refused = io.base_runs = io.slots_skipped = 1;
+  io.threats = io.round_trip_ms = 1.0;
+  io.paths.fill({.loss = 1.0, .delay_p99_ms = 1.0, .budget_use = 1.0});
   world::ReceiverTraffic traffic;
   traffic.bytes = traffic.logs = traffic.bad_checksum = traffic.bad_frame = traffic.resyncs = 1;
   traffic.refused = traffic.lost = 1;
-  rim.receivers.fill(traffic);
-  rim.lidar = rim.camera = rim.radar = {.rate_hz = 1.0, .gap_ms = 1.0, .latency_ms = 1.0};
-  rim.uplink = {.known = true,
-                .stop_latch = 1.0,
-                .stop_challenge = 1.0,
-                .stop_reason = 1.0,
-                .authority = 1.0,
-                .joystick = true,
-                .schema_agrees = true};
-  return rim;
+  io.receivers.fill(traffic);
+  io.lidar = io.camera = io.radar = {.rate_hz = 1.0, .gap_ms = 1.0, .latency_ms = 1.0};
+  io.uplink = {.known = true,
+               .stop_latch = 1.0,
+               .stop_challenge = 1.0,
+               .stop_reason = 1.0,
+               .authority = 1.0,
+               .joystick = true,
+               .schema_agrees = true};
+  return io;
 }
 
 // The black box keeps what goes down to the base.
@@ -97,12 +97,12 @@ Result<AgainTick, Problem> DriveAgain::tick(const RecordedTick& recorded) {
 }
 
 RecordedState DriveAgain::state_at(const pipeline::Outputs& out, Instant at) {
-  const auto tapped = [&](const pipeline::RimCounters& rim) {
-    return pipeline::tap(
-        {.setup = setup_, .car = *car_, .out = out, .log = *log_, .rim = rim, .now = at});
+  const auto mapped = [&](const pipeline::IoCounters& io) {
+    return pipeline::map_telemetry(
+        {.setup = setup_, .car = *car_, .out = out, .log = *log_, .io = io, .now = at});
   };
-  const telemetry::Snapshot snapshot = tapped({});
-  const telemetry::Values other = tapped(other_measurements()).values;
+  const telemetry::Snapshot snapshot = mapped({});
+  const telemetry::Values other = mapped(other_measurements()).values;
   for (telemetry::FieldIndex i = 0; i < telemetry::kFieldCount; ++i)
     if (!same_bits(snapshot.values[i], other[i])) measured_.set(i);
   RecordedState state{.at = at, .values = snapshot.values, .groups = {}};

@@ -12,7 +12,7 @@
 #include "hil/bench/live/process_supervisor.hpp"
 #include "hil/bench/live/radio_path.hpp"
 #include "hil/bench/recorded/operator_texts.hpp"
-#include "hil/replay/socket_rim.hpp"
+#include "hil/replay/socket_io.hpp"
 #include "hil/replay/timeline.hpp"
 #include "protocol/recorder/can_record.hpp"
 #include "protocol/recorder/channels.hpp"
@@ -28,7 +28,7 @@ using transport::CanSocket;
 
 constexpr int kPriority = 60;  // as the live bench: below the car
 constexpr Duration kStartLimit = seconds(15), kStopLimit = seconds(5);
-constexpr Duration kLook = milliseconds(1);         // bench time goes on at least so often
+constexpr Duration kPollPeriod = milliseconds(1);   // bench time goes on at least so often
 constexpr Duration kLookAgain = microseconds(200);  // at somebody who is held up
 constexpr Duration kLookAtCar = milliseconds(10);
 constexpr Duration kSettle = milliseconds(100);  // for the last ticks
@@ -67,10 +67,10 @@ Result<BaseSide, Problem> open_base(const CommandTrace& recorded, const LivePlan
 }
 
 // Who waits for the next frame keeps bench time going meanwhile, and looks after the car.
-class BenchRim {
+class BenchIo {
  public:
-  BenchRim(replay::SocketRim& sockets, ProcessSupervisor& processes, BaseSide base,
-           std::optional<BenchTime> time)
+  BenchIo(replay::SocketIo& sockets, ProcessSupervisor& processes, BaseSide base,
+          std::optional<BenchTime> time)
       : sockets_(sockets), processes_(processes), base_(std::move(base)), time_(std::move(time)) {}
 
   void begin(Instant first_tick) {
@@ -84,7 +84,7 @@ class BenchRim {
   void wait_until(Instant deadline) {
     for (Instant at = now(); at < deadline && !stopped(); at = now()) {
       look(at);
-      const Duration left = std::min(deadline - at, kLook);
+      const Duration left = std::min(deadline - at, kPollPeriod);
       if (!time_) {
         transport::sleep_until(at + left);
         continue;
@@ -106,18 +106,18 @@ class BenchRim {
   void look(Instant at) {
     base_.carry(at);
     base_.say(at - first_tick_);
-    if (at - looked_ < kLookAtCar) return;
-    looked_ = at;
+    if (at - polled_at_ < kLookAtCar) return;
+    polled_at_ = at;
     sockets_.now();
     sockets_.wait_until(at);  // has passed: it looks for a signal, nothing else
     missing_ = processes_.missing();
   }
 
-  replay::SocketRim& sockets_;
+  replay::SocketIo& sockets_;
   ProcessSupervisor& processes_;
   BaseSide base_;
   std::optional<BenchTime> time_;
-  Instant first_tick_{}, looked_{};
+  Instant first_tick_{}, polled_at_{};
   std::optional<Problem> missing_;
 };
 
@@ -131,7 +131,7 @@ Result<Instant, Problem> start_car(ProcessSupervisor& processes, CanSocket& bus,
     if (bus.receive(inbox) > 0) return inbox.front().at;
     if (auto problem = processes.missing()) return Unexpected{*problem};
     base.carry(transport::monotonic_now());
-    transport::sleep_until(transport::monotonic_now() + kLook);
+    transport::sleep_until(transport::monotonic_now() + kPollPeriod);
   }
   return Unexpected{Problem{interface, "no frame of the car has arrived"}};
 }
@@ -202,7 +202,7 @@ Result<PlayedRun, Problem> play_to_car(traffic::Recording recording, const Comma
   if (!time) return Unexpected{time.error()};
   auto bus = CanSocket::open(plan.interface);
   if (!bus) return Unexpected{bus.error()};
-  auto sockets = replay::SocketRim::open(playing->timeline);
+  auto sockets = replay::SocketIo::open(playing->timeline);
   if (!sockets) return Unexpected{sockets.error()};
   auto base = open_base(recorded, plan);
   if (!base) return Unexpected{base.error()};
@@ -211,20 +211,20 @@ Result<PlayedRun, Problem> play_to_car(traffic::Recording recording, const Comma
   const auto received_at = start_car(processes, *bus, *base, plan.interface);
   if (!received_at) return Unexpected{received_at.error()};
   { const CanSocket done = *std::move(bus); }  // nobody reads it any more
-  BenchRim rim{*sockets, processes, *std::move(base), *std::move(time)};
+  BenchIo io{*sockets, processes, *std::move(base), *std::move(time)};
   const Instant first_tick = *received_at - recorded.first_frame.value_or(Duration{});
-  rim.begin(first_tick);
-  replay::Player player{playing->timeline, {}, rim};
+  io.begin(first_tick);
+  replay::Player player{playing->timeline, {}, io};
   PlayedRun played{.report = player.play(first_tick + playing->first), .waits = {}};
-  rim.wait_until(first_tick + recorded.length + kSettle);
-  rim.end();
-  if (rim.missing()) return Unexpected{*rim.missing()};
+  io.wait_until(first_tick + recorded.length + kSettle);
+  io.end();
+  if (io.missing()) return Unexpected{*io.missing()};
   if (sockets->stopped())
     return Unexpected{Problem{"--live", "stopped by a signal before all was played"}};
   if (auto problem = processes.finish(
           kStopLimit, [] { transport::sleep_until(transport::monotonic_now() + kLookAtCar); }))
     return Unexpected{*problem};
-  played.waits = rim.waits();
+  played.waits = io.waits();
   return played;
 }
 

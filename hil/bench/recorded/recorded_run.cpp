@@ -112,7 +112,7 @@ const RecordedRun::Place& RecordedRun::place_of(std::uint16_t channel) {
   }
   if (place.kind == Kind::kOther) {
     place.fields = recorder::ChannelFields::of(here);
-    if (place.fields && !place.fields->is_picture()) place.kind = Kind::kState;
+    if (place.fields && !place.fields->is_snapshot()) place.kind = Kind::kState;
   }
   return places_.emplace(channel, std::move(place)).first->second;
 }

@@ -29,11 +29,11 @@ std::string header(const RunFacts& facts, const ScenarioSource& source) {
   std::string text =
       "# Made of the recording " + path + ": a run of its car's black box.\n" +
       formatted(
-          "# Time begins with the first frame that the car heard, %.2f s "
+          "# Time begins with the first frame that the car received, %.2f s "
           "after its first tick.\n",
           facts.first_frame.seconds()) +
       formatted("# Start: as the car knew it after %.2f s.\n", facts.start.known_at.seconds()) +
-      "# Flags: when the car had understood them.\n"
+      "# Flags: when the car had decoded them.\n"
       "# No recording tells the seed, the wind, what the true car and track are "
       "like, or what failed:\n"
       "# the bench's own are used, and no fault.\n";

@@ -9,7 +9,7 @@ namespace pitwall::bench_server {
 namespace {
 
 Result<BenchRequest, Problem> start_request(const json::JsonValue& value, std::string by) {
-  StartRequest request{.scenario = value.text("scenario"), .seed = {}, .by = std::move(by)};
+  StartRunRequest request{.scenario = value.text("scenario"), .seed = {}, .by = std::move(by)};
   if (request.scenario.empty() || request.scenario.size() > kNameMax)
     return refuse("scenario", "expected a text of 1 to " + std::to_string(kNameMax) + " bytes");
   const std::string mode = value.text("mode");
@@ -35,7 +35,7 @@ Result<BenchRequest, Problem> parse_request(std::string_view line) {
     return refuse("by", "expected at most " + std::to_string(kNameMax) + " bytes");
   const std::string action = value->text("do");
   if (action == "start") return start_request(*value, std::move(by));
-  if (action == "stop") return BenchRequest{StopRequest{std::move(by)}};
+  if (action == "stop") return BenchRequest{StopRunRequest{std::move(by)}};
   return refuse("do", "expected one of: start, stop");
 }
 

@@ -19,16 +19,16 @@ namespace pitwall::bench_server {
 inline constexpr std::uint64_t kSeedMax = 1'000'000'000;  // same limit as `run --seed`
 inline constexpr std::size_t kNameMax = 200;
 
-struct StartRequest {
+struct StartRunRequest {
   std::string scenario;
   std::optional<std::uint64_t> seed;  // replaces the seed of the file
   bool live = false;
   std::string by;
 };
-struct StopRequest {
+struct StopRunRequest {
   std::string by;
 };
-using BenchRequest = std::variant<StartRequest, StopRequest>;
+using BenchRequest = std::variant<StartRunRequest, StopRunRequest>;
 
 Result<BenchRequest, Problem> parse_request(std::string_view line);
 

@@ -88,8 +88,8 @@ std::vector<std::string> BenchServer::greeting() const {
 Answer BenchServer::receive(std::string_view line) {
   const auto request = parse_request(line);
   if (!request) return refuse(request.error());
-  if (const auto* const begin = std::get_if<StartRequest>(&*request)) return start(*begin);
-  return stop(std::get<StopRequest>(*request));
+  if (const auto* const begin = std::get_if<StartRunRequest>(&*request)) return start(*begin);
+  return stop(std::get<StopRunRequest>(*request));
 }
 
 Answer BenchServer::refuse(const Problem& problem) {
@@ -103,7 +103,7 @@ Answer BenchServer::refuse(const Problem& problem) {
           .start = {}};
 }
 
-Answer BenchServer::start(const StartRequest& request) {
+Answer BenchServer::start(const StartRunRequest& request) {
   if (running())
     return refuse({"start", "run " + std::to_string(run_->start.run) + " (" + run_->id +
                                 ") is still running; stop it first"});
@@ -132,7 +132,7 @@ Answer BenchServer::start(const StartRequest& request) {
   return {.to_asker = {}, .to_all = {}, .start = run_->start};
 }
 
-Answer BenchServer::stop(const StopRequest& request) {
+Answer BenchServer::stop(const StopRunRequest& request) {
   if (!running()) return refuse({"stop", "no run is in progress"});
   run_->stopped_by = request.by.empty() ? "somebody" : request.by;
   return {.to_asker = {}, .to_all = {run_text()}, .start = {}, .stop = true};

@@ -80,8 +80,8 @@ class BenchServer {
     std::deque<std::string> events;
   };
 
-  Answer start(const StartRequest& request);
-  Answer stop(const StopRequest& request);
+  Answer start(const StartRunRequest& request);
+  Answer stop(const StopRunRequest& request);
   Answer refuse(const Problem& problem);
   std::string run_text() const;
 

@@ -45,13 +45,13 @@ void BenchSocket::serve(Instant deadline, int stop) {
                        });
   const Instant next = turning ? transport::monotonic_now() + kTurn : deadline;
   static_cast<void>(transport::wait_readable(watched.span(), std::min(deadline, next)));
-  welcome();
+  greet_new_clients();
   receive();
   follow_run(transport::monotonic_now());
   std::erase_if(clients_, [](const auto& client) { return client.closed(); });
 }
 
-void BenchSocket::welcome() {
+void BenchSocket::greet_new_clients() {
   while (auto client = listener_.accept()) {
     if (clients_.size() >= kMaxClients) {
       client->send(kFull);

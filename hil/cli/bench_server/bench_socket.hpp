@@ -54,7 +54,7 @@ class BenchSocket {
   };
 
   BenchSocket(ServerPlan plan, std::vector<Listed> scenarios, transport::LineListener listener);
-  void welcome();
+  void greet_new_clients();
   void receive();
   void follow_run(Instant now);
   void begin(const Start& start);

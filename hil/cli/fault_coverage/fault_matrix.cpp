@@ -64,7 +64,7 @@ std::string lines_of(const FaultRow& row) {
     first = false;
   }
   if (row.detections.empty())
-    out = formatted(kLine, row.id.c_str(), row.scenario.c_str(), "NOBODY", "-", "-", "");
+    out = formatted(kLine, row.id.c_str(), row.scenario.c_str(), "NONE", "-", "-", "");
   out += "       " + row.outcome + "\n";
   for (const std::string& failed : row.failed) out += "       FAILED: " + failed + "\n";
   return out;

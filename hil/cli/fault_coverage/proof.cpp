@@ -49,9 +49,10 @@ Result<std::optional<Consequence>, Problem> consequence_without(world::Monitor m
   bool has_failed = false;
   bench::LockstepOptions options;
   options.over = [&has_failed](const bench::RunView& run) {
-    const auto standings = run.grader.standings();
+    const auto expectation_states = run.grader.expectation_states();
     has_failed =
-        has_failed || std::ranges::find(standings, grading::Standing::kFailed) != standings.end();
+        has_failed || std::ranges::find(expectation_states, grading::ExpectationState::kFailed) !=
+                          expectation_states.end();
     return has_failed;
   };
   const auto result = bench::run_lockstep(blind.scenario, blind.setup, options);

@@ -105,40 +105,40 @@ std::string start_text(UtcTime begin) {
   return "0 s is " + replay::calendar_text(begin);
 }
 
-report::SignalPicture picture_of(const PlotOptions& options, const replay::CanLog& log,
-                                 const can::Database& database,
-                                 std::span<const report::SignalSeries> series,
-                                 const report::LogPart& part) {
-  report::SignalPicture picture{.title = options.log,
-                                .caption = {start_text(report::span_of(log).begin)},
-                                .series = series,
-                                .from_s = part.from_s,
-                                .to_s = part.to_s};
-  std::string& facts = picture.caption.front();
+report::SignalPlot plot_of(const PlotOptions& options, const replay::CanLog& log,
+                           const can::Database& database,
+                           std::span<const report::SignalSeries> series,
+                           const report::LogPart& part) {
+  report::SignalPlot plot{.title = options.log,
+                          .caption = {start_text(report::span_of(log).begin)},
+                          .series = series,
+                          .from_s = part.from_s,
+                          .to_s = part.to_s};
+  std::string& facts = plot.caption.front();
   facts += "; " + log.format + "; database " + database.name;
   if (!part.channel.empty()) facts += "; channel " + part.channel;
   facts += formatted("; a pause over %g mean periods is not bridged", report::kGapPeriods);
   for (const report::SignalSeries& one : series)
-    for (std::string& remark : remarks_on(one)) picture.caption.push_back(std::move(remark));
-  return picture;
+    for (std::string& remark : remarks_on(one)) plot.caption.push_back(std::move(remark));
+  return plot;
 }
 
-int write_picture(const PlotOptions& options, const report::SignalPicture& picture) {
+int write_plot(const PlotOptions& options, const report::SignalPlot& plot) {
   std::uint64_t values = 0;
   bool is_whole = true;
-  for (const report::SignalSeries& series : picture.series) {
+  for (const report::SignalSeries& series : plot.series) {
     values += series.values;
     is_whole = is_whole && series.values > 0;
   }
-  for (std::size_t i = 1; i < picture.caption.size(); ++i)
-    std::fprintf(stderr, "%s\n", picture.caption[i].c_str());
+  for (std::size_t i = 1; i < plot.caption.size(); ++i)
+    std::fprintf(stderr, "%s\n", plot.caption[i].c_str());
   if (values == 0) {
     std::fprintf(stderr, "%s: not written: there is nothing to draw\n", options.out.c_str());
     return kExitFailed;
   }
   const bool is_page = options.out.ends_with(".html");
   const auto written = transport::write_file(
-      options.out, is_page ? report::signal_page(picture) : report::signal_svg(picture));
+      options.out, is_page ? report::signal_page(plot) : report::signal_svg(plot));
   if (!written) return refuse(written.error());
   std::printf("%s: %llu values of %zu signals\n", options.out.c_str(),
               static_cast<unsigned long long>(values), options.signals.size());
@@ -158,7 +158,7 @@ int plot(const PlotOptions& options) {
   const auto part = part_of(options, *log);
   if (!part) return refuse(part.error());
   const auto series = report::signal_series(*log, *chosen, *part);
-  return write_picture(options, picture_of(options, *log, *database, series, *part));
+  return write_plot(options, plot_of(options, *log, *database, series, *part));
 }
 
 }  // namespace

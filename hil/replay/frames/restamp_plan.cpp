@@ -5,7 +5,7 @@ namespace pitwall::replay {
 
 RestampPlan::RestampPlan(const RestampRules& rules, const CounterHistory& history,
                          std::span<const can::Frame> frames) {
-  std::vector<std::uint32_t> sender_of(rules.rules.size(), kNobody);
+  std::vector<std::uint32_t> sender_of(rules.rules.size(), kNoSender);
   places_.resize(frames.size());
   for (std::size_t i = 0; i < frames.size(); ++i) {
     const std::size_t place = rules.place_of(frames[i]);
@@ -15,7 +15,7 @@ RestampPlan::RestampPlan(const RestampRules& rules, const CounterHistory& histor
       ++unfit_;
       continue;
     }
-    if (sender_of[place] == kNobody) {
+    if (sender_of[place] == kNoSender) {
       sender_of[place] = static_cast<std::uint32_t>(senders_.size());
       Sender sender{.rule = rule, .range = {}};
       if (rule.counter_bits > 0) {
@@ -33,7 +33,7 @@ RestampPlan::RestampPlan(const RestampRules& rules, const CounterHistory& histor
 }
 
 bool RestampPlan::stamp(std::size_t i, unsigned pass, can::Frame& frame) const {
-  if (i >= places_.size() || places_[i].sender == kNobody) return false;
+  if (i >= places_.size() || places_[i].sender == kNoSender) return false;
   const Sender& sender = senders_[places_[i].sender];
   const std::uint64_t number =
       std::uint64_t{sender.first} + places_[i].number + std::uint64_t{pass} * sender.per_pass;

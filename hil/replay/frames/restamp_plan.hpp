@@ -40,9 +40,9 @@ class RestampPlan {
     std::uint32_t per_pass = 0;  // frames per pass
   };
   struct Place {
-    std::uint32_t sender = kNobody, number = 0;
+    std::uint32_t sender = kNoSender, number = 0;
   };
-  static constexpr std::uint32_t kNobody = UINT32_MAX;
+  static constexpr std::uint32_t kNoSender = UINT32_MAX;
 
   std::vector<Sender> senders_;
   std::vector<Place> places_;  // one per frame

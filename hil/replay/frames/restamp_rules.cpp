@@ -92,7 +92,7 @@ CounterRange CounterHistory::range_of(std::size_t place) const {
   const auto most = std::ranges::max_element(wraps, {}, [](const auto& wrap) {
     return std::pair{wrap.second, wrap.first.first};  // of equals the later wrap
   });
-  if (most != wraps.end() && most->second >= kBelievedWraps)
+  if (most != wraps.end() && most->second >= kMinWraps)
     return {.bottom = most->first.second, .top = most->first.first};
   return {.bottom = 0, .top = static_cast<std::uint32_t>(can::mask_of(rule.counter_bits))};
 }

@@ -70,7 +70,7 @@ class CounterHistory {
     // from, to: number of occurrences
     std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> wraps{};
   };
-  static constexpr std::uint32_t kBelievedWraps = 2;
+  static constexpr std::uint32_t kMinWraps = 2;
 
   const RestampRules* rules_;
   std::vector<Seen> seen_;

@@ -27,7 +27,7 @@ struct Span {
 };
 
 std::optional<gnss::GpsTime> gps_of(const gnss::NovatelFrame& frame) {
-  if (!gnss::knows_time(frame.header)) return std::nullopt;
+  if (!gnss::has_time(frame.header)) return std::nullopt;
   return gnss::time_of(frame.header);
 }
 

@@ -56,7 +56,7 @@ class Details {
 
 struct Kind {
   std::string_view word;
-  int turn;
+  int pass;
   void (Details::*read)();
 };
 constexpr std::array<Kind, 9> kKinds{{{"VAL_TABLE_", 0, &Details::value_table},
@@ -110,7 +110,7 @@ Details::Owner Details::owner() {
     const auto at = draft_.message(o.key);
     o.is_known = at.has_value();
     if (at) o.message = &draft_.database.messages[*at];
-    if (!at) at_.stranger(o.key, "");
+    if (!at) at_.warn_unknown_reference(o.key, "");
   } else if (what == "SG_") {
     o = signal_owner();
   } else {
@@ -125,7 +125,7 @@ Details::Owner Details::signal_owner() {
   const auto at = draft_.signal(o.key, scan_.utf8(name));
   o.is_known = at.has_value();
   if (!at) {
-    at_.stranger(o.key, name);
+    at_.warn_unknown_reference(o.key, name);
   } else {
     o.message = &draft_.database.messages[at->message];
     o.signal = &o.message->signals[at->signal];
@@ -278,10 +278,10 @@ void Details::definition_default() {
 
 void Details::set(const Owner& o, const std::string& name, std::string value) {
   if (o.signal != nullptr && name == "SystemSignalLongSymbol") {
-    return draft_.lengthen(*draft_.signal(o.key, o.signal->name), std::move(value));
+    return draft_.set_long_name(*draft_.signal(o.key, o.signal->name), std::move(value));
   }
   if (o.kind == AttributeOwner::kMessage && name == "SystemMessageLongSymbol") {
-    return draft_.lengthen(o.key, std::move(value));
+    return draft_.set_long_name(o.key, std::move(value));
   }
   (o.signal    ? o.signal->attributes
    : o.message ? o.message->attributes
@@ -337,7 +337,7 @@ void Details::multiplexing() {
   } while (scan_.take(','));
   at_.close();
   const auto m = draft_.message(key);
-  if (!m) return at_.stranger(key, name);
+  if (!m) return at_.warn_unknown_reference(key, name);
   const auto s = draft_.signal(*m, name), above = draft_.signal(*m, selector);
   if (!s || !above) {
     Message& of = draft_.database.messages[*m];
@@ -353,7 +353,7 @@ void Details::multiplexing() {
 void Details::senders() {
   const std::uint32_t key = at_.message_key();
   const auto at = draft_.message(key);
-  if (!at) at_.stranger(key, "");
+  if (!at) at_.warn_unknown_reference(key, "");
   scan_.expect(':');
   while (!at_.ends()) {
     std::string name = scan_.utf8(scan_.word());
@@ -366,9 +366,9 @@ void Details::senders() {
 
 }  // namespace
 
-int turn_of(std::string_view word) {
+int pass_of(std::string_view word) {
   for (const Kind& k : kKinds) {
-    if (k.word == word) return k.turn;
+    if (k.word == word) return k.pass;
   }
   return -1;
 }

@@ -15,8 +15,8 @@ namespace pitwall::can {
 
 // Pass in which a section with this word must be read, so that everything it refers to is known; -1
 // for other words.
-int turn_of(std::string_view word);
-inline constexpr int kTurns = 3;
+int pass_of(std::string_view word);
+inline constexpr int kPasses = 3;
 
 void read_detail(DbcScanner& scan, DbcDraft& draft);
 

@@ -151,11 +151,11 @@ void DbcDraft::flaw(Message& m, Finding finding) {
   find(std::move(finding));
 }
 
-void DbcDraft::lengthen(std::uint32_t key, std::string name) {
+void DbcDraft::set_long_name(std::uint32_t key, std::string name) {
   if (const auto m = message(key)) long_names_.push_back({*m, std::nullopt, std::move(name)});
 }
 
-void DbcDraft::lengthen(Found found, std::string name) {
+void DbcDraft::set_long_name(Found found, std::string name) {
   long_names_.push_back({found.message, found.signal, std::move(name)});
 }
 
@@ -222,7 +222,7 @@ Database DbcDraft::finish() {
     apply_attributes(m, usual_format, usual_period);
     add_remarks(m);
   }
-  for (Finding& f : strangers(database)) find(std::move(f));
+  for (Finding& f : unlisted_nodes(database)) find(std::move(f));
   std::stable_sort(
       database.findings.begin(), database.findings.end(),
       [](const Finding& a, const Finding& b) { return position(a.place) < position(b.place); });

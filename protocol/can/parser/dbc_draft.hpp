@@ -23,7 +23,7 @@
 namespace pitwall::can {
 
 inline constexpr std::uint32_t kExtendedBit = 0x80000000;
-inline constexpr std::string_view kNobody = "Vector__XXX";  // placeholder: no receiver
+inline constexpr std::string_view kNoNode = "Vector__XXX";  // placeholder: no receiver
 // VECTOR__INDEPENDENT_SIG_MSG: editors keep signals there that belong to no message.
 inline constexpr std::uint32_t kIndependentSignals = 0xC0000000;
 
@@ -49,9 +49,11 @@ class DbcDraft {
   void add(std::uint32_t key, Message message, std::vector<Mark> marks);
   // References to this number are not reported: its message was left out with a finding.
   void leave_out(std::uint32_t key) { left_out_.insert(key); }
-  void leave_out(std::uint32_t key, const std::string& signal) { lost_.insert({key, signal}); }
+  void leave_out(std::uint32_t key, const std::string& signal) {
+    left_out_signals_.insert({key, signal});
+  }
   bool is_left_out(std::uint32_t key, const std::string& signal) const {
-    return left_out_.contains(key) || lost_.contains({key, signal});
+    return left_out_.contains(key) || left_out_signals_.contains({key, signal});
   }
   // Call after the last message and before any lookup.
   void index();
@@ -72,8 +74,8 @@ class DbcDraft {
   void find(Finding finding);
   // Adds an error of this message, also to its list of flaws.
   void flaw(Message& message, Finding finding);
-  void lengthen(std::uint32_t key, std::string name);
-  void lengthen(Found found, std::string name);
+  void set_long_name(std::uint32_t key, std::string name);
+  void set_long_name(Found found, std::string name);
   Database finish();
 
   Database database;
@@ -88,10 +90,10 @@ class DbcDraft {
 
   std::map<std::uint32_t, std::size_t> by_key_;
   std::map<std::pair<bool, std::uint32_t>, std::size_t> ids_;
-  std::set<std::uint32_t> left_out_;                      // messages
-  std::set<std::pair<std::uint32_t, std::string>> lost_;  // their signals
-  std::array<std::size_t, kFindingKinds> found_{};        // of each kind
-  std::vector<std::vector<std::uint32_t>> by_name_;       // signals of each message, sorted
+  std::set<std::uint32_t> left_out_;                                  // messages
+  std::set<std::pair<std::uint32_t, std::string>> left_out_signals_;  // their signals
+  std::array<std::size_t, kFindingKinds> found_{};                    // of each kind
+  std::vector<std::vector<std::uint32_t>> by_name_;  // signals of each message, sorted
   std::map<std::string, std::size_t, std::less<>> nodes_, tables_;
   std::map<std::string, std::vector<std::size_t>, std::less<>> definitions_;  // by name
   struct LongName {

@@ -134,8 +134,8 @@ std::vector<Finding> remarks_on(const Message& m, const Signal& s) {
   return out;
 }
 
-std::vector<Finding> strangers(const Database& d) {
-  std::set<std::string_view> known{kNobody, ""};
+std::vector<Finding> unlisted_nodes(const Database& d) {
+  std::set<std::string_view> known{kNoNode, ""};
   for (const Node& n : d.nodes) known.insert(n.name);
   std::vector<Finding> out;
   const auto meet = [&](const std::string& name, const std::string& place, const char* role) {

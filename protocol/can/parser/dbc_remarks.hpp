@@ -20,6 +20,6 @@ std::vector<Finding> remarks_on(const Message& message);
 std::vector<Finding> remarks_on(const Message& message, const Signal& signal);
 
 // Senders and receivers that are not nodes of the file; each name is reported once.
-std::vector<Finding> strangers(const Database& database);
+std::vector<Finding> unlisted_nodes(const Database& database);
 
 }  // namespace pitwall::can

@@ -45,7 +45,7 @@ void DbcSection::report(FindingKind kind, const std::string& where, std::string 
   draft_.flaw(draft_.database.messages[*about_], std::move(f));
 }
 
-void DbcSection::stranger(std::uint32_t key, std::string_view signal) {
+void DbcSection::warn_unknown_reference(std::uint32_t key, std::string_view signal) {
   if (key == kIndependentSignals || draft_.is_left_out(key, std::string{signal})) return;
   const auto at = draft_.message(key);
   const std::string id = std::to_string(key & ~kExtendedBit);

@@ -34,7 +34,7 @@ class DbcSection {
   void warn(FindingKind kind, std::string what, std::string subject = "");
   void report(FindingKind kind, const std::string& where, std::string what, std::string outcome);
   // Warns about a reference to a missing item, unless that item was left out with a finding.
-  void stranger(std::uint32_t key, std::string_view signal);
+  void warn_unknown_reference(std::uint32_t key, std::string_view signal);
 
  private:
   DbcScanner& scan_;

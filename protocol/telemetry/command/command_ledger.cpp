@@ -9,7 +9,7 @@ template <std::size_t Depth>
 CommandLedgerOf<Depth>::CommandLedgerOf(std::uint64_t own_boot) : boot_(short_boot(own_boot)) {}
 
 template <std::size_t Depth>
-void CommandLedgerOf<Depth>::meets(std::uint64_t base_boot) {
+void CommandLedgerOf<Depth>::set_peer_boot(std::uint64_t base_boot) {
   const std::uint32_t run = short_boot(base_boot);
   if (run_ == run) return;
   run_ = run;

@@ -55,7 +55,7 @@ class CommandLedgerOf {
   explicit CommandLedgerOf(std::uint64_t own_boot);
 
   // Call at each new session, with the base's Greeting::boot; with a new value numbers begin again.
-  void meets(std::uint64_t base_boot);
+  void set_peer_boot(std::uint64_t base_boot);
 
   // Call after the groups of the packet, so that `authority` is up to date.
   bool take(const Record& record, const Received& received, const AuthorityView& authority);

@@ -12,7 +12,7 @@ CommandTransmitterOf<Kept>::CommandTransmitterOf(std::uint64_t own_boot)
     : run_(short_boot(own_boot)) {}
 
 template <std::size_t Kept>
-void CommandTransmitterOf<Kept>::meets(std::uint64_t car_boot, Instant now) {
+void CommandTransmitterOf<Kept>::set_peer_boot(std::uint64_t car_boot, Instant now) {
   const std::uint32_t boot = short_boot(car_boot);
   if (car_boot_ && *car_boot_ != boot) car_restarted(now);
   car_boot_ = boot;
@@ -99,7 +99,7 @@ bool CommandTransmitterOf<Kept>::take(const Record& record, const Received& rece
 template <std::size_t Kept>
 void CommandTransmitterOf<Kept>::confirm(CommandId id, Instant now) {
   Entry& entry = place_of(id);
-  if (id == 0 || entry.progress.id != id || entry.progress.fate != Outcome::kApplied) return;
+  if (id == 0 || entry.progress.id != id || entry.progress.outcome != Outcome::kApplied) return;
   if (!entry.progress.confirmed) entry.progress.confirmed = now;
 }
 
@@ -121,8 +121,8 @@ const CommandProgress* CommandTransmitterOf<Kept>::newest(CommandType type) cons
 }
 
 template <std::size_t Kept>
-void CommandTransmitterOf<Kept>::decide(Entry& entry, Outcome fate, Instant now) {
-  entry.progress.fate = fate;
+void CommandTransmitterOf<Kept>::decide(Entry& entry, Outcome outcome, Instant now) {
+  entry.progress.outcome = outcome;
   entry.progress.decided = now;
   --open_;
 }

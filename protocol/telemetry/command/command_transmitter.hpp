@@ -34,7 +34,7 @@ struct CommandProgress {
   Command command;
   Instant issued{};
   std::optional<Instant> sent, received, decided, confirmed;
-  std::optional<Outcome> fate;  // set once, final
+  std::optional<Outcome> outcome;  // set once, final
 };
 
 // `Kept`: number of commands whose progress is stored.
@@ -47,7 +47,7 @@ class CommandTransmitterOf {
   explicit CommandTransmitterOf(std::uint64_t own_boot);
 
   // Call at each new session, with the car's Greeting::boot; a new value means a restart.
-  void meets(std::uint64_t car_boot, Instant now);
+  void set_peer_boot(std::uint64_t car_boot, Instant now);
   // The car restarted: every open command ends with kOtherRun.
   void car_restarted(Instant now);
 
@@ -70,10 +70,10 @@ class CommandTransmitterOf {
     CommandProgress progress;
     std::uint32_t car_boot = 0;
 
-    bool open() const { return progress.id != 0 && !progress.fate; }
+    bool open() const { return progress.id != 0 && !progress.outcome; }
   };
   Entry& place_of(CommandId id) { return kept_[id % Kept]; }
-  void decide(Entry& entry, Outcome fate, Instant now);
+  void decide(Entry& entry, Outcome outcome, Instant now);
 
   std::uint32_t run_;
   std::optional<std::uint32_t> car_boot_;

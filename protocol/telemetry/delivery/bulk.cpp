@@ -196,14 +196,15 @@ void BulkSender::peer_restarted() {
   }
 }
 
-BulkReceiver::BulkReceiver() : store_(kBulkKinds * kBulkStream), came_(kBulkKinds * kBulkPieces) {}
+BulkReceiver::BulkReceiver()
+    : store_(kBulkKinds * kBulkStream), piece_received_(kBulkKinds * kBulkPieces) {}
 
 std::span<std::uint8_t> BulkReceiver::stream(std::size_t kind) {
   return std::span(store_).subspan(kind * kBulkStream, slots_[kind].stream());
 }
 
 std::span<std::uint8_t> BulkReceiver::came(std::size_t kind) {
-  return std::span(came_).subspan(kind * kBulkPieces, slots_[kind].pieces());
+  return std::span(piece_received_).subspan(kind * kBulkPieces, slots_[kind].pieces());
 }
 
 bool BulkReceiver::take(const Record& record, const Received& /*received*/) {

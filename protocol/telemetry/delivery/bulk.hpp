@@ -121,7 +121,7 @@ class BulkReceiver {
   bool refuse();
 
   std::vector<std::uint8_t> store_;
-  std::vector<std::uint8_t> came_;  // received pieces by kind and piece: 0 or 1
+  std::vector<std::uint8_t> piece_received_;  // received pieces by kind and piece: 0 or 1
   std::array<Slot, kBulkKinds> slots_{};
   std::size_t turn_ = 0;
   BulkCounters counters_;

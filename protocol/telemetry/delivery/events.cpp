@@ -37,7 +37,7 @@ std::uint32_t time_code(Instant at, Instant now) {
 }  // namespace
 
 bool EventSender::offer(const Event& event) {
-  confess();
+  report_lost();
   if (waiting() == kEventsKept) {
     ++counters_.dropped;
     ++lost_;
@@ -55,7 +55,7 @@ void EventSender::keep(const Event& event) {
 }
 
 // An event of its own for those that were dropped, as soon as there is room for it.
-void EventSender::confess() {
+void EventSender::report_lost() {
   if (lost_ == 0 || waiting() == kEventsKept) return;
   Event event{.kind = EventKind::kLost, .at = lost_at_, .payload = {}};
   for (unsigned shift = 0; shift < 32; shift += 8) {
@@ -112,7 +112,7 @@ bool EventSender::take(const Record& record, const Received& /*received*/) {
   const std::uint16_t known = plus(first_, -1);
   if (steps(known, newest) <= waiting()) {
     first_ = plus(newest, 1);
-    confess();
+    report_lost();
     return true;
   }
   // An older acknowledgement that was overtaken is no fault; one of what was never sent is.
@@ -132,7 +132,7 @@ void EventSender::peer_restarted() {
 }
 
 std::size_t EventReceiver::slot_of(std::uint16_t number) const {
-  return (head_ + steps(out_, number)) % kEventsKept;
+  return (head_ + steps(next_, number)) % kEventsKept;
 }
 
 bool EventReceiver::take(const Record& record, const Received& received) {
@@ -145,8 +145,8 @@ bool EventReceiver::take(const Record& record, const Received& received) {
   }
   ack_due_ = true;
   const auto number = load<std::uint16_t>(bytes, 0);
-  if (steps(out_, number) >= kEventsKept) {
-    const bool behind = steps(number, out_) <= 2 * kEventsKept;
+  if (steps(next_, number) >= kEventsKept) {
+    const bool behind = steps(number, next_) <= 2 * kEventsKept;
     ++(behind ? counters_.repeated : counters_.dropped);
     return true;
   }
@@ -158,24 +158,24 @@ bool EventReceiver::take(const Record& record, const Received& received) {
   const std::uint32_t time =
       load<std::uint16_t>(bytes, kTimeAt) | static_cast<std::uint32_t>(bytes[kTimeAt + 2]) << 16U;
   const std::uint32_t ticks_ago = (received.tx_time_100us - time) & kTimeMask;
-  Event& event = held_[slot];
+  Event& event = events_[slot];
   event.kind = static_cast<EventKind>(bytes[kKindAt]);
   event.at = received.sent_earliest.value_or(received.at) - kTick * ticks_ago;
   event.payload.clear();
   for (const std::uint8_t byte : bytes.subspan(kEventFixed)) CHECK(event.payload.push(byte));
   filled_[slot] = true;
-  while (steps(out_, expected_) < kEventsKept && filled_[slot_of(expected_)]) {
+  while (steps(next_, expected_) < kEventsKept && filled_[slot_of(expected_)]) {
     expected_ = plus(expected_, 1);
   }
   return true;
 }
 
 std::optional<Event> EventReceiver::next() {
-  if (out_ == expected_) return std::nullopt;
+  if (next_ == expected_) return std::nullopt;
   filled_[head_] = false;
-  const Event& event = held_[head_];
+  const Event& event = events_[head_];
   head_ = (head_ + 1) % kEventsKept;
-  out_ = plus(out_, 1);
+  next_ = plus(next_, 1);
   ++counters_.events;
   return event;
 }
@@ -194,11 +194,11 @@ void EventReceiver::fill(BodyWriter& body, Instant /*now*/) {
 }
 
 void EventReceiver::peer_restarted() {
-  const std::uint16_t ready = steps(out_, expected_);
+  const std::uint16_t ready = steps(next_, expected_);
   for (std::size_t i = ready; i < kEventsKept; ++i) filled_[(head_ + i) % kEventsKept] = false;
   // What is ready is still handed out; the new sender begins with number 1.
   expected_ = 1;
-  out_ = plus(expected_, -ready);
+  next_ = plus(expected_, -ready);
   ack_due_ = false;
 }
 

@@ -72,7 +72,7 @@ class EventSender {
   Kept& at(std::uint16_t number) { return kept_[number % kEventsKept]; }
   const Kept& at(std::uint16_t number) const { return kept_[number % kEventsKept]; }
   void keep(const Event& event);
-  void confess();
+  void report_lost();
   bool write(BodyWriter& body, std::uint16_t number, Instant now);
 
   std::array<Kept, kEventsKept> kept_{};
@@ -94,11 +94,11 @@ class EventReceiver {
  private:
   std::size_t slot_of(std::uint16_t number) const;
 
-  std::array<Event, kEventsKept> held_{};  // ring; event number out_ is at head_
+  std::array<Event, kEventsKept> events_{};  // ring; event number next_ is at head_
   std::array<bool, kEventsKept> filled_{};
   std::size_t head_ = 0;
-  std::uint16_t out_ = 1;       // next event to deliver
-  std::uint16_t expected_ = 1;  // first event not received; out_ to expected_ - 1 are ready
+  std::uint16_t next_ = 1;      // next event to deliver
+  std::uint16_t expected_ = 1;  // first event not received; next_ to expected_ - 1 are ready
   bool ack_due_ = false;
   EventCounters counters_;
 };

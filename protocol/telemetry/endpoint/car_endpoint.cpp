@@ -12,9 +12,9 @@ struct CarEndpoint::Parts {
   Parts(const LinkEndpointConfig& config, Randomness& source)
       : randomness(&source),
         endpoint(config, Direction::kDown, source),
-        schema_text(endpoint.claim().safety_text.empty()
+        schema_text(endpoint.schema().safety_text.empty()
                         ? safety_text()
-                        : std::string(endpoint.claim().safety_text)),
+                        : std::string(endpoint.schema().safety_text)),
         lane(Direction::kDown, config.early_share),
         ledger(endpoint.own().boot) {
     draw();
@@ -61,7 +61,7 @@ void CarEndpoint::Parts::begin_session(bool peer_restarted) {
     events.peer_restarted();
     bulk.peer_restarted();
   }
-  if (endpoint.peer()) ledger.meets(endpoint.peer()->boot);
+  if (endpoint.peer()) ledger.set_peer_boot(endpoint.peer()->boot);
   // The base says what differs; it needs our side of it.
   if (!endpoint.schema_agrees()) bulk.offer(BulkKind::kSchema, as_bytes(schema_text));
   lane.forget();
@@ -100,7 +100,7 @@ void CarEndpoint::Parts::take(const Record& record, const Received& received) {
       good = bulk.take(record, received);
       break;
     default:
-      good = endpoint.takes(record.type);
+      good = endpoint.handles(record.type);
   }
   if (!good) ++bad_records;
 }
@@ -130,7 +130,7 @@ std::optional<Outgoing> CarEndpoint::poll(const Snapshot& snapshot, Instant now)
 
 void CarEndpoint::Parts::make_packet(const PacketPlan& plan, Instant now) {
   const std::size_t safe =
-      lane.choose(snapshot, endpoint.peer_knows(), {endpoint.round_trip(), plan.rate}, now);
+      lane.choose(snapshot, endpoint.sendable_groups(), {endpoint.round_trip(), plan.rate}, now);
   const PacketRoom room = endpoint.room_for(plan, safe, ledger.wanted(), now);
   BodyWriter body = endpoint.begin(plan, room.whole, now);
   const std::size_t fixed = body.bytes().size();
@@ -146,7 +146,7 @@ void CarEndpoint::Parts::make_packet(const PacketPlan& plan, Instant now) {
   ledger.fill(body, now);
   const std::size_t safety = fixed + of_state + body.bytes().size() - written;
   if (!room.only_safety) {
-    body.hold_back(endpoint.kept_from_others(plan, room, safety, now));
+    body.hold_back(endpoint.safety_reserve(plan, room, safety, now));
     events.fill(body, now);
     bulk.fill(body, endpoint.round_trip(), now);
   }

@@ -15,19 +15,19 @@ constexpr Duration kUnknownRoundTrip = milliseconds(60);
 constexpr Duration kDoubt = milliseconds(60);
 constexpr std::uint64_t kReceiptEvery = 4, kLossEvery = 25;  // slots
 
-const SchemaClaim& claim_of(const LinkEndpointConfig& config) {
-  return config.schema ? *config.schema : own_claim();
+const SchemaDescription& schema_of(const LinkEndpointConfig& config) {
+  return config.schema ? *config.schema : own_schema();
 }
 
-AssociationConfig complete(AssociationConfig config, const SchemaClaim& claim,
+AssociationConfig complete(AssociationConfig config, const SchemaDescription& schema,
                            Randomness& randomness, Greeting& own) {
   std::array<std::uint8_t, 8> drawn{};
   while (config.greeting.boot == 0) {
     randomness.fill(drawn);
     for (const std::uint8_t byte : drawn) config.greeting.boot = config.greeting.boot << 8 | byte;
   }
-  if (config.greeting.safety_schema == 0) config.greeting.safety_schema = claim.safety_hash;
-  if (config.greeting.whole_schema == 0) config.greeting.whole_schema = claim.whole_hash;
+  if (config.greeting.safety_schema == 0) config.greeting.safety_schema = schema.safety_hash;
+  if (config.greeting.whole_schema == 0) config.greeting.whole_schema = schema.whole_hash;
   own = config.greeting;
   return config;
 }
@@ -37,14 +37,14 @@ AssociationConfig complete(AssociationConfig config, const SchemaClaim& claim,
 LinkEndpoint::LinkEndpoint(const LinkEndpointConfig& config, Direction sends,
                            Randomness& randomness)
     : own_(),
-      association_(complete(config.association, claim_of(config), randomness, own_), randomness),
+      association_(complete(config.association, schema_of(config), randomness, own_), randomness),
       threats_(config.association.keys.role, config.association.paths),
-      claim_(&claim_of(config)),
-      schema_(*claim_, sends),
+      own_schema_(&schema_of(config)),
+      schema_(*own_schema_, sends),
       sends_(sends),
       policy_(config.policy),
       paths_(config.association.paths),
-      ways_{PathLane(config.budget[0]), PathLane(config.budget[1])} {
+      lanes_{PathLane(config.budget[0]), PathLane(config.budget[1])} {
   CHECK(paths_ >= 1 && paths_ <= kPaths);
 }
 
@@ -78,11 +78,11 @@ bool LinkEndpoint::note_session(bool& peer_restarted, Instant at) {
   receipts_.forget();
   sent_.forget();
   stats_.new_session();
-  lately_.fill({});
+  recent_.fill({});
   path_receipts_.forget();
   plans_.clear();
   next_plan_ = 0;
-  for (PathLane& way : ways_) way.newest = way.reported = 0, way.proof.reset();
+  for (PathLane& lane : lanes_) lane.newest = lane.reported = 0, lane.proof.reset();
   const auto& peer = association_.peer();
   peer_restarted = peer && peer_boot_ && peer->boot != *peer_boot_;
   if (peer_restarted) clock_.forget();
@@ -97,9 +97,9 @@ const ReceivedBody* LinkEndpoint::open(const Opened& opened, std::size_t size, P
   if (!body) return ++bad_bodies_[static_cast<std::size_t>(body.error())], nullptr;
   received_.body = *body;
   received_.delivered.clear();
-  ways_[path].received_at = at;
-  ways_[path].newest = std::max(ways_[path].newest, opened.sequence);
-  lately_[opened.sequence % lately_.size()] = {opened.sequence, body->tx_time_100us,
+  lanes_[path].received_at = at;
+  lanes_[path].newest = std::max(lanes_[path].newest, opened.sequence);
+  recent_[opened.sequence % recent_.size()] = {opened.sequence, body->tx_time_100us,
                                                body->paths_mask};
   stats_.received(opened.sequence, body->paths_mask, path, size, at);
   receipts_.received(opened.sequence, at);
@@ -119,7 +119,7 @@ const ReceivedBody* LinkEndpoint::open(const Opened& opened, std::size_t size, P
 }
 
 void LinkEndpoint::take_ack(const Ack& ack, Instant peer_sent, Instant at) {
-  const SentBook::News news = sent_.take(ack);
+  const SentPackets::News news = sent_.take(ack);
   received_.delivered = news.delivered;
   if (!news.delivered.empty()) acked_at_ = at;
   if (!news.newest) return;
@@ -129,7 +129,7 @@ void LinkEndpoint::take_ack(const Ack& ack, Instant peer_sent, Instant at) {
   if (paths_ > 1) return;
   std::size_t bytes = 0;
   for (const Delivery& delivery : news.delivered) bytes += delivery.bytes;
-  ways_[0].rate.delivered(news.newest->sent, peer_received, bytes, at);
+  lanes_[0].rate.delivered(news.newest->sent, peer_received, bytes, at);
 }
 
 void LinkEndpoint::take_path_records(PathId path, Address from, Instant at) {
@@ -137,7 +137,7 @@ void LinkEndpoint::take_path_records(PathId path, Address from, Instant at) {
   for (const Record& record : received_.body.records) {
     const bool token = record.payload.size() == kTokenSize;
     if (record.type == RecordType::kPathProbe && token) {
-      ways_[path].proof = load<std::uint64_t>(record.payload, 0);
+      lanes_[path].proof = load<std::uint64_t>(record.payload, 0);
     } else if (record.type == RecordType::kPathProof && token) {
       association_.take_proof(path, from, load<std::uint64_t>(record.payload, 0), at);
     } else if (record.type == RecordType::kSchema) {
@@ -152,10 +152,10 @@ void LinkEndpoint::take_path_records(PathId path, Address from, Instant at) {
 void LinkEndpoint::note_duplicate(std::uint64_t sequence, std::size_t size, PathId path,
                                   Instant at) {
   stats_.received(sequence, 0, path, size, at);
-  PathLane& way = ways_[path];
-  const bool newest = sequence > way.newest;
-  if (newest) way.newest = sequence, way.received_at = at;
-  const Lately& first = lately_[sequence % lately_.size()];
+  PathLane& lane = lanes_[path];
+  const bool newest = sequence > lane.newest;
+  if (newest) lane.newest = sequence, lane.received_at = at;
+  const RecentPacket& first = recent_[sequence % recent_.size()];
   if (first.sequence != sequence || !newest || !clock_.known()) return;
   const Instant peer_sent = clock_.peer_time(first.tx_time_100us, at);
   stats_.delay(path, clock_.one_way(peer_sent, at), at);
@@ -183,15 +183,15 @@ void LinkEndpoint::exchange(Instant now) {
   for (PathId path = 0; path < paths_; ++path) {
     const std::size_t size = association_.poll_size(path, now);
     if (size == 0) continue;
-    PathLane& way = ways_[path];
+    PathLane& lane = lanes_[path];
     const std::size_t safety = sends_ == Direction::kDown ? size : 0;
-    if (!way.fits(size, safety, now)) {
-      way.budget.note_refused();
+    if (!lane.fits(size, safety, now)) {
+      lane.budget.note_refused();
       continue;
     }
     const auto sent = association_.poll(path, now, exchange_bytes_[path]);
     if (!sent || sent->bytes.empty()) continue;
-    way.spend(sent->bytes.size(), std::min(safety, sent->bytes.size()), now);
+    lane.spend(sent->bytes.size(), std::min(safety, sent->bytes.size()), now);
     CHECK(out_.push({path, sent->to, sent->bytes}));
   }
 }
@@ -202,7 +202,7 @@ std::optional<PacketPlan> LinkEndpoint::plan(Instant now, Waits waits) {
   const bool at_once = waits == Waits::kStop && association_.ready();
   const Slots::Turn turn = slots_.turn(now, at_once);
   const bool worth = waits != Waits::kNothing || on_trial() || in_doubt(now);
-  const bool wanted = turn == Slots::Turn::kBetween ? worth : turn != Slots::Turn::kNobody;
+  const bool wanted = turn == Slots::Turn::kBetween ? worth : turn != Slots::Turn::kNone;
   const bool made = wanted && association_.ready() && lay_out(turn, now);
   slots_.done(turn, made, now);
   due_ = slots_.due(now, at_once && !made);
@@ -225,9 +225,9 @@ bool LinkEndpoint::lay_out(Slots::Turn turn, Instant now) {
   plans_.clear();
   next_plan_ = 0;
   for (PathId path = 0; path < paths_; ++path) {
-    PathLane& way = ways_[path];
-    way.adapt(now);
-    if (slots_.count() % kLossEvery == 0) way.loss = stats_.figures(path, now).loss;
+    PathLane& lane = lanes_[path];
+    lane.adapt(now);
+    if (slots_.count() % kLossEvery == 0) lane.loss = stats_.figures(path, now).loss;
   }
   const bool at_once = turn == Slots::Turn::kAtOnce;
   const PathChoice choice{association_, lanes(), policy_, in_doubt(now), at_once};
@@ -239,7 +239,7 @@ std::size_t LinkEndpoint::room(const PacketPlan& plan, std::size_t safety, Insta
   std::size_t room = plan.most + kAround;
   for (PathId path = 0; path < paths_; ++path) {
     if (!has(plan.paths, path)) continue;
-    room = std::min(room, ways_[path].budget.room_beside(kAround + safety, now));
+    room = std::min(room, lanes_[path].budget.room_beside(kAround + safety, now));
   }
   return room > kAround ? room - kAround : 0;
 }
@@ -255,8 +255,8 @@ PacketRoom LinkEndpoint::room_for(const PacketPlan& plan, std::size_t state, std
   return {whole, for_records, false};
 }
 
-std::size_t LinkEndpoint::kept_from_others(const PacketPlan& plan, const PacketRoom& all,
-                                           std::size_t safety, Instant now) const {
+std::size_t LinkEndpoint::safety_reserve(const PacketPlan& plan, const PacketRoom& all,
+                                         std::size_t safety, Instant now) const {
   const std::size_t whole = room(plan, safety, now);
   return all.whole > whole ? all.whole - whole : 0;
 }
@@ -266,7 +266,7 @@ std::size_t LinkEndpoint::path_records_size(const PacketPlan& plan) const {
   for (PathId path = 0; path < paths_; ++path) {
     if (!has(plan.paths, path)) continue;
     if (plan.trial) size += BodyWriter::record_size(kTokenSize);
-    if (ways_[path].proof) size += BodyWriter::record_size(kTokenSize);
+    if (lanes_[path].proof) size += BodyWriter::record_size(kTokenSize);
     if (paths_ > 1) size += BodyWriter::record_size(PathReceipts::kSize);
   }
   return size;
@@ -275,7 +275,7 @@ std::size_t LinkEndpoint::path_records_size(const PacketPlan& plan) const {
 BodyWriter LinkEndpoint::begin(const PacketPlan& plan, std::size_t room, Instant now) {
   BodyWriter body(body_, std::min(room, kMaxBody), schema_.sending());
   body.begin(now, plan.paths);
-  if (const auto ack = receipts_.ack(now); ack && body.add_ack(*ack)) receipts_.written(now);
+  if (const auto ack = receipts_.ack(now)) body.add_ack(*ack);
   return body;
 }
 
@@ -283,15 +283,15 @@ void LinkEndpoint::add_path_records(BodyWriter& body, const PacketPlan& plan, In
   schema_.write(body);
   std::array<std::uint8_t, kTokenSize> bytes{};
   for (PathId path = 0; path < paths_; ++path) {
-    PathLane& way = ways_[path];
+    PathLane& lane = lanes_[path];
     if (!has(plan.paths, path)) continue;
     if (const auto token = association_.probe(path); plan.trial && token) {
       store<std::uint64_t>(bytes, 0, *token);
       body.add_record(RecordType::kPathProbe, bytes);
     }
-    if (way.proof) {
-      store<std::uint64_t>(bytes, 0, *way.proof);
-      if (body.add_record(RecordType::kPathProof, bytes)) way.proof.reset();
+    if (lane.proof) {
+      store<std::uint64_t>(bytes, 0, *lane.proof);
+      if (body.add_record(RecordType::kPathProof, bytes)) lane.proof.reset();
     }
   }
   if (paths_ > 1 && slots_.count() % kReceiptEvery == 0) PathReceipts::write(body, lanes(), now);
@@ -306,16 +306,16 @@ std::uint64_t LinkEndpoint::send(const BodyWriter& body, const PacketPlan& plan,
   sent_.sent(sealed->sequence, now, size + kIpUdpOverhead);
   path_receipts_.sent(sealed->sequence, plan.paths, size + kIpUdpOverhead, now);
   for (PathId path = 0; path < paths_; ++path) {
-    if (has(plan.paths, path)) put_out(path, sealed->datagram, plan, kAround + safety, now);
+    if (has(plan.paths, path)) queue_datagram(path, sealed->datagram, plan, kAround + safety, now);
   }
   return sealed->sequence;
 }
 
-void LinkEndpoint::put_out(PathId path, std::span<const std::uint8_t> datagram,
-                           const PacketPlan& plan, std::size_t safety, Instant now) {
+void LinkEndpoint::queue_datagram(PathId path, std::span<const std::uint8_t> datagram,
+                                  const PacketPlan& plan, std::size_t safety, Instant now) {
   const Address to =
       plan.trial ? association_.targets(path, datagram.size()).back() : association_.proved(path);
-  ways_[path].spend(datagram.size(), safety, now);
+  lanes_[path].spend(datagram.size(), safety, now);
   association_.note_sent(path, to, datagram.size());
   CHECK(out_.push({path, to, datagram}));
 }
@@ -325,7 +325,7 @@ bool LinkEndpoint::schema_agrees() const {
   return theirs && theirs->safety_schema == own_.safety_schema;
 }
 
-GroupSet LinkEndpoint::peer_knows() const {
+GroupSet LinkEndpoint::sendable_groups() const {
   GroupSet known;
   if (!schema_.may_send()) return known;
   for (const GroupPlace& place : schema_.sending()) {
@@ -334,7 +334,7 @@ GroupSet LinkEndpoint::peer_knows() const {
   return known;
 }
 
-bool LinkEndpoint::takes(RecordType type) const {
+bool LinkEndpoint::handles(RecordType type) const {
   return type == RecordType::kSchema || type == RecordType::kPathProbe ||
          type == RecordType::kPathProof || type == RecordType::kPathReceipt;
 }
@@ -355,13 +355,13 @@ void LinkEndpoint::report(LinkReport& out, Instant now) const {
   out.both_lost = stats_.both_lost();
   out.ack_nonsense = sent_.nonsense();
   for (PathId path = 0; path < paths_; ++path) {
-    const PathLane& way = ways_[path];
+    const PathLane& lane = lanes_[path];
     PathReport& to = out.paths[path];
     to.received = stats_.figures(path, now);
-    to.spent = way.budget.counters();
-    to.budget_use = way.use(now);
-    to.rate_factor = way.factor;
-    to.queue_delay = way.rate.queue_delay();
+    to.spent = lane.budget.counters();
+    to.budget_use = lane.use(now);
+    to.rate_factor = lane.factor;
+    to.queue_delay = lane.rate.queue_delay();
     to.peer = association_.proved(path);
     to.validated = to.peer.known() && !association_.on_trial(path);
   }

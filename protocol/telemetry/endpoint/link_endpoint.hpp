@@ -24,7 +24,7 @@
 #include "protocol/telemetry/endpoint/path_choice.hpp"
 #include "protocol/telemetry/endpoint/path_lane.hpp"
 #include "protocol/telemetry/endpoint/path_receipts.hpp"
-#include "protocol/telemetry/endpoint/schema_talk.hpp"
+#include "protocol/telemetry/endpoint/schema_exchange.hpp"
 #include "protocol/telemetry/endpoint/slots.hpp"
 #include "protocol/telemetry/endpoint/state_lane.hpp"
 #include "protocol/telemetry/flow/acks.hpp"
@@ -45,7 +45,8 @@ struct LinkEndpointConfig {
   std::array<BudgetParams, kPaths> budget{};
   PathPolicy policy = PathPolicy::kDuplicate;
   double early_share = StateLane::kEarlyShare;  // share of a packet for groups that are not yet due
-  const SchemaClaim* schema = nullptr;  // nullptr: that of the registry. Outlives the endpoint
+  // nullptr: that of the registry. Outlives the endpoint.
+  const SchemaDescription* schema = nullptr;
 };
 
 // What waits to be sent: the reason for a packet between slots.
@@ -90,8 +91,8 @@ class LinkEndpoint {
   PacketRoom room_for(const PacketPlan& plan, std::size_t state, std::size_t records,
                       Instant now) const;
   // Bytes of `room` that only safety content may use if the body has `safety` bytes of it.
-  std::size_t kept_from_others(const PacketPlan& plan, const PacketRoom& room, std::size_t safety,
-                               Instant now) const;
+  std::size_t safety_reserve(const PacketPlan& plan, const PacketRoom& room, std::size_t safety,
+                             Instant now) const;
   // The body starts with the acknowledgement.
   BodyWriter begin(const PacketPlan& plan, std::size_t room, Instant now);
   // Adds the records of the paths; they are written before all others.
@@ -109,11 +110,11 @@ class LinkEndpoint {
   Stamp newest_stamp() const { return association_.newest_stamp(); }
   Duration round_trip() const;  // 60 ms until it is measured
   bool schema_agrees() const;
-  const SchemaClaim& claim() const { return *claim_; }
+  const SchemaDescription& schema() const { return *own_schema_; }
   // Groups that may be sent now.
-  GroupSet peer_knows() const;
+  GroupSet sendable_groups() const;
   // True for the record types that this class handles itself.
-  bool takes(RecordType type) const;
+  bool handles(RecordType type) const;
   void place(double station_m, double lap_length_m, Instant now) {
     stats_.place(station_m, lap_length_m, now);
   }
@@ -127,12 +128,12 @@ class LinkEndpoint {
 
  private:
   // A recently received packet, to recognise its copy on the other path.
-  struct Lately {
+  struct RecentPacket {
     std::uint64_t sequence = 0;
     std::uint32_t tx_time_100us = 0;
     std::uint8_t paths_mask = 0;
   };
-  std::span<PathLane> lanes() { return std::span(ways_).first(paths_); }
+  std::span<PathLane> lanes() { return std::span(lanes_).first(paths_); }
   const ReceivedBody* open(const Opened& opened, std::size_t size, PathId path, Instant at);
   void take_ack(const Ack& ack, Instant peer_sent, Instant at);
   void take_path_records(PathId path, Address from, Instant at);
@@ -143,29 +144,28 @@ class LinkEndpoint {
   bool on_trial() const;
   bool in_doubt(Instant now) const;
   std::size_t path_records_size(const PacketPlan& plan) const;
-  PathId better_path(std::uint8_t paths) const;
   std::size_t room(const PacketPlan& plan, std::size_t safety, Instant now) const;
-  void put_out(PathId path, std::span<const std::uint8_t> datagram, const PacketPlan& plan,
-               std::size_t safety, Instant now);
+  void queue_datagram(PathId path, std::span<const std::uint8_t> datagram, const PacketPlan& plan,
+                      std::size_t safety, Instant now);
 
   Greeting own_;
   Association association_;
   ThreatMonitor threats_;
-  const SchemaClaim* claim_;
-  SchemaTalk schema_;
+  const SchemaDescription* own_schema_;
+  SchemaExchange schema_;
   Direction sends_;
   PathPolicy policy_;
   std::uint8_t paths_;
-  std::array<PathLane, kPaths> ways_;
-  ReceiptBook receipts_;
-  SentBook sent_;
+  std::array<PathLane, kPaths> lanes_;
+  ReceivedPackets receipts_;
+  SentPackets sent_;
   ClockSync clock_;
   Instant acked_at_{};  // time of the last acknowledgement of a new packet
   LinkStats stats_;
   std::uint64_t session_ = 0;
   std::optional<std::uint64_t> peer_boot_;
   std::array<std::uint64_t, kBodyErrors> bad_bodies_{};
-  std::array<Lately, 64> lately_{};
+  std::array<RecentPacket, 64> recent_{};
   PathReceipts path_receipts_;
 
   Slots slots_;

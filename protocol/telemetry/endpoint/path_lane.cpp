@@ -18,7 +18,7 @@ PathLane::PathLane(const BudgetParams& params)
       rate(params.bytes_per_s, params.safety_bytes_per_s) {}
 
 void PathLane::adapt(Instant now) {
-  factor = std::min(rate.factor(now), cap);
+  factor = std::min(rate.factor(), cap);
   budget.scale(factor, now);
 }
 

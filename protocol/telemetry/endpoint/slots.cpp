@@ -13,7 +13,7 @@ Slots::Turn Slots::turn(Instant now, bool at_once) {
   if (advance(now)) stage_ = Stage::kDue;
   if (stage_ == Stage::kDue) return Turn::kOnSlot;
   if (at_once) return Turn::kAtOnce;
-  return stage_ == Stage::kBetween && now + kSlotEarly >= half() ? Turn::kBetween : Turn::kNobody;
+  return stage_ == Stage::kBetween && now + kSlotEarly >= half() ? Turn::kBetween : Turn::kNone;
 }
 
 bool Slots::advance(Instant now) {

@@ -25,7 +25,7 @@ inline constexpr Duration kSlotEarly = milliseconds(2);
 
 class Slots {
  public:
-  enum class Turn : std::uint8_t { kNobody, kOnSlot, kBetween, kAtOnce };
+  enum class Turn : std::uint8_t { kNone, kOnSlot, kBetween, kAtOnce };
 
   Turn turn(Instant now, bool at_once = false);
   void done(Turn turn, bool made, Instant now);

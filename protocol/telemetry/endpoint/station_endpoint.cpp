@@ -54,7 +54,7 @@ void StationEndpoint::Parts::begin_session(bool peer_restarted, Instant now) {
     bulk.peer_restarted();
     schema_size = 0;
   }
-  if (endpoint.peer()) transmitter.meets(endpoint.peer()->boot, now);
+  if (endpoint.peer()) transmitter.set_peer_boot(endpoint.peer()->boot, now);
   lane.forget();
 }
 
@@ -107,7 +107,7 @@ void StationEndpoint::Parts::take(const Record& record, const Received& received
       good = bulk.take(record, received);
       break;
     default:
-      good = endpoint.takes(record.type);
+      good = endpoint.handles(record.type);
   }
   if (!good) ++bad_records;
 }
@@ -116,8 +116,8 @@ void StationEndpoint::Parts::take(const Record& record, const Received& received
 void StationEndpoint::Parts::note_release() {
   if (!release) return;
   const CommandProgress* progress = transmitter.progress(*release);
-  if (progress && !progress->fate) return;
-  if (progress && progress->fate == Outcome::kApplied) stop.released(*release);
+  if (progress && !progress->outcome) return;
+  if (progress && progress->outcome == Outcome::kApplied) stop.released(*release);
   release.reset();
 }
 
@@ -163,7 +163,7 @@ void StationEndpoint::Parts::make_packet(const PacketPlan& plan, Instant now) {
   stop_sent = stop.state();
   const std::size_t wants = transmitter.wanted() + events.wanted();
   const std::size_t safe =
-      lane.choose(snapshot, endpoint.peer_knows(), {endpoint.round_trip(), plan.rate}, now);
+      lane.choose(snapshot, endpoint.sendable_groups(), {endpoint.round_trip(), plan.rate}, now);
   const PacketRoom room = endpoint.room_for(plan, safe, wants, now);
   BodyWriter body = endpoint.begin(plan, room.whole, now);
   const std::size_t fixed = body.bytes().size();
@@ -177,7 +177,7 @@ void StationEndpoint::Parts::make_packet(const PacketPlan& plan, Instant now) {
   events.fill(body, now);
   const std::size_t safety = fixed + of_state + body.bytes().size() - written;
   if (!room.only_safety) {
-    body.hold_back(endpoint.kept_from_others(plan, room, safety, now));
+    body.hold_back(endpoint.safety_reserve(plan, room, safety, now));
     bulk.fill(body, now);
   }
   lane.sent(endpoint.send(body, plan, safety, now), snapshot, now);
@@ -193,7 +193,7 @@ bool StationEndpoint::clock_known() const { return parts_->endpoint.clock().know
 
 std::optional<CommandId> StationEndpoint::issue(const Command& command, Instant now) {
   const bool releases = command.type == CommandType::kReleaseStop;
-  if (releases && parts_->release) return {};  // of two, the fate of the first would be missed
+  if (releases && parts_->release) return {};  // of two, the outcome of the first would be missed
   const auto id = parts_->transmitter.issue(command, now);
   if (id && releases) {
     parts_->release = id;
@@ -245,7 +245,7 @@ std::string StationEndpoint::schema_difference() const {
   if (schema_agrees() || p.schema_size == 0) return {};
   const std::string theirs(p.schema_of_car.begin(),
                            p.schema_of_car.begin() + static_cast<std::ptrdiff_t>(p.schema_size));
-  const std::string_view own = p.endpoint.claim().safety_text;
+  const std::string_view own = p.endpoint.schema().safety_text;
   return difference(own.empty() ? safety_text() : own, theirs);
 }
 

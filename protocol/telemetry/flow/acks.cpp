@@ -7,13 +7,12 @@ namespace pitwall::telemetry {
 
 namespace {
 
-constexpr Duration kAckEvery = milliseconds(50);
 constexpr Duration kMostHold = microseconds(100) * 0xFFFF;  // as the wire has it; saturated there
 constexpr unsigned kMaskBits = 32;
 
 }  // namespace
 
-void ReceiptBook::received(std::uint64_t sequence, Instant at) {
+void ReceivedPackets::received(std::uint64_t sequence, Instant at) {
   CHECK(sequence > 0);
   if (sequence > newest_) {
     const std::uint64_t step = sequence - newest_;
@@ -23,45 +22,33 @@ void ReceiptBook::received(std::uint64_t sequence, Instant at) {
     newest_at_ = at;
   } else if (const std::uint64_t behind = newest_ - sequence; behind >= 1 && behind <= kMaskBits) {
     mask_ |= std::uint32_t{1} << (behind - 1);
-  } else {
-    return;  // had before, or too old to name
   }
-  news_ = true;
 }
 
-std::optional<Ack> ReceiptBook::ack(Instant now) const {
+std::optional<Ack> ReceivedPackets::ack(Instant now) const {
   if (newest_ == 0) return std::nullopt;
   return Ack{static_cast<std::uint16_t>(newest_), mask_, now - newest_at_};
 }
 
-bool ReceiptBook::due(Instant now) const {
-  return newest_ > 0 && (news_ || now - written_at_ >= kAckEvery);
-}
-
-void ReceiptBook::written(Instant now) {
-  news_ = false;
-  written_at_ = now;
-}
-
-void SentBook::sent(std::uint64_t sequence, Instant at, std::size_t bytes) {
+void SentPackets::sent(std::uint64_t sequence, Instant at, std::size_t bytes) {
   CHECK(sequence > newest_);
   if (newest_ == 0) oldest_ = sequence;
   newest_ = sequence;
   kept_[sequence % kKept] = {{sequence, at, bytes}, false};
 }
 
-void SentBook::forget() {
+void SentPackets::forget() {
   const std::uint64_t nonsense = nonsense_;
   *this = {};
   nonsense_ = nonsense;
 }
 
-const SentBook::Entry* SentBook::find(std::uint64_t sequence) const {
+const SentPackets::Entry* SentPackets::find(std::uint64_t sequence) const {
   const Entry& entry = kept_[sequence % kKept];
   return sequence > 0 && entry.delivery.sequence == sequence ? &entry : nullptr;
 }
 
-bool SentBook::makes_sense(std::uint64_t newest, std::uint32_t mask) const {
+bool SentPackets::makes_sense(std::uint64_t newest, std::uint32_t mask) const {
   if (newest < oldest_ || newest > newest_) return false;
   for (unsigned bit = 0; bit < kMaskBits; ++bit) {
     if ((mask >> bit & 1U) == 0) continue;
@@ -73,14 +60,14 @@ bool SentBook::makes_sense(std::uint64_t newest, std::uint32_t mask) const {
   return true;
 }
 
-void SentBook::note(std::uint64_t sequence, News& news) {
+void SentPackets::note(std::uint64_t sequence, News& news) {
   Entry& entry = kept_[sequence % kKept];
   if (entry.delivery.sequence != sequence || entry.acked) return;
   entry.acked = true;
   CHECK(news.delivered.push(entry.delivery));
 }
 
-SentBook::News SentBook::take(const Ack& ack) {
+SentPackets::News SentPackets::take(const Ack& ack) {
   News news;
   // The 64-bit number not above the newest sent whose low half is named.
   const auto behind =

@@ -1,5 +1,5 @@
-// Acknowledgement state of one end: ReceiptBook for the packets received, whose Ack goes into each
-// packet; SentBook for the packets sent and their acknowledgements.
+// Acknowledgement state of one end: ReceivedPackets for the packets received, whose Ack goes into
+// each packet; SentPackets for the packets sent and their acknowledgements.
 //   invariants
 //          a packet is acknowledged at most once; a packet that an Ack does not name has an unknown
 //          state, it is not lost
@@ -21,20 +21,17 @@ namespace pitwall::telemetry {
 
 inline constexpr std::size_t kAckNames = 33;  // the newest and its mask
 
-class ReceiptBook {
+class ReceivedPackets {
  public:
   void received(std::uint64_t sequence, Instant at);
   // An empty optional until a packet is received.
   std::optional<Ack> ack(Instant now) const;
-  bool due(Instant now) const;  // a packet came since the last written Ack, or 50 ms have passed
-  void written(Instant now);
   void forget() { *this = {}; }
 
  private:
   std::uint64_t newest_ = 0;
   std::uint32_t mask_ = 0;
-  bool news_ = false;
-  Instant newest_at_{}, written_at_{};
+  Instant newest_at_{};
 };
 
 struct Delivery {
@@ -43,7 +40,7 @@ struct Delivery {
   std::size_t bytes = 0;
 };
 
-class SentBook {
+class SentPackets {
  public:
   static constexpr std::size_t kKept = 256;
 

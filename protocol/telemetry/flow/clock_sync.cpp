@@ -14,7 +14,6 @@ constexpr std::int64_t kTicks = std::int64_t{1} << 24;
 constexpr Duration kRounding = 2 * kTick;      // t2 is a rounded tx_time less a rounded hold
 constexpr std::int64_t kDriftInverse = 5'000;  // 200 ppm between two clocks of +- 100 ppm each
 constexpr int kPersistent = 8;                 // contradictions in a row that replace the figure
-constexpr Duration kInterval = seconds(5);     // of the least round trip
 constexpr Duration kLongest = seconds(60);     // no round trip that means anything
 
 }  // namespace
@@ -75,11 +74,6 @@ void ClockSync::note(const Exchange& e) {
     return;
   }
   round_trip_ = std::max(Duration{}, round_trip);
-  if (e.t4 - interval_start_ >= kInterval || !known_) {
-    least_ = {round_trip_, known_ ? least_[0] : round_trip_};
-    interval_start_ = e.t4;
-  }
-  least_[0] = std::min(least_[0], round_trip_);
 
   // Each side was true at some moment of the exchange; by its end it may have drifted.
   const Duration slack = kRounding + (e.t4 - e.t1) / kDriftInverse;
@@ -105,8 +99,6 @@ Duration ClockSync::bound(Instant now) const {
   const Hull hull = loosened(now);
   return (hull.ceiling - hull.floor) / 2 + nanoseconds(1);
 }
-
-Duration ClockSync::least_round_trip() const { return std::min(least_[0], least_[1]); }
 
 Instant ClockSync::to_own(Instant peer) const { return peer - offset(); }
 

@@ -17,7 +17,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <optional>
 
@@ -43,7 +42,6 @@ class ClockSync {
   Duration offset() const;                             // theirs minus ours; known() only
   Duration bound(Instant now) const;                   // |error of offset| <= bound
   Duration round_trip() const { return round_trip_; }  // of the newest exchange
-  Duration least_round_trip() const;                   // minimum of the last 5 to 10 s
   Instant to_own(Instant peer) const;
   Duration one_way(Instant peer_sent, Instant received) const;
   std::uint64_t contradictions() const { return contradictions_; }
@@ -65,8 +63,6 @@ class ClockSync {
   std::uint64_t contradictions_ = 0;
   std::optional<Instant> last_peer_, last_received_;
   Duration round_trip_{};
-  std::array<Duration, 2> least_{};  // minima of the current interval and of the one before
-  Instant interval_start_{};
 };
 
 }  // namespace pitwall::telemetry

@@ -10,7 +10,7 @@ namespace pitwall::telemetry {
 
 namespace {
 
-constexpr Duration kPatience = seconds(1);
+constexpr Duration kReorderWait = seconds(1);
 constexpr Duration kTenthOfSecond = milliseconds(100);
 constexpr std::size_t kRateTenths = 10;
 constexpr Duration kPlaceEvery = milliseconds(50);
@@ -19,9 +19,9 @@ constexpr std::uint8_t kAllPaths = (1U << kPaths) - 1U;
 
 }  // namespace
 
-LinkStats::Tenth& LinkStats::tenth(PathBook& book, Instant at) {
+LinkStats::Tenth& LinkStats::tenth(PathState& state, Instant at) {
   const std::int64_t index = std::max<std::int64_t>(0, at.ns / kTenthOfSecond.ns);
-  Tenth& tenth = book.tenths[static_cast<std::size_t>(index) % kTenths];
+  Tenth& tenth = state.tenths[static_cast<std::size_t>(index) % kTenths];
   if (tenth.index < index) tenth = {index, 0, 0, 0};
   return tenth;
 }
@@ -43,8 +43,8 @@ void LinkStats::received(std::uint64_t sequence, std::uint8_t paths_mask, PathId
   if (sequence > newest_) open_up_to(sequence, sent_on, at);
   Number& n = number(sequence);
   if (n.sequence != sequence) {  // older than all that is kept, or than the first
-    ++books_[path].received;
-    ++books_[path].late;
+    ++path_states_[path].received;
+    ++path_states_[path].late;
     return;
   }
   if (!n.judged) n.sent_on = paths_mask != 0 ? sent_on : (n.sent_on | bit_of(path)) & kAllPaths;
@@ -52,22 +52,22 @@ void LinkStats::received(std::uint64_t sequence, std::uint8_t paths_mask, PathId
 }
 
 void LinkStats::arrived(Number& n, PathId path, std::size_t bytes, Instant at) {
-  PathBook& book = books_[path];
-  tenth(book, at).bytes += bytes;
+  PathState& state = path_states_[path];
+  tenth(state, at).bytes += bytes;
   if ((n.came_by & bit_of(path)) != 0) {
-    ++book.duplicates;
+    ++state.duplicates;
     return;
   }
-  ++book.received;
+  ++state.received;
   if (n.judged) take_back(n, path);
   n.came_by |= bit_of(path);
 }
 
 void LinkStats::take_back(Number& n, PathId path) {
-  PathBook& book = books_[path];
-  ++book.late;
+  PathState& state = path_states_[path];
+  ++state.late;
   if ((n.sent_on & bit_of(path)) == 0) return;
-  --book.lost;
+  --state.lost;
   if (n.came_by != 0) return;
   if (n.sent_on == kAllPaths) --lost_on_both_;
   if (const std::size_t bin = bin_at(n.about); bin < kTrackBins && missed_[bin] > 0) {
@@ -105,9 +105,9 @@ void LinkStats::open_up_to(std::uint64_t sequence, std::uint8_t sent_on, Instant
 void LinkStats::skip(std::uint64_t count, std::uint8_t sent_on, Instant at) {
   for (PathId p = 0; p < kPaths; ++p) {
     if ((sent_on & bit_of(p)) == 0) continue;
-    books_[p].lost += count;
-    books_[p].model.note_lost(count);
-    Tenth& t = tenth(books_[p], at);
+    path_states_[p].lost += count;
+    path_states_[p].model.note_lost(count);
+    Tenth& t = tenth(path_states_[p], at);
     t.expected += static_cast<std::uint32_t>(std::min<std::uint64_t>(count, UINT32_MAX / 2));
     t.lost += static_cast<std::uint32_t>(std::min<std::uint64_t>(count, UINT32_MAX / 2));
   }
@@ -122,10 +122,10 @@ void LinkStats::judge(Number& n) {
   for (PathId p = 0; p < kPaths; ++p) {
     if ((n.sent_on & bit_of(p)) == 0) continue;
     const bool lost = (n.came_by & bit_of(p)) == 0;
-    PathBook& book = books_[p];
-    book.lost += lost ? 1 : 0;
-    book.model.note(lost);
-    Tenth& t = tenth(book, n.missed);
+    PathState& state = path_states_[p];
+    state.lost += lost ? 1 : 0;
+    state.model.note(lost);
+    Tenth& t = tenth(state, n.missed);
     ++t.expected;
     t.lost += lost ? 1 : 0;
   }
@@ -144,7 +144,7 @@ void LinkStats::advance(Instant now) {
   while (next_judged_ != 0 && next_judged_ <= newest_) {
     Number& n = number(next_judged_);
     const bool complete = n.came_by == n.sent_on;
-    if (!complete && now - n.missed < kPatience) return;
+    if (!complete && now - n.missed < kReorderWait) return;
     // Its place is read off between two that the car told; the second follows the packet.
     if (complete && now - n.missed < kTenthOfSecond) return;
     judge(n);
@@ -154,12 +154,12 @@ void LinkStats::advance(Instant now) {
 
 void LinkStats::delay(PathId path, Duration one_way, Instant) {
   CHECK(path < kPaths);
-  PathBook& book = books_[path];
-  if (book.delay_count > 0) {
-    const Duration last = book.delays[(book.delay_count - 1) % kDelays];
-    book.jitter_s += (std::fabs((one_way - last).seconds()) - book.jitter_s) * kJitterShare;
+  PathState& state = path_states_[path];
+  if (state.delay_count > 0) {
+    const Duration last = state.delays[(state.delay_count - 1) % kDelays];
+    state.jitter_s += (std::fabs((one_way - last).seconds()) - state.jitter_s) * kJitterShare;
   }
-  book.delays[book.delay_count++ % kDelays] = one_way;
+  state.delays[state.delay_count++ % kDelays] = one_way;
 }
 
 void LinkStats::place(double station_m, double lap_length_m, Instant at) {
@@ -193,9 +193,9 @@ std::size_t LinkStats::bin_at(Instant at) const {
   return std::min(kTrackBins - 1, static_cast<std::size_t>(share * kTrackBins));
 }
 
-void LinkStats::note_delays(const PathBook& book, PathFigures& f) {
-  std::array<Duration, kDelays> sorted = book.delays;
-  const std::size_t count = std::min(book.delay_count, kDelays);
+void LinkStats::note_delays(const PathState& state, PathFigures& f) {
+  std::array<Duration, kDelays> sorted = state.delays;
+  const std::size_t count = std::min(state.delay_count, kDelays);
   if (count == 0) return;
   std::sort(sorted.begin(), sorted.begin() + static_cast<std::ptrdiff_t>(count));
   f.delay_p50 = sorted[(count - 1) * 50 / 100];
@@ -205,14 +205,14 @@ void LinkStats::note_delays(const PathBook& book, PathFigures& f) {
 
 PathFigures LinkStats::figures(PathId path, Instant now) const {
   CHECK(path < kPaths);
-  const PathBook& book = books_[path];
-  PathFigures f{.received = book.received,
-                .lost = book.lost,
-                .duplicates = book.duplicates,
-                .late = book.late};
+  const PathState& state = path_states_[path];
+  PathFigures f{.received = state.received,
+                .lost = state.lost,
+                .duplicates = state.duplicates,
+                .late = state.late};
   const std::int64_t current = now.ns / kTenthOfSecond.ns;
   std::uint64_t expected = 0, lost = 0, bytes = 0;
-  for (const Tenth& t : book.tenths) {
+  for (const Tenth& t : state.tenths) {
     const std::int64_t behind = current - t.index;
     if (t.index < 0 || behind >= static_cast<std::int64_t>(kTenths)) continue;
     expected += t.expected;
@@ -222,11 +222,11 @@ PathFigures LinkStats::figures(PathId path, Instant now) const {
   }
   if (expected > 0) f.loss = static_cast<double>(lost) / static_cast<double>(expected);
   f.rate_bytes_per_s = static_cast<double>(bytes);
-  f.jitter = from_seconds(book.jitter_s);
-  note_delays(book, f);
+  f.jitter = from_seconds(state.jitter_s);
+  note_delays(state, f);
   if (spacings_ == 0) return f;
   const Duration between = from_seconds(spacing_s_ / static_cast<double>(spacings_));
-  if (const auto fit = book.model.fit(between)) {
+  if (const auto fit = state.model.fit(between)) {
     f.mean_good = fit->mean_good;
     f.mean_bad = fit->mean_bad;
   }

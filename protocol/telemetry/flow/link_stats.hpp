@@ -69,7 +69,7 @@ class LinkStats {
     std::uint32_t expected = 0, lost = 0;
     std::uint64_t bytes = 0;
   };
-  struct PathBook {
+  struct PathState {
     std::uint64_t received = 0, lost = 0, duplicates = 0, late = 0;
     std::array<Tenth, kTenths> tenths{};
     std::array<Duration, kDelays> delays{};
@@ -88,8 +88,8 @@ class LinkStats {
   void arrived(Number& number, PathId path, std::size_t bytes, Instant at);
   void take_back(Number& number, PathId path);
   void judge(Number& number);
-  static Tenth& tenth(PathBook& book, Instant at);
-  static void note_delays(const PathBook& book, PathFigures& figures);
+  static Tenth& tenth(PathState& state, Instant at);
+  static void note_delays(const PathState& state, PathFigures& figures);
   double station_at(Instant at) const;
   std::size_t bin_at(Instant at) const;
 
@@ -98,7 +98,7 @@ class LinkStats {
   Instant newest_at_{};
   double spacing_s_ = 0.0;  // sum and number of the times between numbers
   std::uint64_t spacings_ = 0;
-  std::array<PathBook, kPaths> books_{};
+  std::array<PathState, kPaths> path_states_{};
   std::uint64_t sent_on_both_ = 0, lost_on_both_ = 0;
   std::array<Place, kPlaces> places_{};
   std::uint64_t place_count_ = 0;

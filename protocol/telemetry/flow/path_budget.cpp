@@ -32,9 +32,6 @@ double early_share(double packets_per_s) {
   return (std::floor(in_tenth) + 1.0 - in_tenth) / 2.0;
 }
 
-// How long until `tokens` more have come; rounded up, so that they are there then.
-Duration time_for(std::int64_t tokens, std::int64_t rate) { return {(tokens + rate - 1) / rate}; }
-
 }  // namespace
 
 Result<PathBudget, Problem> PathBudget::make(const BudgetParams& params) {
@@ -137,25 +134,6 @@ void PathBudget::scale(double factor, Instant now) {
   at_ = levels(now);
   at_time_ = std::max(at_time_, now);
   scaled_rate_ = std::max(share_rate_, whole(static_cast<double>(whole_rate_) * factor));
-}
-
-Instant PathBudget::due(std::size_t payload, Instant now) const {
-  begin(now);
-  const std::int64_t wanted = (static_cast<std::int64_t>(payload) + kOverhead) * kByte;
-  if (wanted > full_.rest) return Instant::max();
-  const Instant spaced_at = std::max(now, next_packet_ - early_);
-  const Levels l = levels(now);
-  std::int64_t missing = wanted - l.rest;
-  if (missing <= 0) return spaced_at;
-  // First with what the share leaves; from when the share is full, with all of the rate.
-  const Duration until_full = time_for(full_.share - l.share, share_rate_);
-  const std::int64_t slow = scaled_rate_ - share_rate_;
-  if (slow > 0 && time_for(missing, slow) <= until_full) {
-    return std::max(spaced_at, now + time_for(missing, slow));
-  }
-  missing = wanted - levels(now + until_full).rest;
-  const Duration after = missing > 0 ? time_for(missing, scaled_rate_) : Duration{};
-  return std::max(spaced_at, now + until_full + after);
 }
 
 }  // namespace pitwall::telemetry

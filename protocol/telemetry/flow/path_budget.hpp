@@ -64,9 +64,6 @@ class PathBudget {
   void scale(double factor, Instant now);
   // Bytes per second at present: the scaled value of the rate minus a largest packet.
   double present_rate() const { return static_cast<double>(scaled_rate_); }
-  // The earliest time at which a packet of this payload may be sent without safety content;
-  // Instant::max() if it is too large.
-  Instant due(std::size_t payload, Instant now) const;
 
   std::size_t largest_payload() const { return static_cast<std::size_t>(largest_payload_); }
   const BudgetParams& params() const { return params_; }

@@ -114,15 +114,9 @@ void RateControl::delivered(Instant sent, Instant received_by_peer, std::size_t 
   }
 }
 
-double RateControl::factor(Instant) { return factor_; }
-
 Duration RateControl::queue_delay() const {
   if (count_ == 0) return {};
   return from_seconds(std::max(0.0, smoothed_s_ - std::min(least_s_[0], least_s_[1])));
-}
-
-bool RateControl::congested() const {
-  return factor_ < 1.0 && queue_delay().seconds() >= kStandingQueue_s;
 }
 
 }  // namespace pitwall::telemetry

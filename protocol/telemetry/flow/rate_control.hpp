@@ -31,9 +31,8 @@ class RateControl {
   RateControl(double budget_bytes_per_s, double floor_bytes_per_s);
 
   void delivered(Instant sent, Instant received_by_peer, std::size_t bytes, Instant now);
-  double factor(Instant now);
+  double factor() const { return factor_; }
   Duration queue_delay() const;  // delay above the minimum of the last 5 to 10 s
-  bool congested() const;        // the rate is reduced and a queue still stands
   std::uint64_t backoffs() const { return backoffs_; }
 
  private:

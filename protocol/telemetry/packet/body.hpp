@@ -50,9 +50,8 @@ enum class RecordType : std::uint8_t {
   kEventAck,
   kBulk,
   kBulkAck,
-  kSchema,       // hashes of the sender's groups
-  kSchemaGroup,  // one group's definition as text
-  kPathProbe,
+  kSchema,          // hashes of the sender's groups
+  kPathProbe = 10,  // 9 is not used
   kPathProof,
   kPathReceipt  // newest packet received on one path
 };

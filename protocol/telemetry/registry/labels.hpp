@@ -1,5 +1,6 @@
 // Labels of the values of enumerated fields, in the order of the enumerations of vehicle/world and
-// vehicle/safety, which this folder must not include; vehicle/pipeline/telemetry_tap compares them.
+// vehicle/safety, which this folder must not include; vehicle/pipeline/telemetry_mapper compares
+// them.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

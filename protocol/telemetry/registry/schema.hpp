@@ -63,37 +63,37 @@ class SchemaHash {
 // command NAME UNIT MIN MAX RESOLUTION TIME_TO_LIVE_MS yes|no[ LABELS]; a space in the name is "_";
 // yes: only the holder of the authority may send it.
 template <class Sink>
-constexpr void say_command(const CommandRow& row, Sink&& say) {
-  say("command ");
+constexpr void write_command(const CommandRow& row, Sink&& write) {
+  write("command ");
   for (std::size_t i = 0; i < row.name.size(); ++i)
-    say(row.name[i] == ' ' ? std::string_view{"_"} : row.name.substr(i, 1));
-  say(" ");
-  say(row.unit.empty() ? std::string_view{"-"} : row.unit), say(" ");
-  say_range(row.min, row.max, row.resolution, say);
-  say(" "), say(Decimal{static_cast<double>(row.time_to_live.ns) / 1e6}.text());
-  say(row.needs_authority ? " yes" : " no");
-  if (!row.labels.empty()) say(" "), say(row.labels);
-  say("\n");
+    write(row.name[i] == ' ' ? std::string_view{"_"} : row.name.substr(i, 1));
+  write(" ");
+  write(row.unit.empty() ? std::string_view{"-"} : row.unit), write(" ");
+  write_range(row.min, row.max, row.resolution, write);
+  write(" "), write(Decimal{static_cast<double>(row.time_to_live.ns) / 1e6}.text());
+  write(row.needs_authority ? " yes" : " no");
+  if (!row.labels.empty()) write(" "), write(row.labels);
+  write("\n");
 }
 
 // Text that must agree before the car may be armed.
 template <class Sink>
-constexpr void say_safety(Sink&& say) {
+constexpr void write_safety(Sink&& write) {
   for (const GroupRow& row : kGroupTable)
-    if (row.priority == Class::kSafety) say_group(row.group, say);
-  for (const CommandRow& row : kCommandTable) say_command(row, say);
+    if (row.priority == Class::kSafety) write_group(row.group, write);
+  for (const CommandRow& row : kCommandTable) write_command(row, write);
 }
 template <class Sink>
-constexpr void say_all(Sink&& say) {
-  for (const GroupRow& row : kGroupTable) say_group(row.group, say);
-  for (const CommandRow& row : kCommandTable) say_command(row, say);
+constexpr void write_schema(Sink&& write) {
+  for (const GroupRow& row : kGroupTable) write_group(row.group, write);
+  for (const CommandRow& row : kCommandTable) write_command(row, write);
 }
 
 inline constexpr auto kGroupHashes = [] {
   std::array<std::uint64_t, kGroups> hashes{};
   for (const GroupRow& row : kGroupTable) {
     SchemaHash hash;
-    say_group(row.group, hash);
+    write_group(row.group, hash);
     hashes[index_of(row.group)] = hash.value();
   }
   return hashes;
@@ -102,12 +102,12 @@ constexpr std::uint64_t group_hash(Group group) { return kGroupHashes[index_of(g
 
 inline constexpr std::uint64_t kSafetyHash = [] {
   SchemaHash hash;
-  say_safety(hash);
+  write_safety(hash);
   return hash.value();
 }();
 inline constexpr std::uint64_t kSchemaHash = [] {
   SchemaHash hash;
-  say_all(hash);
+  write_schema(hash);
   return hash.value();
 }();
 

@@ -59,10 +59,10 @@ bool read_line(std::string_view line, Listing& listing) {
   return !groups.empty() && read_field(line, false, groups.back().fields);
 }
 
-template <class Say>
-std::string text_by(Say&& say) {
+template <class Write>
+std::string text_by(Write&& write) {
   std::string text;
-  say([&](std::string_view part) { text += part; });
+  write([&](std::string_view part) { text += part; });
   return text;
 }
 
@@ -79,13 +79,13 @@ Listing read_listing(std::string_view text) {
 }
 
 std::string group_text(Group group) {
-  return text_by([&](auto&& sink) { say_group(group, sink); });
+  return text_by([&](auto&& sink) { write_group(group, sink); });
 }
 std::string safety_text() {
-  return text_by([](auto&& sink) { say_safety(sink); });
+  return text_by([](auto&& sink) { write_safety(sink); });
 }
 std::string schema_text() {
-  return text_by([](auto&& sink) { say_all(sink); });
+  return text_by([](auto&& sink) { write_schema(sink); });
 }
 
 }  // namespace pitwall::telemetry

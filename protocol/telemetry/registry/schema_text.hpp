@@ -70,29 +70,29 @@ constexpr std::string_view text_of(Class priority) {
 }
 
 template <class Sink>
-constexpr void say_range(double min, double max, double resolution, Sink&& say) {
-  say(Decimal{min}.text()), say(" ");
-  say(Decimal{max}.text()), say(" ");
-  say(Decimal{resolution}.text());
+constexpr void write_range(double min, double max, double resolution, Sink&& write) {
+  write(Decimal{min}.text()), write(" ");
+  write(Decimal{max}.text()), write(" ");
+  write(Decimal{resolution}.text());
 }
 
 template <class Sink>
-constexpr void say_field(const FieldRow& row, Sink&& say) {
-  say(row.name), say(" ");
-  say(row.unit.empty() ? std::string_view{"-"} : row.unit), say(" ");
-  say_range(row.min, row.max, row.resolution, say);
-  if (!row.labels.empty()) say(" "), say(row.labels);
-  say("\n");
+constexpr void write_field(const FieldRow& row, Sink&& write) {
+  write(row.name), write(" ");
+  write(row.unit.empty() ? std::string_view{"-"} : row.unit), write(" ");
+  write_range(row.min, row.max, row.resolution, write);
+  if (!row.labels.empty()) write(" "), write(row.labels);
+  write("\n");
 }
 
 template <class Sink>
-constexpr void say_group(Group group, Sink&& say) {
+constexpr void write_group(Group group, Sink&& write) {
   const GroupRow& row = row_of(group);
-  say("group "), say(row.name), say(" ");
-  say(text_of(row.direction)), say(" ");
-  say(text_of(row.priority)), say("\n");
+  write("group "), write(row.name), write(" ");
+  write(text_of(row.direction)), write(" ");
+  write(text_of(row.priority)), write("\n");
   const auto [first, count] = fields_of(group);
-  for (FieldIndex i = first; i < first + count; ++i) say_field(kFields[i], say);
+  for (FieldIndex i = first; i < first + count; ++i) write_field(kFields[i], write);
 }
 
 }  // namespace pitwall::telemetry

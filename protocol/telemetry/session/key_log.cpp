@@ -11,7 +11,7 @@ namespace pitwall::telemetry {
 std::string key_log_lines(std::uint16_t receiver, const Key& first) {
   std::string text;
   Key key = first;
-  for (int phase = 0; phase <= kMaxPhasesUnheard; ++phase) {
+  for (int phase = 0; phase <= kMaxSilentPhases; ++phase) {
     std::array<char, 40> head{};
     std::snprintf(head.data(), head.size(), "CHACHA20_POLY1305 %04x %d ", unsigned{receiver},
                   phase);

@@ -1,5 +1,5 @@
 // Key log of a session as lines of text, with which Wireshark decrypts recordings of a bench: one
-// line CHACHA20_POLY1305 RECEIVER PHASE KEY for each phase that kMaxPhasesUnheard allows. Receiver
+// line CHACHA20_POLY1305 RECEIVER PHASE KEY for each phase that kMaxSilentPhases allows. Receiver
 // (as in the header) and key are hexadecimal, the phase is decimal.
 //   invariants
 //          only keys of bench runs are logged (KeyFile::bench); they decrypt nothing else

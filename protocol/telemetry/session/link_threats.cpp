@@ -65,7 +65,7 @@ ThreatMonitor::Sample ThreatMonitor::sample_of(const AssociationCounters& counte
   put(Threat::kReplayedOpenings, refused(Refusal::kOldStamp));
   put(Threat::kRelay, counters.relayed);
   sample.stray = refused(Refusal::kNoSession) + refused(Refusal::kOldExchange) +
-                 refused(Refusal::kTooManyKnocks) + refused(Refusal::kForeignBoot);
+                 refused(Refusal::kForeignBoot);
   sample.copies = counters.duplicates;
   sample.opened = counters.opened;
   return sample;

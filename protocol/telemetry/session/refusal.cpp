@@ -14,7 +14,6 @@ const char* text_of(Refusal refusal) {
       "key exchange with another key",
       "answers no key exchange under way",
       "key exchange with an old stamp",
-      "more key exchanges than are answered",
       "sealed where signed was agreed, or the other way",
       "about a session that is not in use"};
   return kTexts[static_cast<std::size_t>(refusal)];

@@ -25,7 +25,7 @@ std::optional<Refusal> Responder::take(Bytes opening, PathId path, Address from,
   } else if (stamp < newest_ || newest_sources_.empty() || newest_sources_.full() ||
              newest_sources_[0] == from) {
     const bool far = newest_ - stamp > static_cast<Stamp>(kReordered.ns);
-    if (far && stale_.is_new(stamp)) tell_newer_stamp(opening, path, from, now);
+    if (far && stale_.is_new(stamp)) send_newer_stamp(opening, path, from, now);
     return Refusal::kOldStamp;
   }
   CHECK(newest_sources_.push(from));
@@ -35,7 +35,7 @@ std::optional<Refusal> Responder::take(Bytes opening, PathId path, Address from,
   return std::nullopt;
 }
 
-void Responder::tell_newer_stamp(Bytes opening, PathId path, Address from, Instant now) {
+void Responder::send_newer_stamp(Bytes opening, PathId path, Address from, Instant now) {
   if (!stamp_limit_.take(from, now)) return;
   Reply reply{.to = from};
   reply.size = standing_->write_newer_stamp(newest_, ephemeral_part(opening), reply.bytes);

@@ -96,7 +96,7 @@ class Responder {
   };
   static constexpr std::size_t kPendings = 4, kSourcesPerStamp = 2;
 
-  void tell_newer_stamp(Bytes opening, PathId path, Address from, Instant now);
+  void send_newer_stamp(Bytes opening, PathId path, Address from, Instant now);
   void send_answer(Pending& pending, const Waiting& to, Instant now);
   Worked agree(const Waiting& opening, std::uint16_t number, const Session* in_use, Instant now);
   std::optional<Pending>& room();

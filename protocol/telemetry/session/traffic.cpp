@@ -98,7 +98,7 @@ bool Opener::opens(const Header& header, Bytes datagram, std::uint64_t number, I
 bool Opener::opens_in_later_phase(const Header& header, Bytes datagram, std::uint64_t number,
                                   Instant now, std::span<std::uint8_t> plain) {
   const std::int64_t allowed =
-      std::clamp<std::int64_t>((now - received_) / kPhaseTime + 1, 1, kMaxPhasesUnheard);
+      std::clamp<std::int64_t>((now - received_) / kPhaseTime + 1, 1, kMaxSilentPhases);
   if (allowed == 1 && header.key_phase == bit_of(phase_)) return false;
   Key before = key_;
   for (std::int64_t ahead = 1; ahead <= allowed; ++ahead) {

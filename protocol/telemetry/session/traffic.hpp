@@ -29,7 +29,7 @@ namespace pitwall::telemetry {
 
 inline constexpr Duration kOldPhaseKept = seconds(2), kPhaseTime = seconds(900);
 inline constexpr std::uint64_t kPhasePackets = std::uint64_t{1} << 28;
-inline constexpr int kMaxPhasesUnheard = 16;  // 4 hours of silence
+inline constexpr int kMaxSilentPhases = 16;  // 4 hours of silence
 
 Key next_phase(const Key& key);
 

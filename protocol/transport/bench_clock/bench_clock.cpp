@@ -82,9 +82,9 @@ BenchClock::Wait::~Wait() {
   own.slot->turns.fetch_add(1, std::memory_order_release);
 }
 
-void BenchClock::look_after_bench() {
+void BenchClock::check_bench() {
   if (memory_.page().horizon_ns.load() == INT64_MAX || memory_.is_locked()) return;
-  memory_.let_go_on(wall_now());
+  memory_.resume(wall_now());
 }
 
 }  // namespace pitwall::transport

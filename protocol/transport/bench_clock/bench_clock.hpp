@@ -36,7 +36,8 @@ class BenchClock {
 
  private:
   static constexpr Duration kNap = microseconds(100), kLongestNap = milliseconds(2);
-  static constexpr Duration kLook = milliseconds(100);  // period of the check for a dead bench
+  static constexpr Duration kCheckPeriod =
+      milliseconds(100);  // period of the check for a dead bench
 
   // Scope in which the calling thread waits for its turn.
   class Wait {
@@ -48,7 +49,7 @@ class BenchClock {
   };
 
   Duration stands() const;
-  void look_after_bench();
+  void check_bench();
 
   ClockMemory memory_;
   std::int64_t behind_at_start_ns_ = 0;
@@ -59,7 +60,7 @@ template <class Nap>
 void BenchClock::wait_until(Instant deadline, Nap&& nap) {
   Instant at = now();
   const Wait wait{std::max(deadline, at)};
-  Duration next_nap = kNap, next_look = kLook;
+  Duration next_nap = kNap, next_check = kCheckPeriod;
   while (true) {
     const Duration left = deadline - at;
     const Duration span = left.ns <= 0 ? Duration{} : std::max(left, next_nap);
@@ -68,9 +69,9 @@ void BenchClock::wait_until(Instant deadline, Nap&& nap) {
     if (at >= deadline) return;
     next_nap = std::min(next_nap + next_nap, kLongestNap);
     const Duration stood = stands();
-    if (stood < next_look) continue;
-    look_after_bench();
-    next_look = stood + kLook;
+    if (stood < next_check) continue;
+    check_bench();
+    next_check = stood + kCheckPeriod;
   }
 }
 

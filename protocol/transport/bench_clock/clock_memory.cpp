@@ -69,7 +69,7 @@ void ClockMemory::unlock() {
   CHECK(posix_call([&] { return ::fcntl(file_.get(), F_OFD_SETLK, &wanted); }).ok());
 }
 
-void ClockMemory::let_go_on(Instant wall) {
+void ClockMemory::resume(Instant wall) {
   if (!lock()) return;  // another reader does it, or a new bench has come
   const std::int64_t horizon_ns = page_->horizon_ns.load();
   if (wall.ns - page_->lost_ns.load() > horizon_ns) page_->lost_ns.store(wall.ns - horizon_ns);

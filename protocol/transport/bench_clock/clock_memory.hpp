@@ -31,7 +31,7 @@ class ClockMemory {
   void unlock();
   bool is_locked() const;  // by another process
   // Lets time run on from its present value after a bench was killed.
-  void let_go_on(Instant wall);
+  void resume(Instant wall);
 
  private:
   ClockMemory(FileDescriptor file, ClockPage* page) : file_(std::move(file)), page_(page) {}

@@ -10,7 +10,7 @@
 namespace pitwall::transport {
 namespace {
 
-constexpr timespec kLook{.tv_sec = 0, .tv_nsec = 1'000'000};  // half a lead
+constexpr timespec kCheckPeriod{.tv_sec = 0, .tv_nsec = 1'000'000};  // half a lead
 
 // Before those whose turns it gives; where that is not allowed they wait for it a little longer.
 void be_urgent() {
@@ -35,7 +35,7 @@ KeptClock::KeptClock(std::unique_ptr<ClockKeeper> keeper) : keeper_(std::move(ke
     be_urgent();
     while (!stop.stop_requested()) {
       own->advance();
-      ::nanosleep(&kLook, nullptr);
+      ::nanosleep(&kCheckPeriod, nullptr);
     }
   }};
 }

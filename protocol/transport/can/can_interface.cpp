@@ -161,7 +161,7 @@ Result<CanInterface, Problem> CanInterface::open_unix(std::string_view interface
   if (!address) return Unexpected{address.error()};
   CanInterface out{std::string(interface), FileDescriptor{}};
   out.hub_ = *address;
-  const auto connected = connect_to_hub(*address, Hearing::kNothing, out.socket_);
+  const auto connected = connect_to_hub(*address, ReceiveMode::kNothing, out.socket_);
   if (!connected.ok()) return Unexpected{hub_problem(interface, connected)};
   out.refresh();
   return out;
@@ -170,7 +170,7 @@ Result<CanInterface, Problem> CanInterface::open_unix(std::string_view interface
 void CanInterface::look_at_hub() {
   if (!hub_is_there(socket_.get())) {
     socket_.reset();
-    static_cast<void>(connect_to_hub(*hub_, Hearing::kNothing, socket_));
+    static_cast<void>(connect_to_hub(*hub_, ReceiveMode::kNothing, socket_));
   }
   status_ = {.exists = true, .up = socket_.valid(), .running = socket_.valid()};
 }

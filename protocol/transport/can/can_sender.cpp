@@ -55,7 +55,7 @@ Result<CanSender, Problem> CanSender::open_unix(const std::string& interface) {
   const auto address = unix_bus_address(interface);
   if (!address) return Unexpected{address.error()};
   CanSender out{FileDescriptor()};
-  const auto connected = connect_to_hub(*address, Hearing::kNothing, out.fd_);
+  const auto connected = connect_to_hub(*address, ReceiveMode::kNothing, out.fd_);
   if (!connected.ok()) return Unexpected{hub_problem(interface, connected)};
   return out;
 }
@@ -71,11 +71,11 @@ Result<CanSender, Problem> CanSender::open(const std::string& interface) {
   const unsigned index = if_nametoindex(interface.c_str());
   if (index == 0) return refuse("no such interface");
   const int fd = out.fd_.get(), on = 1;
-  const auto deaf =
+  const auto no_reception =
       posix_call([&] { return setsockopt(fd, SOL_CAN_RAW, CAN_RAW_FILTER, nullptr, 0); });
   const auto long_frames =
       posix_call([&] { return setsockopt(fd, SOL_CAN_RAW, CAN_RAW_FD_FRAMES, &on, sizeof on); });
-  for (const PosixOutcome& outcome : {deaf, long_frames})
+  for (const PosixOutcome& outcome : {no_reception, long_frames})
     if (!outcome.ok()) return refuse("option refused: " + outcome.reason());
   sockaddr_can address{};
   address.can_family = AF_CAN;

@@ -40,20 +40,20 @@ Result<sockaddr_un, Problem> unix_bus_address(std::string_view interface) {
   return out;
 }
 
-PosixOutcome connect_to_hub(const sockaddr_un& address, Hearing hearing, FileDescriptor& out) {
+PosixOutcome connect_to_hub(const sockaddr_un& address, ReceiveMode mode, FileDescriptor& out) {
   const auto made =
       posix_call([] { return socket(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC | SOCK_NONBLOCK, 0); });
   if (!made.ok()) return made;
   FileDescriptor fd(made);
-  // Before connecting: no frame may arrive without a stamp, nor in an end that hears nothing.
+  // Before connecting: no frame may arrive without a stamp, nor at an end that receives nothing.
   if (const auto stamps = set_flag(fd.get(), SO_TIMESTAMPNS); !stamps.ok()) return stamps;
   const auto connected = posix_call([&] {
     return ::connect(fd.get(), reinterpret_cast<const sockaddr*>(&address), sizeof address);
   });
   if (!connected.ok()) return connected;
-  if (hearing == Hearing::kNothing) {
-    const auto deaf = posix_call([&] { return shutdown(fd.get(), SHUT_RD); });
-    if (!deaf.ok()) return deaf;
+  if (mode == ReceiveMode::kNothing) {
+    const auto closed = posix_call([&] { return shutdown(fd.get(), SHUT_RD); });
+    if (!closed.ok()) return closed;
   }
   out = std::move(fd);
   return {.value = 0, .error = 0};
@@ -75,7 +75,7 @@ bool hub_is_there(int connection) {
 
 bool hub_serves(const sockaddr_un& address) {
   FileDescriptor probe;
-  return connect_to_hub(address, Hearing::kNothing, probe).ok();
+  return connect_to_hub(address, ReceiveMode::kNothing, probe).ok();
 }
 
 can_frame loss_notice(std::uint32_t lost_so_far) {
@@ -112,11 +112,11 @@ Result<UnixBusEnd, Problem> UnixBusEnd::open(std::string_view interface, UnixBus
 
 PosixOutcome UnixBusEnd::connect() {
   FileDescriptor receiver, sender;
-  if (const auto received = connect_to_hub(address_, Hearing::kEverything, receiver);
+  if (const auto received = connect_to_hub(address_, ReceiveMode::kEverything, receiver);
       !received.ok())
     return received;
   if (options_.own)
-    if (const auto greeted = connect_to_hub(address_, Hearing::kNothing, sender); !greeted.ok())
+    if (const auto greeted = connect_to_hub(address_, ReceiveMode::kNothing, sender); !greeted.ok())
       return greeted;
   sender_ = std::move(sender);
   connected_ = true;

@@ -40,10 +40,10 @@ constexpr bool is_unix_bus(std::string_view interface) {
 
 Result<sockaddr_un, Problem> unix_bus_address(std::string_view interface);
 
-enum class Hearing : std::uint8_t { kEverything, kNothing };
+enum class ReceiveMode : std::uint8_t { kEverything, kNothing };
 
 // The outcome has the error number; ENOENT and ECONNREFUSED mean that there is no hub.
-PosixOutcome connect_to_hub(const sockaddr_un& address, Hearing hearing, FileDescriptor& out);
+PosixOutcome connect_to_hub(const sockaddr_un& address, ReceiveMode mode, FileDescriptor& out);
 Problem hub_problem(std::string_view interface, const PosixOutcome& refused);
 // True until the connection is hung up; nothing is read from it.
 bool hub_is_there(int connection);

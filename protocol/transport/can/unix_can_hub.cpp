@@ -137,7 +137,7 @@ std::string UnixCanHub::make_room() const {
   if (!looked.ok()) return looked.reason();
   if (!S_ISSOCK(there.st_mode)) return "exists and is no socket: left alone";
   FileDescriptor probe;
-  const auto answered = connect_to_hub(address_, Hearing::kNothing, probe);
+  const auto answered = connect_to_hub(address_, ReceiveMode::kNothing, probe);
   if (answered.error != ECONNREFUSED)
     return "in use" + (answered.ok() ? "" : ": " + answered.reason());
   const auto removed = posix_call([&] { return ::unlink(address_.sun_path); });
@@ -177,7 +177,7 @@ void UnixCanHub::serve(Instant deadline, int stop) {
   if (!accepting) deadline = std::min(deadline, accept_from_);
   watched.push_back({.fd = accepting ? listener_.get() : -1, .events = POLLIN, .revents = 0});
   for (const Client& client : clients_) {
-    const bool waiting = client.unreported && !client.deaf;
+    const bool waiting = client.unreported && !client.rx_closed;
     watched.push_back({.fd = client.fd.get(),
                        .events = static_cast<short>(waiting ? POLLIN | POLLOUT : POLLIN),
                        .revents = 0});
@@ -269,7 +269,7 @@ void UnixCanHub::relay(std::size_t sender, std::size_t frames) {
 
 void UnixCanHub::give(Client& client, std::size_t frames) {
   std::size_t given = 0;
-  while (given < frames && !client.deaf) {
+  while (given < frames && !client.rx_closed) {
     if (client.unreported) publish(client);
     if (client.unreported) break;
     const auto sent = posix_call([&] {
@@ -280,11 +280,11 @@ void UnixCanHub::give(Client& client, std::size_t frames) {
       given += static_cast<std::size_t>(sent.value);
       continue;
     }
-    client.deaf = !is_full(sent);
-    if (!client.deaf) break;
+    client.rx_closed = !is_full(sent);
+    if (!client.rx_closed) break;
   }
   counters_.delivered += given;
-  if (!client.deaf) lose(client, frames - given);
+  if (!client.rx_closed) lose(client, frames - given);
 }
 
 void UnixCanHub::lose(Client& client, std::size_t frames) {
@@ -302,7 +302,7 @@ void UnixCanHub::publish(Client& client) {
   const auto sent = posix_call(
       [&] { return ::send(client.fd.get(), &notice, sizeof notice, MSG_DONTWAIT | MSG_NOSIGNAL); });
   client.unreported = !sent.ok();
-  if (!sent.ok()) client.deaf = !is_full(sent);
+  if (!sent.ok()) client.rx_closed = !is_full(sent);
 }
 
 void UnixCanHub::sweep() {

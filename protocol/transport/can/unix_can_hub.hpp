@@ -72,7 +72,7 @@ class UnixCanHub {
     FileDescriptor fd;
     std::uint64_t lost = 0;
     bool unreported = false;  // some losses are not yet reported
-    bool deaf = false;        // gets no frames, by its own shutdown or because it is leaving
+    bool rx_closed = false;   // gets no frames, by its own shutdown or because it is leaving
     bool gone = false;
     int process = 0;
   };

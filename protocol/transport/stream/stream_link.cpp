@@ -19,7 +19,7 @@ std::span<const std::uint8_t> StreamLink::read(std::span<std::uint8_t> into, Ins
   if (got.bytes > 0) since_ = now;
   counters_.bytes += got.bytes;
   const bool may_hang = std::holds_alternative<TcpAddress>(target_);
-  if (may_hang && now - since_ > kPatience) close(now, counters_.silent);
+  if (may_hang && now - since_ > kTimeout) close(now, counters_.silent);
   return into.first(got.bytes);
 }
 
@@ -33,7 +33,7 @@ void StreamLink::advance(Instant now) {
     ++counters_.opened;
     return;
   }
-  if (outcome || now - since_ > kPatience) close(now, counters_.refused);
+  if (outcome || now - since_ > kTimeout) close(now, counters_.refused);
 }
 
 // A serial device is open at once.

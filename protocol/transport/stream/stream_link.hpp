@@ -2,8 +2,8 @@
 //   in     the target; the time at every call
 //   out    the available bytes; counters
 //   invariants
-//          a stream that ends, is refused, or does not open within kPatience is tried again after
-//          kPause. A TCP connection without bytes for kPatience is closed too, because a pulled
+//          a stream that ends, is refused, or does not open within kTimeout is tried again after
+//          kPause. A TCP connection without bytes for kTimeout is closed too, because a pulled
 //          cable does not end a connection
 //   errors counters only
 //   cost   never waits, and never allocates on the heap while the stream is open; opening a serial
@@ -41,7 +41,7 @@ struct StreamCounters {
 
 class StreamLink {
  public:
-  static constexpr Duration kPatience = seconds(2);
+  static constexpr Duration kTimeout = seconds(2);
   static constexpr Duration kPause = milliseconds(500);
 
   using Target = std::variant<TcpAddress, SerialDevice>;

@@ -63,7 +63,7 @@ Result<StreamSender, Problem> StreamSender::open(const SerialDevice& device) {
 }
 
 bool StreamSender::send(std::span<const std::uint8_t> record) {
-  if (!peer_.valid()) take_caller();
+  if (!peer_.valid()) accept_client();
   flush();
   if (!peer_.valid()) {
     ++counters_.dropped_absent;
@@ -84,11 +84,11 @@ bool StreamSender::send(std::span<const std::uint8_t> record) {
 
 void StreamSender::service() {
   if (peer_.valid()) read_input();
-  if (!peer_.valid()) take_caller();
+  if (!peer_.valid()) accept_client();
   flush();
 }
 
-void StreamSender::take_caller() {
+void StreamSender::accept_client() {
   if (!listener_.valid()) return;
   const auto taken = posix_call(
       [&] { return ::accept4(listener_.get(), nullptr, nullptr, SOCK_CLOEXEC | SOCK_NONBLOCK); });

@@ -59,7 +59,7 @@ class StreamSender {
 
  private:
   StreamSender() = default;
-  void take_caller();
+  void accept_client();
   void read_input();
   void flush();
   std::size_t write_some(std::span<const std::uint8_t> bytes);

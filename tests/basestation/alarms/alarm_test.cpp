@@ -332,7 +332,7 @@ TEST(Alarm, NoPathLosesWhatNobodyHasSeen) {
       bench.run(milliseconds(10 * (1 + draw(60))));
       outstanding = outstanding || bench.announced > announced_before;
       const State after = bench.alarm.state();
-      ASSERT_TRUE(!outstanding || bench.alarm.unseen()) << "seed " << seed << " act " << i;
+      ASSERT_TRUE(!outstanding || bench.alarm.unacknowledged()) << "seed " << seed << " act " << i;
       if (outstanding) {
         ASSERT_TRUE(after == kUnack || after == kReturnedUnack || after == kShelved ||
                     after == kSuppressed)

@@ -12,13 +12,13 @@ namespace pitwall::alarms {
 namespace {
 
 // The whole table over readings that a test sets; healthy ones at first.
-struct ConsoleService {
+struct AlarmRig {
   Engine engine;
   std::vector<Reading> readings = std::vector<Reading>(alarm_count());
   Situations situations;
   Instant now{seconds(100).ns};
 
-  ConsoleService() {
+  AlarmRig() {
     for (AlarmIndex i = 0; i < alarm_count(); ++i) set(i, false);
   }
   void set(AlarmIndex index, bool broken) {
@@ -44,74 +44,74 @@ struct ConsoleService {
 };
 
 TEST(Engine, AHealthyCarIsSilent) {
-  ConsoleService wall;
-  wall.run(seconds(60));
-  EXPECT_TRUE(wall.engine.active().empty());
-  EXPECT_EQ(wall.engine.events(), 0U);
-  EXPECT_EQ(wall.engine.revision(), 0U);
+  AlarmRig rig;
+  rig.run(seconds(60));
+  EXPECT_TRUE(rig.engine.active().empty());
+  EXPECT_EQ(rig.engine.events(), 0U);
+  EXPECT_EQ(rig.engine.revision(), 0U);
 }
 
 TEST(Engine, EveryAlarmComesOnItsOwn) {
   for (AlarmIndex i = 0; i < alarm_count(); ++i) {
-    ConsoleService wall;
-    wall.set(i, true);
-    wall.run(seconds(10));
-    const auto active = wall.engine.active();
+    AlarmRig rig;
+    rig.set(i, true);
+    rig.run(seconds(10));
+    const auto active = rig.engine.active();
     ASSERT_EQ(active.size(), 1U) << alarm_row(i).key;
     EXPECT_EQ(active.front().key, alarm_row(i).key);
     EXPECT_EQ(active.front().state, State::kUnack);
     EXPECT_TRUE(active.front().first_up);
-    wall.set(i, false);
-    wall.run(seconds(10));
-    EXPECT_EQ(wall.engine.active().front().state, State::kReturnedUnack);
-    EXPECT_TRUE(wall.engine.acknowledge(wall.engine.active().front().id, "Ada", wall.now).value());
-    EXPECT_NE(wall.engine.state(i), State::kReturnedUnack);
+    rig.set(i, false);
+    rig.run(seconds(10));
+    EXPECT_EQ(rig.engine.active().front().state, State::kReturnedUnack);
+    EXPECT_TRUE(rig.engine.acknowledge(rig.engine.active().front().id, "Ada", rig.now).value());
+    EXPECT_NE(rig.engine.state(i), State::kReturnedUnack);
   }
 }
 
 TEST(Engine, AReadingOfEachRowIsWantedElseItIsOurOwnMistake) {
-  ConsoleService wall;
-  wall.readings.pop_back();
-  EXPECT_DEATH(wall.run(milliseconds(10)), "CHECK");
+  AlarmRig rig;
+  rig.readings.pop_back();
+  EXPECT_DEATH(rig.run(milliseconds(10)), "CHECK");
 }
 
 TEST(Engine, ALostLinkIsExactlyOneAlarm) {
-  ConsoleService wall;
-  wall.set("wheel_slip", true);
-  wall.set("gnss_one_bad", true);
-  wall.run(seconds(5));
-  ASSERT_EQ(wall.engine.active().size(), 2U);
-  wall.situations.set(Situation::kLinkLost, true);
-  wall.set("link_lost", true);
-  wall.set("link_degraded", true);
+  AlarmRig rig;
+  rig.set("wheel_slip", true);
+  rig.set("gnss_one_bad", true);
+  rig.run(seconds(5));
+  ASSERT_EQ(rig.engine.active().size(), 2U);
+  rig.situations.set(Situation::kLinkLost, true);
+  rig.set("link_lost", true);
+  rig.set("link_degraded", true);
   for (AlarmIndex i = 0; i < alarm_count(); ++i) {
-    if (alarm_row(i).silent_in.has(Situation::kLinkLost)) wall.set(i, true);
+    if (alarm_row(i).silent_in.has(Situation::kLinkLost)) rig.set(i, true);
   }
-  wall.run(seconds(30));
-  ASSERT_EQ(wall.engine.active().size(), 1U);
-  EXPECT_EQ(wall.engine.active().front().key, "link_lost");
-  EXPECT_EQ(wall.engine.suppressed().size(), 2U);
+  rig.run(seconds(30));
+  ASSERT_EQ(rig.engine.active().size(), 1U);
+  EXPECT_EQ(rig.engine.active().front().key, "link_lost");
+  EXPECT_EQ(rig.engine.suppressed().size(), 2U);
   // Acknowledging the link acknowledges nothing that hides behind it.
-  EXPECT_TRUE(wall.engine.acknowledge(wall.engine.active().front().id, "Ada", wall.now));
-  EXPECT_FALSE(wall.engine.acknowledge(wall.find("wheel_slip")->id, "Ada", wall.now));
-  wall.situations.set(Situation::kLinkLost, false);
-  for (AlarmIndex i = 0; i < alarm_count(); ++i) wall.set(i, false);
-  wall.run(seconds(10));
-  EXPECT_EQ(wall.find("wheel_slip")->state, State::kReturnedUnack);
-  EXPECT_FALSE(wall.find("link_lost"));
+  EXPECT_TRUE(rig.engine.acknowledge(rig.engine.active().front().id, "Ada", rig.now));
+  EXPECT_FALSE(rig.engine.acknowledge(rig.find("wheel_slip")->id, "Ada", rig.now));
+  rig.situations.set(Situation::kLinkLost, false);
+  for (AlarmIndex i = 0; i < alarm_count(); ++i) rig.set(i, false);
+  rig.run(seconds(10));
+  EXPECT_EQ(rig.find("wheel_slip")->state, State::kReturnedUnack);
+  EXPECT_FALSE(rig.find("link_lost"));
 }
 
 TEST(Engine, TheWorseOverrulesTheLesser) {
-  ConsoleService wall;
-  wall.set("off_line", true);
-  wall.run(seconds(1));
-  wall.set("off_line_far", true);
-  wall.run(seconds(1));
-  ASSERT_EQ(wall.engine.active().size(), 1U);
-  EXPECT_EQ(wall.engine.active().front().key, "off_line_far");
-  wall.set("off_line_far", false);
-  wall.run(seconds(3));
-  EXPECT_EQ(wall.find("off_line")->state, State::kUnack);  // still there, still unseen
+  AlarmRig rig;
+  rig.set("off_line", true);
+  rig.run(seconds(1));
+  rig.set("off_line_far", true);
+  rig.run(seconds(1));
+  ASSERT_EQ(rig.engine.active().size(), 1U);
+  EXPECT_EQ(rig.engine.active().front().key, "off_line_far");
+  rig.set("off_line_far", false);
+  rig.run(seconds(3));
+  EXPECT_EQ(rig.find("off_line")->state, State::kUnack);  // still there, still unacknowledged
 }
 
 TEST(Engine, EachLesserOneIsOverruledByItsWorse) {
@@ -119,71 +119,71 @@ TEST(Engine, EachLesserOneIsOverruledByItsWorse) {
   for (AlarmIndex i = 0; i < alarm_count(); ++i) {
     const auto worse = find_alarm(alarm_row(i).overruled_by);
     if (!worse) continue;
-    ConsoleService wall;
-    wall.set(*worse, true);
-    wall.run(seconds(10));
-    wall.set(i, true);
-    wall.run(seconds(10));
-    EXPECT_EQ(wall.engine.state(i), State::kNormal) << alarm_row(i).key;
+    AlarmRig rig;
+    rig.set(*worse, true);
+    rig.run(seconds(10));
+    rig.set(i, true);
+    rig.run(seconds(10));
+    EXPECT_EQ(rig.engine.state(i), State::kNormal) << alarm_row(i).key;
     ++pairs;
   }
   EXPECT_GT(pairs, 3);
 }
 
 TEST(Engine, ActsNameTheOccurrenceAndThePerson) {
-  ConsoleService wall;
-  wall.set("tyres_cold", true);
-  wall.run(seconds(5));
-  const AlarmId first = wall.find("tyres_cold")->id;
-  wall.set("tyres_cold", false);
-  wall.run(seconds(5));
-  wall.set("tyres_cold", true);
-  wall.run(seconds(5));
-  const auto late = wall.engine.acknowledge(first, "Ada", wall.now);  // another has come since
+  AlarmRig rig;
+  rig.set("tyres_cold", true);
+  rig.run(seconds(5));
+  const AlarmId first = rig.find("tyres_cold")->id;
+  rig.set("tyres_cold", false);
+  rig.run(seconds(5));
+  rig.set("tyres_cold", true);
+  rig.run(seconds(5));
+  const auto late = rig.engine.acknowledge(first, "Ada", rig.now);  // another has come since
   ASSERT_FALSE(late);
   EXPECT_EQ(to_string(late.error()), "alarm " + std::to_string(first) +
                                          ": error: is not in the list any more, or has come anew");
-  const AlarmId second = wall.find("tyres_cold")->id;
-  EXPECT_FALSE(wall.engine.acknowledge(second, "", wall.now));
-  EXPECT_FALSE(wall.engine.acknowledge(0, "Ada", wall.now));
-  EXPECT_FALSE(wall.engine.reset(second, "Ada", wall.now));
-  EXPECT_TRUE(wall.engine.acknowledge(second, "Ada", wall.now));
-  EXPECT_EQ(wall.engine.history().back().by, "Ada");
-  EXPECT_EQ(wall.find("tyres_cold")->count, 2U);
+  const AlarmId second = rig.find("tyres_cold")->id;
+  EXPECT_FALSE(rig.engine.acknowledge(second, "", rig.now));
+  EXPECT_FALSE(rig.engine.acknowledge(0, "Ada", rig.now));
+  EXPECT_FALSE(rig.engine.reset(second, "Ada", rig.now));
+  EXPECT_TRUE(rig.engine.acknowledge(second, "Ada", rig.now));
+  EXPECT_EQ(rig.engine.history().back().by, "Ada");
+  EXPECT_EQ(rig.find("tyres_cold")->count, 2U);
 }
 
 TEST(Engine, AShelfHasAnEndAndAReason) {
-  ConsoleService wall;
-  wall.set("tyres_cold", true);
-  wall.run(seconds(5));
-  const AlarmId id = wall.find("tyres_cold")->id;
-  EXPECT_FALSE(wall.engine.shelve(id, seconds(601), "Ada", "why", wall.now));
-  EXPECT_FALSE(wall.engine.shelve(id, Duration{}, "Ada", "why", wall.now));
-  EXPECT_FALSE(wall.engine.shelve(id, seconds(60), "Ada", "", wall.now));
-  EXPECT_TRUE(wall.engine.shelve(id, seconds(60), "Ada", "warm-up", wall.now));
-  EXPECT_EQ(wall.find("tyres_cold")->reason, "warm-up");
-  wall.run(seconds(59));
-  EXPECT_TRUE(wall.engine.active().empty());
-  EXPECT_EQ(wall.engine.shelved().size(), 1U);
-  EXPECT_TRUE(wall.engine.suppressed().empty()) << "by a person, not by the situation";
-  wall.run(seconds(2));
-  EXPECT_EQ(wall.find("tyres_cold")->state, State::kUnack);
-  EXPECT_EQ(wall.engine.history().back().from, State::kShelved);
-  EXPECT_TRUE(wall.engine.shelve(id, seconds(60), "Ada", "again", wall.now));
-  EXPECT_TRUE(wall.engine.unshelve(id, "Ada", wall.now));
-  EXPECT_EQ(wall.find("tyres_cold")->state, State::kAcked);
+  AlarmRig rig;
+  rig.set("tyres_cold", true);
+  rig.run(seconds(5));
+  const AlarmId id = rig.find("tyres_cold")->id;
+  EXPECT_FALSE(rig.engine.shelve(id, seconds(601), "Ada", "why", rig.now));
+  EXPECT_FALSE(rig.engine.shelve(id, Duration{}, "Ada", "why", rig.now));
+  EXPECT_FALSE(rig.engine.shelve(id, seconds(60), "Ada", "", rig.now));
+  EXPECT_TRUE(rig.engine.shelve(id, seconds(60), "Ada", "warm-up", rig.now));
+  EXPECT_EQ(rig.find("tyres_cold")->reason, "warm-up");
+  rig.run(seconds(59));
+  EXPECT_TRUE(rig.engine.active().empty());
+  EXPECT_EQ(rig.engine.shelved().size(), 1U);
+  EXPECT_TRUE(rig.engine.suppressed().empty()) << "by a person, not by the situation";
+  rig.run(seconds(2));
+  EXPECT_EQ(rig.find("tyres_cold")->state, State::kUnack);
+  EXPECT_EQ(rig.engine.history().back().from, State::kShelved);
+  EXPECT_TRUE(rig.engine.shelve(id, seconds(60), "Ada", "again", rig.now));
+  EXPECT_TRUE(rig.engine.unshelve(id, "Ada", rig.now));
+  EXPECT_EQ(rig.find("tyres_cold")->state, State::kAcked);
 }
 
 TEST(Engine, TheFirstOfAnEpisodeIsMarked) {
-  ConsoleService wall;
-  wall.set("battery_low", true);
-  wall.run(seconds(5));
-  wall.set("bus_off", true);
-  wall.run(seconds(5));
-  EXPECT_TRUE(wall.find("battery_low")->first_up);
-  EXPECT_FALSE(wall.find("bus_off")->first_up);
+  AlarmRig rig;
+  rig.set("battery_low", true);
+  rig.run(seconds(5));
+  rig.set("bus_off", true);
+  rig.run(seconds(5));
+  EXPECT_TRUE(rig.find("battery_low")->first_up);
+  EXPECT_FALSE(rig.find("bus_off")->first_up);
   // Of two at once the more urgent.
-  ConsoleService both;
+  AlarmRig both;
   both.set("gnss_both_bad", true);
   both.set("link_degraded", true);
   both.run(seconds(5));
@@ -191,21 +191,21 @@ TEST(Engine, TheFirstOfAnEpisodeIsMarked) {
 }
 
 TEST(Engine, OneThatComesAgainOrIsSeenKeepsItsPlaceInTheEpisode) {
-  ConsoleService wall;
-  wall.set("battery_low", true);
-  wall.run(seconds(5));
-  wall.set("bus_off", true);
-  wall.run(seconds(5));
-  ASSERT_TRUE(wall.engine.acknowledge(wall.find("battery_low")->id, "Ada", wall.now));
-  EXPECT_TRUE(wall.find("battery_low")->first_up) << "still there";
-  wall.set("battery_low", false);
-  wall.run(seconds(10));
-  EXPECT_FALSE(wall.find("battery_low"));
-  wall.set("battery_low", true);
-  wall.run(seconds(5));
-  EXPECT_FALSE(wall.find("battery_low")->first_up) << "bus_off is older now";
+  AlarmRig rig;
+  rig.set("battery_low", true);
+  rig.run(seconds(5));
+  rig.set("bus_off", true);
+  rig.run(seconds(5));
+  ASSERT_TRUE(rig.engine.acknowledge(rig.find("battery_low")->id, "Ada", rig.now));
+  EXPECT_TRUE(rig.find("battery_low")->first_up) << "still there";
+  rig.set("battery_low", false);
+  rig.run(seconds(10));
+  EXPECT_FALSE(rig.find("battery_low"));
+  rig.set("battery_low", true);
+  rig.run(seconds(5));
+  EXPECT_FALSE(rig.find("battery_low")->first_up) << "bus_off is older now";
   // The same for one that an act makes normal, and that comes again in the next look.
-  ConsoleService seen_late;
+  AlarmRig seen_late;
   seen_late.set("relay", true);
   seen_late.run(seconds(1));
   EXPECT_TRUE(seen_late.find("relay")->first_up);
@@ -228,14 +228,14 @@ TEST(Engine, OfTwoAtOnceOneIsTheFirst) {
       const AlarmRow &one = alarm_row(a), &other = alarm_row(b);
       if (one.on_delay != other.on_delay) continue;
       if (one.overruled_by == other.key || other.overruled_by == one.key) continue;
-      ConsoleService wall;
-      wall.set(a, true);
-      wall.set(b, true);
-      wall.run(one.on_delay + milliseconds(20));
-      ASSERT_EQ(wall.engine.active().size(), 2U) << one.key << " " << other.key;
+      AlarmRig rig;
+      rig.set(a, true);
+      rig.set(b, true);
+      rig.run(one.on_delay + milliseconds(20));
+      ASSERT_EQ(rig.engine.active().size(), 2U) << one.key << " " << other.key;
       const bool is_second = other.priority > one.priority;
-      EXPECT_EQ(wall.find(one.key)->first_up, !is_second) << one.key << " " << other.key;
-      EXPECT_EQ(wall.find(other.key)->first_up, is_second) << one.key << " " << other.key;
+      EXPECT_EQ(rig.find(one.key)->first_up, !is_second) << one.key << " " << other.key;
+      EXPECT_EQ(rig.find(other.key)->first_up, is_second) << one.key << " " << other.key;
       ++pairs;
     }
   }
@@ -243,111 +243,111 @@ TEST(Engine, OfTwoAtOnceOneIsTheFirst) {
 }
 
 TEST(Engine, ANewComingIsNobodysAct) {
-  ConsoleService wall;
-  wall.set("tyres_cold", true);
-  wall.run(seconds(5));
-  const AlarmId id = wall.find("tyres_cold")->id;
-  ASSERT_TRUE(wall.engine.shelve(id, kShelveMax, "Ada", "warm-up", wall.now));
-  EXPECT_EQ(wall.find("tyres_cold")->shelved_until, wall.now + kShelveMax);
-  ASSERT_TRUE(wall.engine.unshelve(id, "Bob", wall.now));
-  EXPECT_EQ(wall.find("tyres_cold")->by, "Bob");
-  EXPECT_EQ(wall.find("tyres_cold")->reason, "");
-  wall.set("tyres_cold", false);
-  wall.run(seconds(20));
-  wall.set("tyres_cold", true);
-  wall.run(seconds(5));
-  EXPECT_GT(wall.find("tyres_cold")->id, id);
-  EXPECT_EQ(wall.find("tyres_cold")->by, "");
+  AlarmRig rig;
+  rig.set("tyres_cold", true);
+  rig.run(seconds(5));
+  const AlarmId id = rig.find("tyres_cold")->id;
+  ASSERT_TRUE(rig.engine.shelve(id, kShelveMax, "Ada", "warm-up", rig.now));
+  EXPECT_EQ(rig.find("tyres_cold")->shelved_until, rig.now + kShelveMax);
+  ASSERT_TRUE(rig.engine.unshelve(id, "Bob", rig.now));
+  EXPECT_EQ(rig.find("tyres_cold")->by, "Bob");
+  EXPECT_EQ(rig.find("tyres_cold")->reason, "");
+  rig.set("tyres_cold", false);
+  rig.run(seconds(20));
+  rig.set("tyres_cold", true);
+  rig.run(seconds(5));
+  EXPECT_GT(rig.find("tyres_cold")->id, id);
+  EXPECT_EQ(rig.find("tyres_cold")->by, "");
 }
 
 TEST(Engine, OneThatComesOnTheShelfIsNotAnnounced) {
-  ConsoleService wall;
-  wall.set("tyres_cold", true);
-  wall.run(seconds(5));
-  const AlarmId id = wall.find("tyres_cold")->id;
-  ASSERT_TRUE(wall.engine.shelve(id, seconds(120), "Ada", "warm-up", wall.now));
-  wall.set("tyres_cold", false);
-  wall.run(seconds(30));
-  wall.set("tyres_cold", true);
-  wall.run(seconds(30));
-  EXPECT_EQ(wall.find("tyres_cold")->id, id);
-  EXPECT_EQ(wall.engine.rate().ever(), 1U);
+  AlarmRig rig;
+  rig.set("tyres_cold", true);
+  rig.run(seconds(5));
+  const AlarmId id = rig.find("tyres_cold")->id;
+  ASSERT_TRUE(rig.engine.shelve(id, seconds(120), "Ada", "warm-up", rig.now));
+  rig.set("tyres_cold", false);
+  rig.run(seconds(30));
+  rig.set("tyres_cold", true);
+  rig.run(seconds(30));
+  EXPECT_EQ(rig.find("tyres_cold")->id, id);
+  EXPECT_EQ(rig.engine.rate().ever(), 1U);
   // Nor is the reason of the shelf that of what comes when it is long over.
-  wall.set("tyres_cold", false);
-  wall.run(seconds(120));
-  EXPECT_EQ(wall.find("tyres_cold")->reason, "warm-up");
-  wall.set("tyres_cold", true);
-  wall.run(seconds(5));
-  EXPECT_GT(wall.find("tyres_cold")->id, id);
-  EXPECT_EQ(wall.find("tyres_cold")->reason, "");
+  rig.set("tyres_cold", false);
+  rig.run(seconds(120));
+  EXPECT_EQ(rig.find("tyres_cold")->reason, "warm-up");
+  rig.set("tyres_cold", true);
+  rig.run(seconds(5));
+  EXPECT_GT(rig.find("tyres_cold")->id, id);
+  EXPECT_EQ(rig.find("tyres_cold")->reason, "");
 }
 
 TEST(Engine, AnEpisodeBeginsWithItsOwn) {
-  ConsoleService wall;
-  wall.set("gnss_both_bad", true);
-  wall.run(seconds(5));
-  wall.set("gnss_both_bad", false);
-  wall.run(seconds(60));
-  ASSERT_TRUE(wall.engine.acknowledge(wall.find("gnss_both_bad")->id, "Ada", wall.now));
-  ASSERT_EQ(wall.engine.count(), 0U);
-  wall.set("battery_low", true);
-  wall.run(seconds(5));
-  EXPECT_TRUE(wall.find("battery_low")->first_up) << "though a more urgent one came before";
+  AlarmRig rig;
+  rig.set("gnss_both_bad", true);
+  rig.run(seconds(5));
+  rig.set("gnss_both_bad", false);
+  rig.run(seconds(60));
+  ASSERT_TRUE(rig.engine.acknowledge(rig.find("gnss_both_bad")->id, "Ada", rig.now));
+  ASSERT_EQ(rig.engine.count(), 0U);
+  rig.set("battery_low", true);
+  rig.run(seconds(5));
+  EXPECT_TRUE(rig.find("battery_low")->first_up) << "though a more urgent one came before";
 }
 
 TEST(Engine, TheHistoryKeepsTheNewest) {
-  ConsoleService wall;
-  wall.set("tyres_cold", true);
-  wall.run(seconds(5));
-  const AlarmId id = wall.find("tyres_cold")->id;
+  AlarmRig rig;
+  rig.set("tyres_cold", true);
+  rig.run(seconds(5));
+  const AlarmId id = rig.find("tyres_cold")->id;
   for (std::size_t i = 0; i < Engine::kHistory; ++i) {
-    ASSERT_EQ(wall.engine.history().size(),
-              std::min<std::uint64_t>(wall.engine.events(), Engine::kHistory));
-    ASSERT_EQ(wall.engine.history().back().number, wall.engine.events());
-    ASSERT_TRUE(i % 2 == 0 ? wall.engine.shelve(id, seconds(60), "Ada", "r", wall.now)
-                           : wall.engine.unshelve(id, "Ada", wall.now));
+    ASSERT_EQ(rig.engine.history().size(),
+              std::min<std::uint64_t>(rig.engine.events(), Engine::kHistory));
+    ASSERT_EQ(rig.engine.history().back().number, rig.engine.events());
+    ASSERT_TRUE(i % 2 == 0 ? rig.engine.shelve(id, seconds(60), "Ada", "r", rig.now)
+                           : rig.engine.unshelve(id, "Ada", rig.now));
   }
-  EXPECT_EQ(wall.engine.history().size(), Engine::kHistory);
+  EXPECT_EQ(rig.engine.history().size(), Engine::kHistory);
 }
 
 TEST(Engine, ASettingThatChangesIsARevision) {
-  ConsoleService wall;
+  AlarmRig rig;
   AlarmEdit edit{.key = std::string(alarm_row(0).key),
-                 .setting = wall.engine.settings().of(0),
+                 .setting = rig.engine.settings().of(0),
                  .author = "Ada",
                  .reason = "r"};
   edit.setting.limit += 1.0;
-  const std::uint64_t before = wall.engine.revision();
-  ASSERT_TRUE(wall.engine.edit(edit));
-  EXPECT_EQ(wall.engine.revision(), before + 1);
+  const std::uint64_t before = rig.engine.revision();
+  ASSERT_TRUE(rig.engine.edit(edit));
+  EXPECT_EQ(rig.engine.revision(), before + 1);
   edit.key = "none";
-  ASSERT_FALSE(wall.engine.edit(edit));
-  EXPECT_EQ(wall.engine.revision(), before + 1);
+  ASSERT_FALSE(rig.engine.edit(edit));
+  EXPECT_EQ(rig.engine.revision(), before + 1);
 }
 
 // Nothing but the time that passes ends it.
 TEST(Engine, TheEndOfAFloodIsARevision) {
-  ConsoleService wall;
-  for (AlarmIndex i = 0; i < alarm_count(); ++i) wall.set(i, true);
-  wall.run(seconds(10));
-  ASSERT_TRUE(wall.engine.rate().flood());
-  while (wall.engine.rate().flood()) {
-    const std::uint64_t before = wall.engine.revision(), events = wall.engine.events();
-    wall.now += seconds(1);
-    wall.engine.step(wall.readings, wall.situations, wall.now);
-    ASSERT_EQ(wall.engine.events(), events);
-    EXPECT_EQ(wall.engine.revision(), before + (wall.engine.rate().flood() ? 0 : 1));
+  AlarmRig rig;
+  for (AlarmIndex i = 0; i < alarm_count(); ++i) rig.set(i, true);
+  rig.run(seconds(10));
+  ASSERT_TRUE(rig.engine.rate().flood());
+  while (rig.engine.rate().flood()) {
+    const std::uint64_t before = rig.engine.revision(), events = rig.engine.events();
+    rig.now += seconds(1);
+    rig.engine.step(rig.readings, rig.situations, rig.now);
+    ASSERT_EQ(rig.engine.events(), events);
+    EXPECT_EQ(rig.engine.revision(), before + (rig.engine.rate().flood() ? 0 : 1));
   }
 }
 
 TEST(Engine, AFloodShowsTheFirstAndTheHighOnly) {
-  ConsoleService wall;
-  wall.set("battery_low", true);
-  wall.run(seconds(5));
-  for (AlarmIndex i = 0; i < alarm_count(); ++i) wall.set(i, true);
-  wall.run(seconds(10));
-  ASSERT_TRUE(wall.engine.rate().flood());
-  for (const ListedAlarm& line : wall.engine.active()) {
+  AlarmRig rig;
+  rig.set("battery_low", true);
+  rig.run(seconds(5));
+  for (AlarmIndex i = 0; i < alarm_count(); ++i) rig.set(i, true);
+  rig.run(seconds(10));
+  ASSERT_TRUE(rig.engine.rate().flood());
+  for (const ListedAlarm& line : rig.engine.active()) {
     const bool shown = line.priority == Priority::kHigh || line.key == "battery_low";
     EXPECT_EQ(line.flooded, !shown) << line.key;
   }
@@ -355,7 +355,7 @@ TEST(Engine, AFloodShowsTheFirstAndTheHighOnly) {
 
 // Random values, situations, silences and acts over the whole table.
 struct Storm {
-  ConsoleService wall;
+  AlarmRig rig;
   std::mt19937 random;
   std::map<AlarmId, AlarmIndex> unseen_high;  // occurrences that nobody has seen
 
@@ -363,46 +363,46 @@ struct Storm {
   std::size_t draw(std::size_t below) { return random() % below; }
 
   void act() {
-    std::vector<ListedAlarm> lines = wall.engine.active();
-    for (const ListedAlarm& line : wall.engine.shelved()) lines.push_back(line);
-    for (const ListedAlarm& line : wall.engine.suppressed()) lines.push_back(line);
+    std::vector<ListedAlarm> lines = rig.engine.active();
+    for (const ListedAlarm& line : rig.engine.shelved()) lines.push_back(line);
+    for (const ListedAlarm& line : rig.engine.suppressed()) lines.push_back(line);
     if (lines.empty()) return;
     const AlarmId id = lines[draw(lines.size())].id;
     switch (draw(4)) {
       case 0:
-        if (wall.engine.acknowledge(id, "Ada", wall.now)) unseen_high.erase(id);
+        if (rig.engine.acknowledge(id, "Ada", rig.now)) unseen_high.erase(id);
         break;
       case 1:
-        (void)wall.engine.shelve(id, seconds(1 + static_cast<std::int64_t>(draw(20))), "Ada", "r",
-                                 wall.now);
+        (void)rig.engine.shelve(id, seconds(1 + static_cast<std::int64_t>(draw(20))), "Ada", "r",
+                                rig.now);
         break;
       case 2:
-        if (wall.engine.unshelve(id, "Ada", wall.now)) unseen_high.erase(id);
+        if (rig.engine.unshelve(id, "Ada", rig.now)) unseen_high.erase(id);
         break;
       default:
-        (void)wall.engine.reset(id, "Ada", wall.now);
+        (void)rig.engine.reset(id, "Ada", rig.now);
     }
   }
   void world() {
     const AlarmIndex index = draw(alarm_count());
     switch (draw(6)) {
       case 0:
-        wall.readings[index].usable = !wall.readings[index].usable;
+        rig.readings[index].usable = !rig.readings[index].usable;
         break;
       case 1: {
         const auto situation = static_cast<Situation>(draw(kSituations));
-        wall.situations.set(situation, draw(2) == 0);
+        rig.situations.set(situation, draw(2) == 0);
         break;
       }
       default:
-        wall.set(index, draw(2) == 0);
+        rig.set(index, draw(2) == 0);
     }
   }
   void step() {
     draw(3) == 0 ? act() : world();
-    const std::uint64_t before = wall.engine.events();
-    wall.run(milliseconds(10 + 10 * static_cast<std::int64_t>(draw(100))));
-    for (const AlarmEvent& event : wall.engine.history()) {
+    const std::uint64_t before = rig.engine.events();
+    rig.run(milliseconds(10 + 10 * static_cast<std::int64_t>(draw(100))));
+    for (const AlarmEvent& event : rig.engine.history()) {
       if (event.number <= before || event.to != State::kUnack) continue;
       const AlarmIndex index = *find_alarm(event.key);
       // The occurrence before is part of this one: the line has one id.
@@ -418,7 +418,7 @@ TEST(Engine, NoOrderOfEventsLosesAnUnseenHighAlarm) {
     for (int i = 0; i < 200; ++i) {
       storm.step();
       for (const auto& [id, index] : storm.unseen_high) {
-        const auto line = storm.wall.find(alarm_row(index).key);
+        const auto line = storm.rig.find(alarm_row(index).key);
         ASSERT_TRUE(line) << "seed " << seed << ": " << alarm_row(index).key;
         ASSERT_EQ(line->id, id) << "seed " << seed << ": " << alarm_row(index).key;
         ASSERT_NE(line->state, State::kAcked) << "seed " << seed << ": " << line->key;
@@ -436,7 +436,7 @@ TEST(Engine, TheHistoryIsAChain) {
     std::uint64_t seen = 0;
     for (int i = 0; i < 200; ++i) {
       storm.step();
-      for (const AlarmEvent& event : storm.wall.engine.history()) {
+      for (const AlarmEvent& event : storm.rig.engine.history()) {
         if (event.number <= seen) continue;
         ASSERT_EQ(event.number, seen + 1);
         seen = event.number;
@@ -445,7 +445,7 @@ TEST(Engine, TheHistoryIsAChain) {
       }
     }
     for (AlarmIndex i = 0; i < alarm_count(); ++i) {
-      EXPECT_EQ(storm.wall.engine.state(i), states[alarm_row(i).key]);
+      EXPECT_EQ(storm.rig.engine.state(i), states[alarm_row(i).key]);
     }
   }
 }
@@ -465,7 +465,7 @@ std::string list_text(const Engine& engine) {
 TEST(Engine, TheListIsInOrderCountedAndNeverChangesUnsaid) {
   for (unsigned seed = 40; seed < 44; ++seed) {
     Storm storm{seed};
-    const Engine& engine = storm.wall.engine;
+    const Engine& engine = storm.rig.engine;
     std::string before = list_text(engine);
     std::uint64_t revision = engine.revision();
     for (int i = 0; i < 200; ++i) {
@@ -477,14 +477,14 @@ TEST(Engine, TheListIsInOrderCountedAndNeverChangesUnsaid) {
       }
       ASSERT_EQ(engine.count(), lines.size());
       for (const Priority p : {Priority::kLow, Priority::kMedium, Priority::kHigh}) {
-        const auto of_it = [&](bool unseen) {
+        const auto of_it = [&](bool unacknowledged) {
           return static_cast<std::size_t>(std::ranges::count_if(lines, [&](const ListedAlarm& a) {
             const bool is_unseen = a.state == State::kUnack || a.state == State::kReturnedUnack;
-            return a.priority == p && (is_unseen || !unseen);
+            return a.priority == p && (is_unseen || !unacknowledged);
           }));
         };
         ASSERT_EQ(engine.count(p), of_it(false));
-        ASSERT_EQ(engine.unseen(p), of_it(true));
+        ASSERT_EQ(engine.unacknowledged(p), of_it(true));
       }
       ASSERT_GE(engine.revision(), revision);
       const std::string now = list_text(engine);
@@ -502,9 +502,9 @@ TEST(Engine, TheSameInputsGiveTheSameList) {
       a.step();
       b.step();
     }
-    EXPECT_EQ(a.wall.engine.history(), b.wall.engine.history());
-    EXPECT_EQ(a.wall.engine.revision(), b.wall.engine.revision());
-    EXPECT_GT(a.wall.engine.events(), 20U);
+    EXPECT_EQ(a.rig.engine.history(), b.rig.engine.history());
+    EXPECT_EQ(a.rig.engine.revision(), b.rig.engine.revision());
+    EXPECT_GT(a.rig.engine.events(), 20U);
   }
 }
 

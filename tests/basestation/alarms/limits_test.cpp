@@ -16,15 +16,15 @@ state::FieldView fresh(double value) {
 
 TEST(Limits, AValueAtALimitIsStillOnItsGoodSide) {
   const Limit limit{.warning_low = 10, .warning_high = 20, .bad_low = 5, .bad_high = 30};
-  EXPECT_EQ(judge(limit, 10), Judgement::kGood);
-  EXPECT_EQ(judge(limit, 20), Judgement::kGood);
-  EXPECT_EQ(judge(limit, 9.9), Judgement::kWarning);
-  EXPECT_EQ(judge(limit, 5), Judgement::kWarning);
-  EXPECT_EQ(judge(limit, 30), Judgement::kWarning);
-  EXPECT_EQ(judge(limit, 4.9), Judgement::kBad);
-  EXPECT_EQ(judge(limit, 30.1), Judgement::kBad);
-  EXPECT_EQ(judge(limit, kUnset), Judgement::kNone);
-  EXPECT_EQ(judge({}, 1.0), Judgement::kNone);
+  EXPECT_EQ(evaluate(limit, 10), Evaluation::kGood);
+  EXPECT_EQ(evaluate(limit, 20), Evaluation::kGood);
+  EXPECT_EQ(evaluate(limit, 9.9), Evaluation::kWarning);
+  EXPECT_EQ(evaluate(limit, 5), Evaluation::kWarning);
+  EXPECT_EQ(evaluate(limit, 30), Evaluation::kWarning);
+  EXPECT_EQ(evaluate(limit, 4.9), Evaluation::kBad);
+  EXPECT_EQ(evaluate(limit, 30.1), Evaluation::kBad);
+  EXPECT_EQ(evaluate(limit, kUnset), Evaluation::kNone);
+  EXPECT_EQ(evaluate({}, 1.0), Evaluation::kNone);
 }
 
 // The further out, the worse: no bound makes a value better again.
@@ -36,11 +36,11 @@ TEST(Limits, JudgementNeverImprovesOutwards) {
     const telemetry::FieldRow& row = telemetry::kFields[id];
     const double middle = std::isnan(limit.warning_low) ? row.min : row.max;
     if (!std::isnan(limit.warning_low) && !std::isnan(limit.warning_high)) continue;
-    Judgement worst = judge(limit, middle);
+    Evaluation worst = evaluate(limit, middle);
     for (int i = 0; i <= 200; ++i) {
       const double to =
           std::isnan(limit.warning_low) && std::isnan(limit.bad_low) ? row.max : row.min;
-      const Judgement now = judge(limit, middle + (to - middle) * i / 200.0);
+      const Evaluation now = evaluate(limit, middle + (to - middle) * i / 200.0);
       EXPECT_GE(now, worst) << state::path_of(id);
       worst = now;
     }
@@ -50,29 +50,29 @@ TEST(Limits, JudgementNeverImprovesOutwards) {
 TEST(Limits, AStaleOrUnheardValueHasNoJudgement) {
   const Limits limits;
   state::FieldView view = fresh(11.0);
-  EXPECT_EQ(limits.judge(kBattery, view), Judgement::kBad);
+  EXPECT_EQ(limits.evaluate(kBattery, view), Evaluation::kBad);
   view.quality = state::Quality::kLate;
-  EXPECT_EQ(limits.judge(kBattery, view), Judgement::kBad);
+  EXPECT_EQ(limits.evaluate(kBattery, view), Evaluation::kBad);
   for (const state::Quality quality : {state::Quality::kStale, state::Quality::kNever}) {
     view.quality = quality;
-    EXPECT_EQ(limits.judge(kBattery, view), Judgement::kNone);
+    EXPECT_EQ(limits.evaluate(kBattery, view), Evaluation::kNone);
   }
 }
 
 TEST(Limits, SetsOfValuesJudgeEnumerations) {
   const Limits limits;
   constexpr state::FieldId kMode = state::field_id("mode.mode");
-  EXPECT_EQ(limits.judge(kMode, fresh(2)), Judgement::kGood);  // driving
-  EXPECT_EQ(limits.judge(kMode, fresh(4)), Judgement::kBad);   // emergency stop
-  EXPECT_EQ(limits.judge(kMode, fresh(6)), Judgement::kWarning);
-  EXPECT_EQ(limits.judge(kMode, fresh(-3)), Judgement::kGood);  // no such value, no such bit
+  EXPECT_EQ(limits.evaluate(kMode, fresh(2)), Evaluation::kGood);  // driving
+  EXPECT_EQ(limits.evaluate(kMode, fresh(4)), Evaluation::kBad);   // emergency stop
+  EXPECT_EQ(limits.evaluate(kMode, fresh(6)), Evaluation::kWarning);
+  EXPECT_EQ(limits.evaluate(kMode, fresh(-3)), Evaluation::kGood);  // no such value, no such bit
 }
 
 TEST(Limits, AnEditHoldsAndNamesItsAuthor) {
   Limits limits;
   const Limit wanted{.bad_low = 11.0};
   ASSERT_TRUE(limits.edit({kBattery, wanted, "Ada", "old battery"}));
-  EXPECT_EQ(limits.judge(kBattery, fresh(11.5)), Judgement::kGood);
+  EXPECT_EQ(limits.evaluate(kBattery, fresh(11.5)), Evaluation::kGood);
   ASSERT_EQ(limits.edits().size(), 1U);
   EXPECT_EQ(limits.edits().front().author, "Ada");
 }

@@ -17,7 +17,7 @@ TEST(AlarmRate, CountsTheLastTenMinutes) {
   for (int i = 0; i < 20'000; ++i) {
     now += milliseconds(100 + static_cast<std::int64_t>(random() % 2'000));
     if (random() % 50 == 0) {
-      rate.came(now);
+      rate.add(now);
       truth.push_back(now);
     }
     while (!truth.empty() && now - truth.front() >= kRateWindow) truth.pop_front();
@@ -31,7 +31,7 @@ TEST(AlarmRate, OneIsCountedForTheWindowAndQuietIsZero) {
   Instant now{seconds(5'000).ns};
   rate.advance(now);
   EXPECT_EQ(rate.per_10_min(), 0U);
-  rate.came(now);
+  rate.add(now);
   rate.advance(now + kRateWindow - nanoseconds(1));
   EXPECT_EQ(rate.per_10_min(), 1U);
   rate.advance(now + kRateWindow);
@@ -44,12 +44,12 @@ TEST(AlarmRate, AFloodBeginsAboveTenAndIsOverAtFive) {
   AlarmRate rate;
   Instant now{};
   for (int i = 0; i < 10; ++i) {
-    rate.came(now);
+    rate.add(now);
     EXPECT_FALSE(rate.advance(now));
     now += seconds(20);
   }
   EXPECT_FALSE(rate.flood());
-  rate.came(now);
+  rate.add(now);
   EXPECT_TRUE(rate.advance(now));
   EXPECT_TRUE(rate.flood());
   int changes = 0;
@@ -64,7 +64,7 @@ TEST(AlarmRate, AFloodBeginsAboveTenAndIsOverAtFive) {
 
 TEST(AlarmRate, MoreThanItKeepsCountsAsAllOfThem) {
   AlarmRate rate;
-  for (int i = 0; i < 1'000; ++i) rate.came(Instant{i});
+  for (int i = 0; i < 1'000; ++i) rate.add(Instant{i});
   rate.advance(Instant{2'000});
   EXPECT_EQ(rate.per_10_min(), AlarmRate::kKept);
   EXPECT_EQ(rate.ever(), 1'000U);

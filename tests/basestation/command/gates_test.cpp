@@ -52,7 +52,7 @@ struct GatePit {
 
 using GateKinds = std::vector<GateKind>;
 
-// Of a car that was never heard, too.
+// Of a car that was never received, too.
 TEST(Gates, SayWhatIsNotKnownInWords) {
   const state::VehicleState nothing;
   alarms::Evaluator evaluator;

@@ -20,7 +20,7 @@ TEST(PacketRate, CountsTheLastSecond) {
 
 TEST(PacketRate, ACarIsLostASecondAfterItsLastPacket) {
   PacketRate rate;
-  EXPECT_FALSE(rate.lost(kStart)) << "who was never heard is not lost";
+  EXPECT_FALSE(rate.lost(kStart)) << "a car that was never received is not lost";
   rate.note(kStart);
   EXPECT_FALSE(rate.lost(kStart + PacketRate::kLostAfter));
   EXPECT_TRUE(rate.lost(kStart + PacketRate::kLostAfter + nanoseconds(1)));

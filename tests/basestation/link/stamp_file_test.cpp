@@ -17,11 +17,11 @@ namespace {
 namespace fs = std::filesystem;
 using telemetry::Stamp;
 
-constexpr Duration kPatience = seconds(10);  // of a loaded machine; nothing is measured with it
+constexpr Duration kTimeout = seconds(10);  // of a loaded machine; nothing is measured with it
 constexpr Stamp kNow = 1'795'000'000'000'000'000;
 
 bool comes_true(const std::function<bool()>& condition) {
-  const Instant end = transport::monotonic_now() + kPatience;
+  const Instant end = transport::monotonic_now() + kTimeout;
   while (!condition()) {
     if (transport::monotonic_now() >= end) return false;
     transport::sleep_until(transport::monotonic_now() + milliseconds(2));

@@ -64,7 +64,7 @@ TEST(CarService, ACommandPassesTheGatesOfThisMoment) {
   const command::IssueCommand faster{.type = telemetry::CommandType::kSpeedLimit, .argument = 80.0};
   const auto refused = pit.base->execute(faster, kAda, pit.now);
   ASSERT_FALSE(refused);
-  EXPECT_NE(refused.error().what.find("tyres: never heard"), std::string::npos)
+  EXPECT_NE(refused.error().what.find("tyres: not received yet"), std::string::npos)
       << refused.error().what;
   EXPECT_NE(pit.base->requests().audit().lines().back().result.find("refused: gates"),
             std::string::npos);

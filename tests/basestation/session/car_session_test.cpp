@@ -18,7 +18,7 @@ namespace {
 
 void nobody_hears(const std::string&) {}
 
-constexpr Duration kPatience = seconds(10);  // of a loaded machine; nothing is measured with it
+constexpr Duration kTimeout = seconds(10);  // of a loaded machine; nothing is measured with it
 constexpr auto kMinute = static_cast<telemetry::Stamp>(seconds(60).ns);
 
 // The car's radio on a socket of this machine, at a fixed time of day.
@@ -74,7 +74,7 @@ class Session : public testing::Test {
     const service::CarLoop loop = session->loop();
     Car car(folder_->path() + "/keys/car.keys", loop.radio[0].local());
     std::vector<transport::UdpDatagram> inbox(transport::UdpSocket::kBatch);
-    const Instant limit = transport::monotonic_now() + kPatience;
+    const Instant limit = transport::monotonic_now() + kTimeout;
     const auto waits = [&] {
       return transport::monotonic_now() < limit &&
              (session->service().link().endpoint().report(limit).sessions == 0 ||
@@ -199,7 +199,7 @@ TEST_F(Session, ACommandSocketIsItsOwnersAndJudgedByTheGates) {
   client->send("command speed_limit 30");
   client->flush();
   std::vector<std::string> answers;
-  const Instant limit = transport::monotonic_now() + kPatience;
+  const Instant limit = transport::monotonic_now() + kTimeout;
   while (answers.empty() && transport::monotonic_now() < limit) {
     session->loop().commands->serve(session->service().requests(), transport::monotonic_now());
     for (std::string& line : client->receive()) answers.push_back(std::move(line));

@@ -18,15 +18,15 @@ class SessionTools : public testing::Test {
     arguments_.web_port = 0;
   }
   void begin() {
-    auto plan = plan_of(arguments_, say());
+    auto plan = plan_of(arguments_, logger());
     ASSERT_TRUE(plan) << to_string(plan.error());
     auto started = publishers::web::WebServer::start({}, served({&*plan, 1}));
     ASSERT_TRUE(started);
     server_ = *std::move(started);
     session_ = *CarSession::open(*std::move(plan));
-    ASSERT_TRUE(session_->begin(server_.get(), say()));
+    ASSERT_TRUE(session_->begin(server_.get(), logger()));
   }
-  Say say() {
+  LogLine logger() {
     return [this](const std::string& line) { remarks_ += line + "\n"; };
   }
   void serve_all() {
@@ -47,7 +47,7 @@ class SessionTools : public testing::Test {
 TEST_F(SessionTools, NothingThatIsNotAskedForIsStarted) {
   begin();
   const std::size_t before = session_->loop().publishers.size();
-  ASSERT_TRUE(attach_tools(*session_, {}, say()));
+  ASSERT_TRUE(attach_tools(*session_, {}, logger()));
   EXPECT_EQ(session_->loop().publishers.size(), before);
   EXPECT_EQ(remarks_.find("Foxglove"), std::string::npos);
 }
@@ -55,7 +55,7 @@ TEST_F(SessionTools, NothingThatIsNotAskedForIsStarted) {
 TEST_F(SessionTools, FoxgloveIsSaidAndIsInTheMetricsOfItsCar) {
   arguments_.foxglove_port = 0;
   begin();
-  ASSERT_TRUE(attach_tools(*session_, {.board = &board_, .server = server_.get()}, say()));
+  ASSERT_TRUE(attach_tools(*session_, {.board = &board_, .server = server_.get()}, logger()));
   EXPECT_NE(remarks_.find("Foxglove at ws://127.0.0.1:"), std::string::npos) << remarks_;
   serve_all();
   const std::string text = board_.text();
@@ -81,7 +81,7 @@ TEST_F(SessionTools, AWrongUrlOrOneThatLeavesTheMachineIsRefused) {
   const auto refused = [&](const char* url) {
     arguments_.lcm_url = url;
     begin();
-    const auto attached = attach_tools(*session_, {}, say());
+    const auto attached = attach_tools(*session_, {}, logger());
     return attached ? std::string{} : to_string(attached.error());
   };
   EXPECT_NE(refused("tcpq://localhost").find("udpm://"), std::string::npos);
@@ -92,14 +92,14 @@ TEST_F(SessionTools, FoxgloveOnANetworkTakesTokensOfItsOwn) {
   arguments_.foxglove_port = 0;
   arguments_.foxglove_address = "0.0.0.0";
   begin();
-  const auto refused = attach_tools(*session_, {}, say());
+  const auto refused = attach_tools(*session_, {}, logger());
   ASSERT_FALSE(refused);
   EXPECT_EQ(refused.error().place, "--foxglove-address 0.0.0.0");
   arguments_.foxglove_tokens = folder_->path() + "/readers";
   ASSERT_TRUE(
       transport::write_file(arguments_.foxglove_tokens, "viewer 77aa0c1be04f43f2 Garage\n", 0600));
   begin();
-  const auto attached = attach_tools(*session_, {}, say());
+  const auto attached = attach_tools(*session_, {}, logger());
   EXPECT_TRUE(attached) << to_string(attached.error());
 }
 
@@ -107,7 +107,7 @@ TEST_F(SessionTools, WhatTheBaseFindsIsLookedAt) {
   begin();
   serve_all();
   publishers::ros_view::BaseStatus base_status;
-  look_of(session_->service())(base_status, transport::monotonic_now());
+  status_reader_of(session_->service())(base_status, transport::monotonic_now());
   EXPECT_EQ(base_status.values[state::index_of(state::BaseField::kLinkState)], 0.0) << "none yet";
 }
 

@@ -49,7 +49,8 @@ TEST(JudgementFile, WritingIsTheInverseOfReading) {
   EXPECT_EQ(again->alarms.version(), first->alarms.version());
   EXPECT_EQ(again->alarms.edits().back().author, "Bob \"B\" \\ Ltd: #1");
   for (state::FieldId id = 0; id < telemetry::kFieldCount; ++id) {
-    EXPECT_EQ(alarms::judge(again->limits.of(id), 11.6), alarms::judge(first->limits.of(id), 11.6));
+    EXPECT_EQ(alarms::evaluate(again->limits.of(id), 11.6),
+              alarms::evaluate(first->limits.of(id), 11.6));
   }
 }
 

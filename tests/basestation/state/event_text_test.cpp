@@ -39,7 +39,7 @@ TEST(LogText, ProgressSaysHowFarAndHowLong) {
   p.received = p.issued + milliseconds(40);
   EXPECT_EQ(progress_text(p, now), "received by the car after 40 ms");
   p.decided = p.issued + milliseconds(60);
-  p.fate = telemetry::Outcome::kApplied;
+  p.outcome = telemetry::Outcome::kApplied;
   EXPECT_EQ(progress_text(p, now), "applied after 60 ms");
 }
 

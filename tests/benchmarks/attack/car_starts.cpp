@@ -13,7 +13,7 @@ namespace pitwall {
 namespace {
 
 constexpr std::size_t kTogether = 50;
-constexpr Duration kTick = milliseconds(2), kPatience = seconds(2);
+constexpr Duration kTick = milliseconds(2), kTimeout = seconds(2);
 
 Result<bool, Problem> start(const std::vector<std::string>& words, std::size_t count) {
   std::vector<testing::CarRadio> cars;
@@ -23,8 +23,8 @@ Result<bool, Problem> start(const std::vector<std::string>& words, std::size_t c
     cars.push_back(*std::move(radio));
   }
   // Until the budget of each has let its opening go.
-  const Instant end = transport::monotonic_now() + kPatience;
-  for (Instant tick = end - kPatience; !cars.empty(); tick = tick + kTick) {
+  const Instant end = transport::monotonic_now() + kTimeout;
+  for (Instant tick = end - kTimeout; !cars.empty(); tick = tick + kTick) {
     if (tick > end) return Unexpected{Problem{words[1], "a car sends no opening"}};
     std::erase_if(cars, [](testing::CarRadio& car) { return car.send({}) > 0; });
     transport::sleep_until(tick + kTick);

@@ -23,7 +23,7 @@ class ReferenceKernel {
   ReferenceKernel();
   double run();
 
- public:
+ private:
   static constexpr std::size_t kStates = 15;  // states of the spatial filter
   static constexpr std::size_t kTable = 1 << 18;
   using Matrix = std::array<double, kStates * kStates>;

@@ -133,8 +133,7 @@ void judge_losses(Gates& gates, const char* who, const load::LossJudgement& judg
       "          slowest %.1f ms; %zu reports of frames that were late on the bus, %zu of "
       "the silence at the end; %zu left out that no gap betrayed\n",
       judgement.worst.milliseconds(), judgement.late_on_bus, judgement.after_end, judgement.hidden);
-  for (const std::string& complaint : judgement.complaints)
-    std::printf("          %s\n", complaint.c_str());
+  for (const std::string& error : judgement.errors) std::printf("          %s\n", error.c_str());
 }
 
 // Totals since the start, so that a loss outside of the pauses is judged too.

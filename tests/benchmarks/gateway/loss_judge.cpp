@@ -51,9 +51,9 @@ class Judge {
   Duration period_of(std::size_t stream) const { return traffic_.streams()[stream].row.period; }
 
   void complain(const char* what, std::uint32_t id, Instant at) {
-    if (out_.complaints.size() == kComplaintsMax) return;
-    out_.complaints.push_back(std::string(what) + ": id " + std::to_string(id) + " due at " +
-                              std::to_string(at.seconds()) + " s");
+    if (out_.errors.size() == kComplaintsMax) return;
+    out_.errors.push_back(std::string(what) + ": id " + std::to_string(id) + " due at " +
+                          std::to_string(at.seconds()) + " s");
   }
 
   void take(const can::LossReport& report) {
@@ -112,7 +112,7 @@ class Judge {
 
   bool was_late(std::size_t stream, Instant due) const {
     const std::vector<Instant>& arrived = evidence_.arrivals[stream];
-    const Duration slack = can::slack_of(traffic_.streams()[stream].row);
+    const Duration slack = can::tolerance_of(traffic_.streams()[stream].row);
     const auto next = std::lower_bound(arrived.begin(), arrived.end(), due - period_of(stream) / 2);
     return next == arrived.end() || *next > due + slack - kStampError;
   }
@@ -122,7 +122,7 @@ class Judge {
     const std::vector<Instant>& arrived = evidence_.arrivals[stream];
     const auto next = std::lower_bound(arrived.begin(), arrived.end(), omitted_at);
     if (row.has_counter || next == arrived.begin() || next == arrived.end()) return false;
-    return *next - *(next - 1) <= row.period + can::slack_of(row) + kStampError;
+    return *next - *(next - 1) <= row.period + can::tolerance_of(row) + kStampError;
   }
 
   const Traffic& traffic_;

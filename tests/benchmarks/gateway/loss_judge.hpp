@@ -43,8 +43,8 @@ struct LossJudgement {
   std::size_t missed = 0, twice = 0, false_reports = 0;
   std::size_t hidden = 0;  // not among `omitted`
   std::size_t late_on_bus = 0, after_end = 0;
-  Duration worst{};                     // longest time from due to detection among the reported
-  std::vector<std::string> complaints;  // the first few errors as text
+  Duration worst{};                 // longest time from due to detection among the reported
+  std::vector<std::string> errors;  // the first few errors as text
 };
 
 LossJudgement judge_losses(const Traffic& traffic, const LossEvidence& evidence);

@@ -58,7 +58,7 @@ TEST(LossJudge, AllReportedInTimeHolds) {
   EXPECT_EQ(judged.in_time, 60u);
   EXPECT_EQ(judged.missed + judged.twice + judged.false_reports + judged.late_on_bus, 0u);
   EXPECT_EQ(judged.worst, milliseconds(90));
-  EXPECT_TRUE(judged.complaints.empty());
+  EXPECT_TRUE(judged.errors.empty());
 }
 
 TEST(LossJudge, EachReportThatIsMissingIsMissed) {
@@ -83,7 +83,7 @@ TEST(LossJudge, AnOmissionThatNoGapBetraysIsHiddenUnlessACounterTells) {
     const auto next = std::lower_bound(arrived.begin(), arrived.end(), run.omitted_at[gone]);
     if (next == arrived.begin() || next == arrived.end()) continue;
     run.reports.erase(run.reports.begin() + static_cast<std::ptrdiff_t>(gone));
-    const Instant latest = *next - row.period - can::slack_of(row);
+    const Instant latest = *next - row.period - can::tolerance_of(row);
     *(next - 1) = latest - milliseconds(1);
     EXPECT_EQ(run.judged().missed, 1u) << gone;
     *(next - 1) = latest;
@@ -113,8 +113,8 @@ TEST(LossJudge, AReportOfAFrameThatCameIsFalseAndOfOneThatCameLateIsNot) {
   ASSERT_GT(arrived.size(), 4u);
   run.reports.push_back({.id = row.id, .frames = 1, .due = arrived[2], .noticed = arrived[3]});
   EXPECT_EQ(run.judged().false_reports, 1u);
-  EXPECT_EQ(run.judged().complaints.size(), 1u);
-  arrived[2] += can::slack_of(row) + milliseconds(1);
+  EXPECT_EQ(run.judged().errors.size(), 1u);
+  arrived[2] += can::tolerance_of(row) + milliseconds(1);
   EXPECT_EQ(run.judged().false_reports, 0u);
   EXPECT_EQ(run.judged().late_on_bus, 1u);
 }

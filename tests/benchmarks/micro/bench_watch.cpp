@@ -41,7 +41,7 @@ void judge_every_field(benchmark::State& state) {
   for (auto _ : state) {
     for (state::FieldId id = 0; id < telemetry::kFieldCount; ++id) {
       const auto view = wall.evaluator.view(wall.reported.vehicle, id, wall.now);
-      benchmark::DoNotOptimize(wall.evaluator.judge(id, view));
+      benchmark::DoNotOptimize(wall.evaluator.evaluate(id, view));
     }
   }
 }

@@ -20,7 +20,7 @@ namespace pitwall::benchmarks {
 namespace {
 
 constexpr std::uint32_t kCarIp = 0x0A4D0001, kBaseIp = 0x0A4D0002;  // 10.77.0.1, 10.77.0.2
-constexpr Duration kPatience = seconds(5);                          // beyond the end
+constexpr Duration kTimeout = seconds(5);                           // beyond the end
 constexpr const char *kCar = "car", *kBase = "base";
 constexpr double kBitsPerByte = 8.0;
 
@@ -204,7 +204,7 @@ ComparisonRow best_possible(const ComparisonCase& of_case, const ComparisonPlan&
   const link::LinkTrace fades = link_of(of_case, plan).trace;
   Arrivals arrivals;
   const Instant end = Instant{} + plan.warm_up + plan.length;
-  for (Instant at{}; at < end; at += link::kLook)
+  for (Instant at{}; at < end; at += link::kSamplePeriod)
     if (link::loss_over_time(fades, at) == 0.0)
       arrivals.states.push_back({at, at + plan.link.delay});
   ComparisonRow row = judge(arrivals, {}, plan);
@@ -232,7 +232,7 @@ Result<std::vector<ComparisonRow>, Problem> run_comparison(const Peer& contestan
   auto car = run(networks->car, kCar);
   if (!car) return Unexpected{car.error()};
   for (transport::Process* process : {&*car, &*base})
-    if (const auto ended = await(*process, contestant.name, end + kPatience); !ended)
+    if (const auto ended = await(*process, contestant.name, end + kTimeout); !ended)
       return Unexpected{ended.error()};
   const LinkTally& tally = radio.stop();
   auto arrivals = arrivals_in(folder->path() + "/" + kBase, contestant.name, begin);

@@ -15,7 +15,7 @@ void AgeSamples::arrived(Instant made, Instant at) {
 
 // What came at the very moment of a look is seen by it.
 void AgeSamples::look_until(Instant until) {
-  for (const Instant end = std::min(until, to_); next_ < end; next_ += kLook) {
+  for (const Instant end = std::min(until, to_); next_ < end; next_ += kSamplePeriod) {
     if (newest_) {
       ages_us_.push_back(static_cast<std::int32_t>((next_ - *newest_) / microseconds(1)));
     } else {

@@ -17,7 +17,7 @@
 
 namespace pitwall::link {
 
-inline constexpr Duration kLook = milliseconds(1);
+inline constexpr Duration kSamplePeriod = milliseconds(1);
 
 class AgeSamples {
  public:

@@ -44,7 +44,7 @@ TEST(AgeSamples, IsWhatOneSeesWhoLooksEachMillisecond) {
 
   std::vector<double> seen;
   std::size_t unknown = 0;
-  for (Instant look = at_ms(0); look < at_ms(6'000); look += kLook) {
+  for (Instant look = at_ms(0); look < at_ms(6'000); look += kSamplePeriod) {
     Instant newest = at_ms(-1'000'000);
     for (const Arrival& a : arrivals)
       if (a.at <= look) newest = std::max(newest, a.made);

@@ -99,7 +99,7 @@ BurstRun run_burst(const BurstCase& c) {
   }
   run.slow_p99 = slow_p99(radio);
   run.rate_factor = radio.car_report().paths[0].rate_factor;
-  run.falsehoods = radio.falsehoods();
+  run.content_errors = radio.content_errors();
   return run;
 }
 
@@ -109,7 +109,7 @@ bool BurstRun::holds() const {
          safety.p999 <= oracle.p999 + milliseconds(60) &&
          motion.p99 <= oracle.p99 + milliseconds(60) &&
          motion.p999 <= oracle.p999 + milliseconds(60) && slow_p99 <= 1.2 &&
-         falsehoods.too_young == 0 && falsehoods.never_sampled == 0;
+         content_errors.too_young == 0 && content_errors.never_sampled == 0;
 }
 
 std::string to_string(const BurstCase& c, const BurstRun& run) {

@@ -35,7 +35,7 @@ struct BurstRun {
   // least one second).
   double slow_p99 = 0.0;
   double rate_factor = 1.0;
-  Falsehoods falsehoods;
+  ContentErrors content_errors;
 
   const AgeQuantiles& of(telemetry::Class priority) const {
     return classes[static_cast<std::size_t>(priority)];

@@ -45,7 +45,7 @@ TEST(BurstRun, BreaksWhereAnyOfItsLawsDoes) {
     if (which == 2) bad.classes[1].p99 = bad.classes[1].p99 + milliseconds(1);
     if (which == 3) bad.classes[1].p999 = bad.classes[1].p999 + milliseconds(1);
     if (which == 4) bad.slow_p99 = 1.21;
-    if (which == 5) bad.falsehoods.too_young = 1;
+    if (which == 5) bad.content_errors.too_young = 1;
     EXPECT_FALSE(bad.holds()) << which;
   }
 }

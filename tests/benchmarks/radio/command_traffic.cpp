@@ -18,7 +18,7 @@ using namespace telemetry;  // NOLINT: the bench of this one module
 namespace {
 
 constexpr HolderId kOperator = 1;
-constexpr Duration kRenewal = milliseconds(500), kPatience = seconds(30);
+constexpr Duration kRenewal = milliseconds(500), kTimeout = seconds(30);
 
 // What was given, by number.
 struct Given {
@@ -72,12 +72,12 @@ class Operator {
       if (one.judged) continue;
       const CommandProgress* progress = radio_.station().progress(one.id);
       CHECK(progress != nullptr);
-      if (!progress->fate) {
+      if (!progress->outcome) {
         figures_.without_fate += over ? 1 : 0;
         continue;
       }
       one.judged = true;
-      const bool applied = *progress->fate == Outcome::kApplied;
+      const bool applied = *progress->outcome == Outcome::kApplied;
       if (applied != (one.handed_out > 0)) ++figures_.fate_differs;
     }
     while (settled_ < given_.size() && given_[settled_].judged) ++settled_;
@@ -126,7 +126,7 @@ CommandFigures run_commands(VirtualRadio& radio, std::uint64_t count, Duration m
     hand.consume();
     if (dice % 64 == 0) hand.settle(false);
   }
-  for (const Instant end = radio.now() + kPatience; radio.now() < end;) {
+  for (const Instant end = radio.now() + kTimeout; radio.now() < end;) {
     hand.renew();
     radio.step();
     hand.consume();
@@ -190,7 +190,7 @@ bool StopTrial::release() {
   const Instant begin = radio_.now();
   std::optional<CommandId> asked;
   while (latched() && radio_.now() - begin < seconds(10)) {
-    const bool open = asked && !station.progress(*asked)->fate;
+    const bool open = asked && !station.progress(*asked)->outcome;
     if (!open) {
       const double challenge = radio_.car().view(radio_.car_now()).stop_challenge;
       asked = station.issue({CommandType::kReleaseStop, challenge, kOperator}, radio_.base_now());

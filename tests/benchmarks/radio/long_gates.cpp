@@ -13,8 +13,8 @@ namespace {
 
 constexpr Duration kBudgetWhole = seconds(3'600), kBurstWhole = seconds(1'800);
 
-bool tell(const SayLine& say, const std::string& line, bool holds) {
-  say((holds ? "holds   " : "BROKEN  ") + line);
+bool tell(const PrintLine& print, const std::string& line, bool holds) {
+  print((holds ? "holds   " : "BROKEN  ") + line);
   return holds;
 }
 
@@ -33,19 +33,19 @@ std::vector<BudgetCell> cells() {
 
 }  // namespace
 
-bool run_long_gates(const SayLine& say, double share) {
+bool run_long_gates(const PrintLine& print, double share) {
   bool all = true;
   std::vector<BudgetCell> budget = cells();
   for (BudgetCell& cell : budget) {
     cell.length = from_seconds(kBudgetWhole.seconds() * share / static_cast<double>(budget.size()));
     for (const BudgetVerdict& v : run_budget(cell).verdicts) {
-      all = tell(say, to_string(v), v.holds()) && all;
+      all = tell(print, to_string(v), v.holds()) && all;
     }
   }
   // Keys change each 15 minutes.
   const BudgetCell rekey{.load = 1.0, .length = from_seconds(kBurstWhole.seconds() * share)};
   for (const BudgetVerdict& v : run_budget(rekey).verdicts) {
-    all = tell(say, to_string(v) + " (key phases)", v.holds()) && all;
+    all = tell(print, to_string(v) + " (key phases)", v.holds()) && all;
   }
   for (const std::uint8_t paths : {std::uint8_t{1}, std::uint8_t{2}}) {
     for (const double load : {0.0, 3.0}) {
@@ -55,7 +55,7 @@ bool run_long_gates(const SayLine& say, double share) {
                           .seed = seed,
                           .length = from_seconds(kBurstWhole.seconds() * share)};
         const BurstRun run = run_burst(c);
-        all = tell(say, to_string(c, run), run.holds()) && all;
+        all = tell(print, to_string(c, run), run.holds()) && all;
       }
     }
   }

@@ -12,7 +12,7 @@
 
 namespace pitwall::radio {
 
-using SayLine = std::function<void(const std::string&)>;
-bool run_long_gates(const SayLine& say, double share);
+using PrintLine = std::function<void(const std::string&)>;
+bool run_long_gates(const PrintLine& print, double share);
 
 }  // namespace pitwall::radio

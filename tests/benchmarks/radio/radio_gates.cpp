@@ -78,7 +78,7 @@ void gate_commands(Table& table, const std::string& what, RadioSetup setup, std:
   table.none(what + ": applied after their time", f.after_time);
   table.none(what + ": applied after a newer one", f.out_of_order);
   table.none(what + ": fate not as the car had it", f.fate_differs);
-  table.none(what + ": values or ages that were false", radio.falsehoods().all());
+  table.none(what + ": values or ages that were false", radio.content_errors().all());
 }
 
 void all_commands(Table& table, const RadioOptions& options) {
@@ -111,7 +111,7 @@ void forgeries(Table& table, const RadioOptions& options) {
                 static_cast<unsigned long long>(f.sent[i]));
   }
   table.none("forged, replayed, reflected: accepted", f.accepted);
-  table.none("forged: values or ages that were false", radio.falsehoods().all());
+  table.none("forged: values or ages that were false", radio.content_errors().all());
 }
 
 struct Flooded {

@@ -28,7 +28,7 @@ class Relay {
   Relay& operator=(const Relay&) = delete;
 
   void begin() { active_ = true; }
-  void fall_silent() { active_ = false; }
+  void stop() { active_ = false; }
   void step();  // call before VirtualRadio::step()
   std::uint64_t forwarded() const { return forwarded_; }
 

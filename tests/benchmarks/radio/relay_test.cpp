@@ -18,7 +18,7 @@ TEST(Relay, ForwardsWhileItIsActiveAndNothingAfterwards) {
   const std::uint64_t forwarded = relay.forwarded();
   EXPECT_GT(forwarded, 100u);
   EXPECT_GT(radio.base_report().association.relayed, 20u);
-  relay.fall_silent();
+  relay.stop();
   for (int ms = 0; ms < 1'000; ++ms) relay.step(), radio.step();
   EXPECT_EQ(relay.forwarded(), forwarded);
 }

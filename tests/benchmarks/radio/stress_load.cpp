@@ -14,7 +14,7 @@ namespace {
 constexpr telemetry::HolderId kWho = 1;
 constexpr std::uint64_t kRenew_ms = 500;
 constexpr int kCommandsEachStep = 3;
-constexpr std::size_t kReceived = 64, kKnocksEachStep = 8;
+constexpr std::size_t kReceived = 64, kOpeningsEachStep = 8;
 constexpr std::uint64_t kAddresses = 200;
 constexpr std::uint64_t kFreshMessages_ms = 4'000, kBaseLives_ms = 700, kCarLives_ms = 1'100;
 
@@ -24,7 +24,7 @@ bool ends(std::uint64_t ms, std::uint64_t every) { return ms % every == every - 
 }  // namespace
 
 const char* text_of(Trouble trouble) {
-  static constexpr const char* kTexts[] = {"", "commands", "knocks", "restarts"};
+  static constexpr const char* kTexts[] = {"", "commands", "openings", "restarts"};
   return kTexts[static_cast<std::size_t>(trouble)];
 }
 
@@ -60,9 +60,9 @@ void StressLoad::command() {
   }
 }
 
-// Whole messages that were heard before, and spoiled ones, from many addresses, at both ends.
+// Whole messages that were received before, and corrupted ones, from many addresses, at both ends.
 void StressLoad::send_opening() {
-  for (std::size_t i = 0; i < kKnocksEachStep && !received_.empty(); ++i) {
+  for (std::size_t i = 0; i < kOpeningsEachStep && !received_.empty(); ++i) {
     std::vector<std::uint8_t> bytes = received_[(ms_ + i) % received_.size()];
     if (i % 2 == 1) bytes[(ms_ + i) % bytes.size()] ^= 0x55;
     const telemetry::Address from{0x0A000100 + static_cast<std::uint32_t>(ms_ % kAddresses),

@@ -175,19 +175,19 @@ void VirtualRadio::judge(std::span<const std::uint8_t> datagram, const Arrival& 
                      sent.sequence_low == header->sequence_low &&
                      sent.sequence_low == static_cast<std::uint32_t>(arrival.sequence);
   if (!known) {
-    ++falsehoods_.never_sampled;
+    ++content_errors_.never_sampled;
     return;
   }
-  if (sent.arrived) ++falsehoods_.repeated;
+  if (sent.arrived) ++content_errors_.repeated;
   sent.arrived = true;
   for (const GroupRow& row : kGroupTable) {
     if (!arrival.groups.has(row.group)) continue;
     std::int64_t& sample = sample_at_base_[index_of(row.group)];
-    if (sent.sample < sample) ++falsehoods_.went_back;
+    if (sent.sample < sample) ++content_errors_.went_back;
     sample = sent.sample;
     const Instant reported = station_->state().at(row.group);
     const Instant truth = base_time(Instant{} + kStep * sent.sample);
-    if (station_->clock_known() && reported > truth) ++falsehoods_.too_young;
+    if (station_->clock_known() && reported > truth) ++content_errors_.too_young;
     judge_values(row.group, sent.sample);
   }
 }
@@ -195,7 +195,7 @@ void VirtualRadio::judge(std::span<const std::uint8_t> datagram, const Arrival& 
 void VirtualRadio::judge_values(Group group, std::int64_t sample) {
   const auto [first, count] = fields_of(group);
   for (FieldIndex i = first; i < first + count; ++i) {
-    if (station_->state().values[i] != value_of(i, sample)) ++falsehoods_.never_sampled;
+    if (station_->state().values[i] != value_of(i, sample)) ++content_errors_.never_sampled;
   }
 }
 

@@ -47,8 +47,8 @@ struct RadioSetup {
   Duration to_utc{};        // UTC minus the car's clock
   std::array<telemetry::Address, telemetry::kPaths> spare{};  // further base addresses of the car
   // Registries that the ends announce; nullptr: the real one. They outlive the radio.
-  const telemetry::SchemaClaim* schema_of_car = nullptr;
-  const telemetry::SchemaClaim* schema_of_base = nullptr;
+  const telemetry::SchemaDescription* schema_of_car = nullptr;
+  const telemetry::SchemaDescription* schema_of_base = nullptr;
 };
 
 // A datagram that left an end; the size includes IP and UDP.
@@ -58,7 +58,7 @@ struct Departure {
 };
 
 // False data at the base, counted against the true samples.
-struct Falsehoods {
+struct ContentErrors {
   std::uint64_t too_young = 0;      // the reported sample time is later than the true one
   std::uint64_t never_sampled = 0;  // a value that the car did not have in that sample
   std::uint64_t went_back = 0;      // an older sample after a newer one
@@ -118,7 +118,7 @@ class VirtualRadio {
   void reset_ages() { ages_.reset(); }
   // True time of the group's newest sample at the base; nullopt before the first one.
   std::optional<Instant> sample_at_base(telemetry::Group group) const;
-  const Falsehoods& falsehoods() const { return falsehoods_; }
+  const ContentErrors& content_errors() const { return content_errors_; }
   std::uint64_t arrivals() const { return arrivals_; }
 
   void record_departures(bool on) { recording_ = on; }
@@ -176,7 +176,7 @@ class VirtualRadio {
   Tap tap_;
   Stray stray_;
   AgeMeter ages_;
-  Falsehoods falsehoods_;
+  ContentErrors content_errors_;
   std::uint64_t arrivals_ = 0;
   bool recording_ = false;
   std::array<std::array<std::vector<Departure>, telemetry::kPaths>, 2> departures_;

@@ -22,9 +22,9 @@ TEST(VirtualRadio, ACleanLinkShowsWhatTheCarHasAndHowOldItIs) {
   radio.run(seconds(10));
   EXPECT_GT(radio.arrivals(), 480u);
   EXPECT_TRUE(radio.station().clock_known());
-  EXPECT_EQ(radio.falsehoods().too_young, 0u);
-  EXPECT_EQ(radio.falsehoods().never_sampled, 0u);
-  EXPECT_EQ(radio.falsehoods().went_back, 0u);
+  EXPECT_EQ(radio.content_errors().too_young, 0u);
+  EXPECT_EQ(radio.content_errors().never_sampled, 0u);
+  EXPECT_EQ(radio.content_errors().went_back, 0u);
   EXPECT_LE(radio.ages().quantile(Group::kMode, 0.99), milliseconds(50));
   EXPECT_LE(radio.ages().quantile(Group::kEgo, 0.99), milliseconds(50));
 }
@@ -63,7 +63,7 @@ TEST(VirtualRadio, ClocksThatDifferAndDriftMakeNothingYoungerThanItIs) {
   VirtualRadio radio(setup);
   radio.run(seconds(120));
   EXPECT_GT(radio.arrivals(), 3'000u);
-  EXPECT_EQ(radio.falsehoods().too_young, 0u);
+  EXPECT_EQ(radio.content_errors().too_young, 0u);
 }
 
 TEST(VirtualRadio, AnOnlookerWouldNoticeAnEndThatToldLies) {
@@ -72,7 +72,7 @@ TEST(VirtualRadio, AnOnlookerWouldNoticeAnEndThatToldLies) {
   setup.clock_drift_ppm = -20'000.0;
   VirtualRadio radio(setup);
   radio.run(seconds(60));
-  EXPECT_GT(radio.falsehoods().too_young, 0u);
+  EXPECT_GT(radio.content_errors().too_young, 0u);
 }
 
 }  // namespace

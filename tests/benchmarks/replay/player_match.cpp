@@ -33,7 +33,7 @@ constexpr std::size_t kMaxBufferBytes = 64 << 20;
 constexpr std::size_t kWarmUpFrames = 200;
 constexpr std::size_t kRoomForExtra = 4'096;
 constexpr Duration kSettle = milliseconds(100);  // after a player's end, until the last arrival
-constexpr Duration kPatience = seconds(60);      // beyond the length of the log
+constexpr Duration kTimeout = seconds(60);       // beyond the length of the log
 constexpr Duration kDrainPeriod = milliseconds(100);  // of what does not hold a run
 constexpr int kFloorPriority = 50;
 constexpr int kFloorSleeps = 1'000;
@@ -118,9 +118,9 @@ std::optional<Problem> run_player(std::vector<std::string> command, Duration len
   command.insert(command.begin(), {"sh", "-c", "exec \"$@\" > /dev/null", "sh"});
   auto process = transport::Process::spawn({.argv = command});
   if (!process) return process.error();
-  const Instant give_up = transport::monotonic_now() + length + kPatience;
+  const Instant give_up = transport::monotonic_now() + length + kTimeout;
   while (transport::monotonic_now() < give_up) {
-    const Duration pause = meanwhile ? kDrainPeriod : length + kPatience;
+    const Duration pause = meanwhile ? kDrainPeriod : length + kTimeout;
     const auto status = process->wait_until(transport::monotonic_now() + pause);
     if (meanwhile) meanwhile();
     if (!status) continue;

@@ -30,11 +30,11 @@ struct Host {
   Instant now() const { return bench_now(memory.page(), transport::wall_now); }
   // The guest is at this instant; what the host answers.
   std::optional<Instant> at(Instant guest) {
-    in_guest.send(to_word(guest));
+    in_guest.send(encode_clock(guest));
     in_guest.flush();
     follower.serve(on_host);
     const auto word = in_guest.receive();
-    return word ? from_word(*word) : std::nullopt;
+    return word ? decode_clock(*word) : std::nullopt;
   }
 };
 
@@ -71,7 +71,7 @@ TEST(ClockFollower, TheAnswerWaitsForWhoIsHeldUpOnTheHost) {
   slot.due_ns = INT64_MAX;  // it has done its work and waits again
   host.follower.serve(host.on_host);
   EXPECT_FALSE(host.follower.is_waiting());
-  EXPECT_EQ(from_word(*host.in_guest.receive()), kGuest + seconds(1));
+  EXPECT_EQ(decode_clock(*host.in_guest.receive()), kGuest + seconds(1));
   EXPECT_GE(host.now() - before, milliseconds(900));
   ::kill(base, SIGKILL);
   ::waitpid(base, nullptr, 0);

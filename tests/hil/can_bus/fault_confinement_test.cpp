@@ -23,7 +23,7 @@ TEST(FaultConfinement, ThirtyTwoErrorsWhileSendingAreBusOff) {
 TEST(FaultConfinement, HearingErrorsNeverMakesBusOff) {
   FaultConfinement node;
   for (int i = 1; i <= 1000; ++i) {
-    failed_to_hear(node);
+    note_receive_error(node);
     const ErrorState expected = i < 96    ? ErrorState::kActive
                                 : i < 128 ? ErrorState::kWarning
                                           : ErrorState::kPassive;

@@ -204,7 +204,7 @@ TEST(LiveCommand, ATimeThatIsSharedIsKeptOnBothSidesOfTheLine) {
   for (const char* const clock : {"", "bench", "wall", "/dev/shm/t"}) {
     options.clock = clock;
     const bool is_file = clock[0] == '/';
-    const auto words = exec_words(options);
+    const auto words = exec_arguments(options);
     ASSERT_TRUE(words);
     const auto command = std::ranges::find(*words, "--");
     const auto outside = std::find(words->begin(), command, "--clock");
@@ -222,12 +222,12 @@ TEST(ExecWords, LeadTheRadioOutOfTheGuest) {
   RunOptions options;
   options.scenario = "s.yaml";
   options.interface = "vcan7";
-  const auto without = exec_words(options);
+  const auto without = exec_arguments(options);
   ASSERT_TRUE(without);
   EXPECT_EQ(std::ranges::count(*without, "--line-udp"), 0);
   options.radio_port = 23'431;
   options.uplink_port = 23'500;
-  const auto with = exec_words(options);
+  const auto with = exec_arguments(options);
   ASSERT_TRUE(with);
   const auto after = [&](const std::string& flag) {
     const auto at = std::ranges::find(*with, flag);
@@ -242,7 +242,7 @@ TEST(ExecWords, LeadTheRadioOutOfTheGuest) {
   EXPECT_EQ(after("--interface"), "vcan7");
   EXPECT_EQ(after("--"), own_program());
   options.uplink_port = 0;  // any
-  const auto any = exec_words(options);
+  const auto any = exec_arguments(options);
   ASSERT_TRUE(any);
   EXPECT_NE((*any)[5].substr(0, 2), "0:");
 }

@@ -281,20 +281,20 @@ TEST(Grader, AStandingIsOpenUntilSomethingWasSeenAndFailsForGood) {
   const Expectation never = expect(Kind::kNever, {"x", Op::kGreater, 8.0});
   auto grader = Grader::create({late, within, never}, kNames);
   ASSERT_TRUE(grader);
-  using enum Standing;
+  using enum ExpectationState;
   const auto after = [&](double t_s, double x) {
     const double values[] = {x, 0.0};
     grader->observe(at_s(t_s), values);
-    return grader->standings();
+    return grader->expectation_states();
   };
-  EXPECT_EQ(grader->standings(), (std::vector{kOpen, kOpen, kOpen}));
+  EXPECT_EQ(grader->expectation_states(), (std::vector{kOpen, kOpen, kOpen}));
   EXPECT_EQ(after(0.1, 0.0), (std::vector{kOpen, kOpen, kHolds}));
   EXPECT_EQ(after(0.6, 0.0), (std::vector{kHolds, kOpen, kHolds}));
   EXPECT_EQ(after(0.7, 6.0), (std::vector{kFailed, kHolds, kHolds}));
   EXPECT_EQ(after(0.8, 9.0), (std::vector{kFailed, kHolds, kFailed}));
   EXPECT_EQ(after(5.0, 0.0), (std::vector{kFailed, kHolds, kFailed}));
   for (std::size_t i = 0; const Verdict& verdict : grader->finish())
-    EXPECT_EQ(verdict.pass, grader->standings()[i++] == kHolds);
+    EXPECT_EQ(verdict.pass, grader->expectation_states()[i++] == kHolds);
 }
 
 }  // namespace

@@ -13,7 +13,7 @@ constexpr Duration kTick = milliseconds(10);
 
 // A car that lifts so long after it is told, then brakes at 10 m/s2.
 struct Drive {
-  ReactionBook book;
+  ReactionMonitor monitor;
   ReactionTick tick{.restriction = kGreen,
                     .flag = "green",
                     .stop = {},
@@ -25,7 +25,7 @@ struct Drive {
     for (Duration done{}; done < span; done = done + kTick) {
       tick.at += kTick;
       tick.speed_mps = std::max(0.0, tick.speed_mps + accel_mps2 * kTick.seconds());
-      book.observe(tick);
+      monitor.observe(tick);
     }
   }
   void flag(int restriction, std::string_view name) {
@@ -33,7 +33,7 @@ struct Drive {
     tick.flag = name;
   }
   void lift() { tick.throttle = 0.0; }
-  const Reaction& newest() const { return book.reactions().back(); }
+  const Reaction& newest() const { return monitor.reactions().back(); }
 };
 
 TEST(Reaction, OfARedFlagIsUntilTheCarLiftsAndUntilItStands) {
@@ -41,7 +41,7 @@ TEST(Reaction, OfARedFlagIsUntilTheCarLiftsAndUntilItStands) {
   drive.go(seconds(1));
   drive.flag(kRed, "red");
   drive.go(milliseconds(200));
-  ASSERT_EQ(drive.book.reactions().size(), 1U);
+  ASSERT_EQ(drive.monitor.reactions().size(), 1U);
   EXPECT_FALSE(drive.newest().reaction);
   drive.lift();
   drive.go(seconds(6), -10.0);
@@ -67,7 +67,7 @@ TEST(Reaction, BrakeOrAStopOfTheCarAreAnswersToo) {
   stops.go(milliseconds(30));
   stops.tick.stop = "controlled stop";
   stops.go(seconds(1));
-  ASSERT_EQ(stops.book.reactions().size(), 1U);  // the stop answers the flag
+  ASSERT_EQ(stops.monitor.reactions().size(), 1U);  // the stop answers the flag
   EXPECT_EQ(stops.newest().reaction, milliseconds(30));
 }
 
@@ -76,7 +76,7 @@ TEST(Reaction, AStopWithoutAFlagIsCounted) {
   drive.go(seconds(1));
   drive.tick.stop = "emergency stop";
   drive.go(seconds(6), -10.0);
-  ASSERT_EQ(drive.book.reactions().size(), 1U);
+  ASSERT_EQ(drive.monitor.reactions().size(), 1U);
   EXPECT_EQ(drive.newest().to, "emergency stop");
   EXPECT_EQ(drive.newest().reaction, Duration{});
   EXPECT_NEAR(drive.newest().stop_m.value(), 125.0, 1.0);
@@ -88,12 +88,12 @@ TEST(Reaction, NeitherAReleaseNorAFlagForAStandingCarIsOne) {
   drive.go(seconds(1));
   drive.flag(kGreen, "green");
   drive.go(seconds(1));
-  EXPECT_TRUE(drive.book.reactions().empty());
+  EXPECT_TRUE(drive.monitor.reactions().empty());
   drive.tick.speed_mps = 0.0;
   drive.go(seconds(1));
   drive.flag(kRed, "red");
   drive.go(seconds(1));
-  EXPECT_TRUE(drive.book.reactions().empty());
+  EXPECT_TRUE(drive.monitor.reactions().empty());
 }
 
 TEST(Reaction, GreenAgainBeforeTheCarStoodEndsTheCount) {
@@ -110,14 +110,14 @@ TEST(Reaction, GreenAgainBeforeTheCarStoodEndsTheCount) {
 
 TEST(Reaction, ManyAreCountedAndTheFirstKept) {
   Drive drive;
-  for (std::size_t i = 0; i < ReactionBook::kKept + 5; ++i) {
+  for (std::size_t i = 0; i < ReactionMonitor::kKept + 5; ++i) {
     drive.flag(kGreen, "green");
     drive.go(milliseconds(20));
     drive.flag(kYellow, "yellow");
     drive.go(milliseconds(20));
   }
-  EXPECT_EQ(drive.book.reactions().size(), ReactionBook::kKept);
-  EXPECT_EQ(drive.book.left_out(), 5U);
+  EXPECT_EQ(drive.monitor.reactions().size(), ReactionMonitor::kKept);
+  EXPECT_EQ(drive.monitor.left_out(), 5U);
 }
 
 }  // namespace

@@ -61,9 +61,9 @@ double value_in(const can::Database& database, const can::Frame& frame, const ch
 TEST(CanVariant, V14ChangesNothing) {
   CanVariant v14 = made(BusRevision::kV14);
   for (const can::Frame& frame : model_frames()) {
-    const Frames spoken = v14.spoken(frame);
-    ASSERT_EQ(spoken.size(), 1u);
-    EXPECT_EQ(spoken[0], frame);
+    const Frames transmitted = v14.transmitted(frame);
+    ASSERT_EQ(transmitted.size(), 1u);
+    EXPECT_EQ(transmitted[0], frame);
     EXPECT_EQ(v14.receive(frame), frame);
   }
   EXPECT_TRUE(v14.due(Instant{} + seconds(10)).empty());
@@ -79,7 +79,7 @@ TEST(CanVariant, WhatIsSaidMeansTheSame) {
     for (const can::Frame& frame : model_frames()) {
       const can::Message* const model = v14.database().find(frame.id);
       ASSERT_NE(model, nullptr);
-      for (const can::Frame& stated : other.spoken(frame)) {
+      for (const can::Frame& stated : other.transmitted(frame)) {
         const can::Message* const message = other.database().find(stated.id);
         ASSERT_NE(message, nullptr) << stated.id;
         ASSERT_TRUE(can::is_frame_of(*message, stated)) << message->name;
@@ -105,7 +105,7 @@ TEST(CanVariant, V9HasNoMarelliAndTenBitsOfSteering) {
   av21::SteeringReport report;
   report.steering_motor_ang_avg_fdbk = -1.0;
   report.steering_motor_fdbk_counter = 7;
-  const Frames stated = v9.spoken(frame_of(report));
+  const Frames stated = v9.transmitted(frame_of(report));
   ASSERT_EQ(stated.size(), 1u);
   EXPECT_EQ(value_in(v9.database(), stated[0], "steering_motor_ang_avg_fdbk"), -1.0);
   // What a V14 car would read: the reason for all of this.
@@ -116,7 +116,7 @@ TEST(CanVariant, V9HasNoMarelliAndTenBitsOfSteering) {
 TEST(CanVariant, V12SaysMarelliInThreeMessages) {
   CanVariant v12 = made(BusRevision::kV12);
   av21::MarelliReport1 flags{9, 25, 3, 1, -70};
-  const Frames stated = v12.spoken(frame_of(flags));
+  const Frames stated = v12.transmitted(frame_of(flags));
   ASSERT_EQ(stated.size(), 2u);
   EXPECT_EQ(stated[0].id, 1000u);
   EXPECT_EQ(value_in(v12.database(), stated[0], "Marelli_Track_Flag"), 9.0);
@@ -124,7 +124,7 @@ TEST(CanVariant, V12SaysMarelliInThreeMessages) {
   EXPECT_EQ(stated[1].id, 1001u);
   EXPECT_EQ(value_in(v12.database(), stated[1], "lte_sync_ok"), 1.0);
   EXPECT_EQ(value_in(v12.database(), stated[1], "lte_modem_lte_rssi"), -70.0);
-  const Frames position = v12.spoken(frame_of(av21::MarelliReport2{36.25, -115.0}));
+  const Frames position = v12.transmitted(frame_of(av21::MarelliReport2{36.25, -115.0}));
   ASSERT_EQ(position.size(), 1u);
   EXPECT_EQ(position[0].id, 1002u);
   EXPECT_NEAR(value_in(v12.database(), position[0], "GPS_Lon"), -115.0, 1e-7);

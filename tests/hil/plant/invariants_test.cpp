@@ -40,9 +40,9 @@ INSTANTIATE_TEST_SUITE_P(EveryStructure, Invariants,
 using MotionNumbers = std::array<double, sizeof(Motion) / sizeof(double)>;
 MotionNumbers numbers_of(const Motion& m) { return std::bit_cast<MotionNumbers>(m); }
 
-struct Dice {
+struct RandomValues {
   Random random;
-  explicit Dice(std::uint64_t seed) : random{seed} {}
+  explicit RandomValues(std::uint64_t seed) : random{seed} {}
   double operator()(double low, double high) { return low + (high - low) * random.uniform(); }
 };
 
@@ -101,7 +101,7 @@ TEST_P(Invariants, LeftAndRightAreMirroredExactly) {
   p.thermal.cold_grip_loss = p.thermal.hot_grip_loss = 0.2;
   p.aero.side_arm_m = -0.3;
   for (std::uint64_t seed = 0; seed < 8; ++seed) {
-    Dice dice(seed);
+    RandomValues dice(seed);
     State left = rolling_car(dice(0.0, 70.0), 3, p), right = left;
     Actuation a{.gear = 3, .ignition = true};
     Surface road;
@@ -198,7 +198,7 @@ TEST_P(Invariants, CoastingNeverGainsEnergy) {
   const Params p = params();
   int stopped = 0;
   for (std::uint64_t seed = 0; seed < 36; ++seed) {
-    Dice dice(seed);
+    RandomValues dice(seed);
     State s = rolling_car(seed % 3 == 0 ? dice(1.0, 10.0) : dice(10.0, 85.0), 0, p);
     s.motion.vy_mps = std::max(0.0, dice(-6.0, 6.0));
     const Actuation a{.steering_motor_rad = dice(-1.0, 1.0) * dice(0.0, 4.0),
@@ -252,7 +252,7 @@ double sum_of(const Wheels& w) { return (w[0] + w[1]) + (w[2] + w[3]); }
 TEST_P(Invariants, LoadsCarryWeightDownforceAndBanking) {
   const Params p = params();
   for (std::uint64_t seed = 0; seed < 2000; ++seed) {
-    Dice dice(seed);
+    RandomValues dice(seed);
     State s = rolling_car(dice(0.0, 85.0), 5, p);
     s.motion.yaw_rate_rad_per_s = dice(-0.4, 0.4);
     s.motion.yaw_rad = dice(-3.0, 3.0);
@@ -283,7 +283,7 @@ TEST_P(Invariants, LoadsCarryPitchAndRoll) {
   const Params p = params();
   const Chassis& c = p.chassis;
   for (std::uint64_t seed = 0; seed < 500; ++seed) {
-    Dice dice(seed);
+    RandomValues dice(seed);
     State s = rolling_car(dice(0.0, 85.0), 5, p);
     const Wheels level = observe(p, s, {}).load_n;
     const double ax_mps2 = dice(-15.0, 8.0), ay_mps2 = dice(-14.0, 14.0);
@@ -345,7 +345,7 @@ TEST_P(Invariants, RemainsFiniteWhateverIsAskedOfIt) {
   Params p = params();
   p.engine.throttle_delay_s = 0.1, p.brakes.delay_s = 0.2, p.drivetrain.shift_delay_s = 0.3;
   for (std::uint64_t seed = 0; seed < 6; ++seed) {
-    Dice dice(seed);
+    RandomValues dice(seed);
     State s = rolling_car(70.0, 6, p);
     for (int i = 0; i < 8'000; ++i) {
       const std::array<double, 4> wild{1e300, -1e300, std::nan(""), dice(-4.0, 4.0)};

@@ -1,4 +1,4 @@
-// The player on a rim of virtual time: every law of the schedule, without a clock or a bus.
+// The player on I/O in virtual time: every rule of the schedule, without a clock or a bus.
 // SPDX-License-Identifier: Apache-2.0
 #include "hil/replay/player.hpp"
 
@@ -16,7 +16,7 @@ struct Sent {
 
 // Wakes up late by what `latency` says, and by `stall` once, at the first wake-up after `stall_at`;
 // takes at most `room` frames per call. Each look at the clock takes `look`.
-struct VirtualRim {
+struct VirtualIo {
   Instant time{};
   Duration latency{}, call{}, look{};
   std::size_t room = SIZE_MAX;
@@ -72,56 +72,56 @@ TEST(Player, EveryFrameOnceInOrderNeverEarlierThanAGroup) {
     for (int i = 0; i < 300; ++i)
       due_us.push_back(due_us.back() + static_cast<std::int64_t>(random() % 400));
     const Timeline t = timeline_of(due_us);
-    VirtualRim rim{.latency = microseconds(static_cast<std::int64_t>(random() % 300)),
-                   .call = microseconds(static_cast<std::int64_t>(random() % 30))};
+    VirtualIo io{.latency = microseconds(static_cast<std::int64_t>(random() % 300)),
+                 .call = microseconds(static_cast<std::int64_t>(random() % 30))};
     const Instant start{seconds(5).ns};
-    const auto report = Player(t, {.passes = 3}, rim).play(start);
-    ASSERT_EQ(rim.sent.size(), 3 * due_us.size());
-    ASSERT_EQ(report.frames.sent, rim.sent.size());
-    for (std::size_t i = 0; i < rim.sent.size(); ++i) {
+    const auto report = Player(t, {.passes = 3}, io).play(start);
+    ASSERT_EQ(io.sent.size(), 3 * due_us.size());
+    ASSERT_EQ(report.frames.sent, io.sent.size());
+    for (std::size_t i = 0; i < io.sent.size(); ++i) {
       const std::size_t k = i % due_us.size();
       const auto pass = static_cast<std::int64_t>(i / due_us.size());
       const Instant due = start + t.pass * pass + t.tracks[0].due[k];
-      ASSERT_EQ(rim.sent[i].frame, k);
-      ASSERT_GE(rim.sent[i].at, due - kGroup);
+      ASSERT_EQ(io.sent[i].frame, k);
+      ASSERT_GE(io.sent[i].at, due - kGroup);
     }
   }
 }
 
 TEST(Player, FramesOfOneGroupAreOneCall) {
   const Timeline t = timeline_of({0, 5, 20, 21, 1'000, 1'020});
-  VirtualRim rim;
-  EXPECT_EQ(Player(t, {}, rim).play({}).calls, 3U);  // 0 5 20 | 21 | 1000 1020
+  VirtualIo io;
+  EXPECT_EQ(Player(t, {}, io).play({}).calls, 3U);  // 0 5 20 | 21 | 1000 1020
 }
 
 // In a guest a system call costs 16 us: what a wake-up may cost is a law, not a hope.
 TEST(Player, AWakeUpIsOneSleepOneSendAndOneLookAtTheClock) {
   const Timeline t = timeline_of(every_ms(500));
-  VirtualRim rim{.latency = microseconds(50), .call = microseconds(20), .look = microseconds(16)};
+  VirtualIo io{.latency = microseconds(50), .call = microseconds(20), .look = microseconds(16)};
   const Instant start{seconds(1).ns};
-  const auto report = Player(t, {}, rim).play(start);
-  EXPECT_EQ(rim.waits, 500);
-  EXPECT_EQ(rim.sends, 500);
-  EXPECT_EQ(rim.looks, 501);
+  const auto report = Player(t, {}, io).play(start);
+  EXPECT_EQ(io.waits, 500);
+  EXPECT_EQ(io.sends, 500);
+  EXPECT_EQ(io.looks, 501);
   EXPECT_EQ(report.waits, 500U);
   EXPECT_EQ(report.calls, 500U);
   // Nothing but the sleep and the call itself lies between the due time and the bus.
-  for (const Sent& sent : rim.sent)
+  for (const Sent& sent : io.sent)
     ASSERT_EQ(sent.at - (start + t.tracks[0].due[sent.frame]), microseconds(70));
 }
 
 TEST(Player, WhatIsDueAlreadyIsNotSleptFor) {
   const Timeline t = timeline_of({0, 30, 60, 90, 5'000});
-  VirtualRim rim{.latency = microseconds(100)};
-  const auto report = Player(t, {}, rim).play({});
+  VirtualIo io{.latency = microseconds(100)};
+  const auto report = Player(t, {}, io).play({});
   EXPECT_EQ(report.waits, 2U);  // 30 and 5,000: the first is due at the start, the others late
-  EXPECT_EQ(rim.sent.back().at, Instant{} + microseconds(5'100));
+  EXPECT_EQ(io.sent.back().at, Instant{} + microseconds(5'100));
 }
 
 TEST(Player, LatenessIsMeasuredFromTheScheduleAndDoesNotAddUp) {
   const Timeline t = timeline_of(every_ms(1'000));
-  VirtualRim rim{.latency = microseconds(70)};
-  const auto report = Player(t, {}, rim).play(Instant{seconds(1).ns});
+  VirtualIo io{.latency = microseconds(70)};
+  const auto report = Player(t, {}, io).play(Instant{seconds(1).ns});
   EXPECT_EQ(report.lateness.count(), 1'000U);
   EXPECT_EQ(report.lateness.latest(), microseconds(70));
   EXPECT_EQ(report.lateness.earliest(), microseconds(70));
@@ -130,7 +130,7 @@ TEST(Player, LatenessIsMeasuredFromTheScheduleAndDoesNotAddUp) {
 
 TEST(Player, PassesDoNotDriftAndTheSeamIsMeasured) {
   const Timeline t = timeline_of(every_ms(20));
-  VirtualRim steady{.latency = microseconds(70)};
+  VirtualIo steady{.latency = microseconds(70)};
   const Instant start{seconds(1).ns};
   auto report = Player(t, {.passes = 1'000}, steady).play(start);
   ASSERT_EQ(steady.sent.size(), 20'000U);
@@ -138,7 +138,7 @@ TEST(Player, PassesDoNotDriftAndTheSeamIsMeasured) {
             start + t.pass * 999 + t.tracks[0].due.back() + microseconds(70));
   EXPECT_EQ(report.seam_error.ns, 0);
   // A stall that strikes the first frame of the third pass is the error of that seam.
-  VirtualRim stalled{.latency = microseconds(70)};
+  VirtualIo stalled{.latency = microseconds(70)};
   stalled.stall_at = start + t.pass * 2;
   stalled.stall = microseconds(700);
   report = Player(t, {.passes = 5}, stalled).play(start);
@@ -147,10 +147,10 @@ TEST(Player, PassesDoNotDriftAndTheSeamIsMeasured) {
 
 TEST(Player, AFullQueueIsRetriedInOrder) {
   const Timeline t = timeline_of({0, 1, 2, 3, 4, 5, 6, 7});
-  VirtualRim rim{.room = 3};
-  const auto report = Player(t, {}, rim).play({});
-  ASSERT_EQ(rim.sent.size(), 8U);
-  for (std::size_t i = 0; i < 8; ++i) EXPECT_EQ(rim.sent[i].frame, i);
+  VirtualIo io{.room = 3};
+  const auto report = Player(t, {}, io).play({});
+  ASSERT_EQ(io.sent.size(), 8U);
+  for (std::size_t i = 0; i < 8; ++i) EXPECT_EQ(io.sent[i].frame, i);
   EXPECT_EQ(report.retries, 2U);
   EXPECT_EQ(report.dropped(), 0U);
   EXPECT_EQ(report.lateness.count(), 8U);
@@ -158,8 +158,8 @@ TEST(Player, AFullQueueIsRetriedInOrder) {
 
 TEST(Player, ABusThatTakesNothingEndsInDropsNotInAHang) {
   const Timeline t = timeline_of({0, 1, 2});
-  VirtualRim rim{.room = 0};
-  const auto report = Player(t, {}, rim).play({});
+  VirtualIo io{.room = 0};
+  const auto report = Player(t, {}, io).play({});
   EXPECT_EQ(report.frames.sent, 0U);
   EXPECT_EQ(report.frames.dropped_full, 3U);
   EXPECT_GT(report.retries, 0U);
@@ -169,32 +169,32 @@ TEST(Player, ABusThatTakesNothingEndsInDropsNotInAHang) {
 
 TEST(Player, WhatTheKernelRefusesForGoodIsNotRetried) {
   const Timeline t = timeline_of({0, 1, 2});
-  VirtualRim rim{.room = 0, .room_again = false};
-  const auto report = Player(t, {}, rim).play({});
+  VirtualIo io{.room = 0, .room_again = false};
+  const auto report = Player(t, {}, io).play({});
   EXPECT_EQ(report.frames.dropped_refused, 3U);
   EXPECT_EQ(report.retries, 0U);
-  EXPECT_EQ(rim.waits, 0);
+  EXPECT_EQ(io.waits, 0);
 }
 
 // One stall of 10 ms in the middle of a log of one frame a millisecond, under each policy.
 class LatePolicies : public testing::Test {
  protected:
   PlayReport play(const PlayOptions& options) {
-    rim_.stall_at = start_ + milliseconds(50);
-    rim_.stall = milliseconds(10);
-    return Player(timeline_, options, rim_).play(start_);
+    io_.stall_at = start_ + milliseconds(50);
+    io_.stall = milliseconds(10);
+    return Player(timeline_, options, io_).play(start_);
   }
   Timeline timeline_ = timeline_of(every_ms(100));
   Instant start_{seconds(1).ns};
-  VirtualRim rim_{.latency = microseconds(30)};
+  VirtualIo io_{.latency = microseconds(30)};
 };
 
 TEST_F(LatePolicies, CatchUpSendsAllInOrderAndIsOnScheduleAgain) {
   const auto report = play({});
-  ASSERT_EQ(rim_.sent.size(), 100U);
-  for (std::size_t i = 0; i < 100; ++i) ASSERT_EQ(rim_.sent[i].frame, i);
+  ASSERT_EQ(io_.sent.size(), 100U);
+  for (std::size_t i = 0; i < 100; ++i) ASSERT_EQ(io_.sent[i].frame, i);
   EXPECT_EQ(report.lateness.latest(), milliseconds(10) + microseconds(30));
-  EXPECT_EQ(rim_.sent.back().at, start_ + milliseconds(99) + microseconds(30));
+  EXPECT_EQ(io_.sent.back().at, start_ + milliseconds(99) + microseconds(30));
   EXPECT_EQ(report.calls, 91U);  // the ten that became due meanwhile went out in one
 }
 
@@ -209,7 +209,7 @@ TEST_F(LatePolicies, DropLeavesOutExactlyWhatIsTooLateAndNamesIt) {
     EXPECT_EQ(report.dropped_list[i].record, 50 + i);
     EXPECT_GT(report.dropped_list[i].late, milliseconds(4));
   }
-  for (const Sent& sent : rim_.sent) {
+  for (const Sent& sent : io_.sent) {
     EXPECT_TRUE(sent.frame < 50 || sent.frame > 56) << sent.frame;
     EXPECT_LE(sent.at - (start_ + timeline_.tracks[0].due[sent.frame]), milliseconds(4));
   }
@@ -226,7 +226,7 @@ TEST_F(LatePolicies, AbortSendsNothingThatIsTooLate) {
 
 TEST_F(LatePolicies, WithinTheLimitNothingChanges) {
   for (const LatePolicy policy : {LatePolicy::kDrop, LatePolicy::kAbort}) {
-    rim_ = VirtualRim{.latency = microseconds(30)};
+    io_ = VirtualIo{.latency = microseconds(30)};
     const auto report = play({.late = policy, .late_limit = milliseconds(11)});
     EXPECT_EQ(report.frames.sent, 100U);
     EXPECT_FALSE(report.aborted);
@@ -235,18 +235,18 @@ TEST_F(LatePolicies, WithinTheLimitNothingChanges) {
 
 TEST(Player, MoreDropsThanTheListHoldsAreCountedAllTheSame) {
   const Timeline t = timeline_of(every_ms(1'000));
-  VirtualRim rim{.time = Instant{seconds(5).ns}};  // the whole schedule has passed
+  VirtualIo io{.time = Instant{seconds(5).ns}};  // the whole schedule has passed
   const auto report =
-      Player(t, {.late = LatePolicy::kDrop, .late_limit = milliseconds(1)}, rim).play({});
+      Player(t, {.late = LatePolicy::kDrop, .late_limit = milliseconds(1)}, io).play({});
   EXPECT_EQ(report.frames.dropped_late, 1'000U);
   EXPECT_EQ(report.dropped_list.size(), kListedDrops);
-  EXPECT_EQ(rim.sends, 0);
+  EXPECT_EQ(io.sends, 0);
 }
 
 TEST(Player, AStopEndsItBetweenFrames) {
   const Timeline t = timeline_of({0, 1'000, 2'000, 3'000});
-  VirtualRim rim{.stop_after = 2};
-  const auto report = Player(t, {.passes = 100}, rim).play({});
+  VirtualIo io{.stop_after = 2};
+  const auto report = Player(t, {.passes = 100}, io).play({});
   EXPECT_TRUE(report.stopped);
   EXPECT_EQ(report.frames.sent, 2U);
 }
@@ -255,13 +255,13 @@ TEST(Player, TwoBusesShareOneClock) {
   Timeline t = timeline_of({0, 1'000, 2'000});
   Timeline other = timeline_of({500, 1'005, 9'000});
   t.tracks.push_back(other.tracks[0]);
-  VirtualRim rim;
-  const auto report = Player(t, {}, rim).play({});
+  VirtualIo io;
+  const auto report = Player(t, {}, io).play({});
   EXPECT_EQ(report.frames.sent, 6U);
   EXPECT_EQ(report.waits, 4U);  // 0 is due when it begins; 1,000 and 1,005 share a wake-up
-  EXPECT_TRUE(std::is_sorted(rim.sent.begin(), rim.sent.end(),
+  EXPECT_TRUE(std::is_sorted(io.sent.begin(), io.sent.end(),
                              [](const Sent& a, const Sent& b) { return a.at < b.at; }));
-  EXPECT_EQ(rim.sent.back().at, Instant{} + microseconds(9'000));
+  EXPECT_EQ(io.sent.back().at, Instant{} + microseconds(9'000));
 }
 
 // On time, late and with full queues: none ahead of another by more than a group, and what is due
@@ -279,22 +279,22 @@ TEST(Player, FramesAndDatagramsOfAllTracksKeepOneOrder) {
       ++(track.to ? t.datagrams : t.frames);
     }
     t.pass = microseconds(due_us + 50);
-    VirtualRim rim{.latency = microseconds(static_cast<std::int64_t>(random() % 90)),
-                   .call = microseconds(static_cast<std::int64_t>(random() % 30)),
-                   .room = 1 + random() % 4,
-                   .stall_at = Instant{} + microseconds(due_us / 3),
-                   .stall = milliseconds(static_cast<std::int64_t>(random() % 5))};
-    const auto report = Player(t, {.passes = 3}, rim).play({});
+    VirtualIo io{.latency = microseconds(static_cast<std::int64_t>(random() % 90)),
+                 .call = microseconds(static_cast<std::int64_t>(random() % 30)),
+                 .room = 1 + random() % 4,
+                 .stall_at = Instant{} + microseconds(due_us / 3),
+                 .stall = milliseconds(static_cast<std::int64_t>(random() % 5))};
+    const auto report = Player(t, {.passes = 3}, io).play({});
     EXPECT_EQ(report.frames.sent, 3 * t.frames);
     EXPECT_EQ(report.datagrams.sent, 3 * t.datagrams);
-    ASSERT_EQ(rim.sent.size(), 3 * t.size());
+    ASSERT_EQ(io.sent.size(), 3 * t.size());
     const auto place = [&](const Sent& sent) { return t.tracks[sent.bus].due[sent.frame]; };
-    for (std::size_t i = 0; i < rim.sent.size(); ++i) {
+    for (std::size_t i = 0; i < io.sent.size(); ++i) {
       const std::size_t pass_end = (i / t.size() + 1) * t.size();
       for (std::size_t j = i + 1; j < pass_end; ++j) {
-        ASSERT_GE(place(rim.sent[j]), place(rim.sent[i]) - kGroup);
-        if (place(rim.sent[j]) == place(rim.sent[i])) {
-          ASSERT_GE(rim.sent[j].bus, rim.sent[i].bus) << round << ": " << i << ", " << j;
+        ASSERT_GE(place(io.sent[j]), place(io.sent[i]) - kGroup);
+        if (place(io.sent[j]) == place(io.sent[i])) {
+          ASSERT_GE(io.sent[j].bus, io.sent[i].bus) << round << ": " << i << ", " << j;
         }
       }
     }
@@ -304,21 +304,21 @@ TEST(Player, FramesAndDatagramsOfAllTracksKeepOneOrder) {
 TEST(Player, DroppedDatagramsAreCountedApartFromFrames) {
   Timeline t = timeline_of(every_ms(3));
   t.tracks.push_back({.target = "r", .due = t.tracks[0].due, .to = transport::UdpAddress{}});
-  VirtualRim rim{.room = 0, .room_again = false};
-  const auto report = Player(t, {.passes = 2}, rim).play({});
+  VirtualIo io{.room = 0, .room_again = false};
+  const auto report = Player(t, {.passes = 2}, io).play({});
   EXPECT_EQ(report.frames.dropped_refused, 6U);
   EXPECT_EQ(report.datagrams.dropped_refused, 6U);
   EXPECT_EQ(report.dropped(), 12U);
 }
 
 // Remembers for which pass each frame was prepared last.
-struct PreparingRim : VirtualRim {
+struct PreparingIo : VirtualIo {
   std::vector<unsigned> prepared_for, sent_for;
   std::size_t position = 0;
   unsigned preparing = 0;
 
   TrackOutcome send(std::size_t bus, std::size_t first, std::size_t count) {
-    const TrackOutcome outcome = VirtualRim::send(bus, first, count);
+    const TrackOutcome outcome = VirtualIo::send(bus, first, count);
     for (std::size_t i = first; i < first + outcome.taken; ++i)
       EXPECT_EQ(prepared_for[i], sent_for[i]++) << i;
     return outcome;
@@ -336,14 +336,14 @@ struct PreparingRim : VirtualRim {
 TEST(Player, EachFrameIsPreparedForItsNextPassAfterItHasGone) {
   const Timeline t = timeline_of({0, 5, 20, 21, 1'000, 1'020, 1'020, 5'000});
   for (const std::size_t room : {std::size_t{1}, std::size_t{3}, SIZE_MAX}) {
-    PreparingRim rim;
-    rim.latency = microseconds(30);
-    rim.room = room;
-    rim.prepared_for.resize(8);
-    rim.sent_for.resize(8);
-    EXPECT_EQ(Player(t, {.passes = 5}, rim).play({}).frames.sent, 40U);
-    EXPECT_EQ(rim.sent_for, std::vector<unsigned>(8, 5));
-    EXPECT_EQ(rim.prepared_for, std::vector<unsigned>(8, 4));  // none for a pass that does not come
+    PreparingIo io;
+    io.latency = microseconds(30);
+    io.room = room;
+    io.prepared_for.resize(8);
+    io.sent_for.resize(8);
+    EXPECT_EQ(Player(t, {.passes = 5}, io).play({}).frames.sent, 40U);
+    EXPECT_EQ(io.sent_for, std::vector<unsigned>(8, 5));
+    EXPECT_EQ(io.prepared_for, std::vector<unsigned>(8, 4));  // none for a pass that does not come
   }
 }
 

@@ -172,7 +172,8 @@ TEST(ReplayClock, AFileThatCannotBeIsNamed) {
 TEST(ReplayClock, SaysForHowLongAndForWhom) {
   transport::ClockWaits waits;
   waits.total = milliseconds(250);
-  EXPECT_EQ(to_text(waits), "bench time stood for 0.25 s in all\n") << "another keeps it";
+  EXPECT_EQ(to_text(waits), "bench time stood for 0.25 s in all\n")
+      << "another process runs the clock";
   EXPECT_EQ(to_json(waits), "{\"stood_s\": 0.25}");
   waits.count = 3;
   waits.longest = milliseconds(79);

@@ -147,7 +147,7 @@ TEST(DbcParser, ParkedSignalsAreSkippedAndTold) {
       parsed("BO_ 3221225472 VECTOR__INDEPENDENT_SIG_MSG: 0 Vector__XXX\n" + kSignal + kSignal);
   EXPECT_TRUE(d.messages.empty());
   ASSERT_EQ(d.findings.size(), 1U);
-  EXPECT_EQ(d.findings[0].kind, FindingKind::kParked);
+  EXPECT_EQ(d.findings[0].kind, FindingKind::kIndependentSignals);
   EXPECT_EQ(d.findings[0].what,
             "VECTOR__INDEPENDENT_SIG_MSG is no message; its 2 signals are skipped");
 }

@@ -25,7 +25,7 @@ TEST(Finding, KindsStandInTheOrderOfTheirSeverity) {
   EXPECT_EQ(severity_of(FindingKind::kTooLong), FindingSeverity::kError);
   EXPECT_EQ(severity_of(FindingKind::kRange), FindingSeverity::kWarning);
   EXPECT_EQ(severity_of(FindingKind::kUnreceived), FindingSeverity::kWarning);
-  EXPECT_EQ(severity_of(FindingKind::kParked), FindingSeverity::kNote);
+  EXPECT_EQ(severity_of(FindingKind::kIndependentSignals), FindingSeverity::kNote);
   EXPECT_STREQ(name_of(FindingSeverity::kError), "error");
   EXPECT_STREQ(name_of(FindingSeverity::kNote), "note");
 }

@@ -6,7 +6,7 @@
 #include "protocol/can/encode.hpp"
 #include "protocol/can/integrity_bench.hpp"
 #include "protocol/can/message_monitor.hpp"
-#include "tests/protocol/can/bus_story.hpp"
+#include "tests/protocol/can/bus_trace.hpp"
 #include "tests/support/integrity_bus.hpp"
 
 namespace pitwall::can {

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "protocol/can/av21.hpp"
-#include "tests/protocol/can/bus_story.hpp"
+#include "tests/protocol/can/bus_trace.hpp"
 #include "tests/protocol/can/monitor_alone.hpp"
 
 namespace pitwall::can {
@@ -24,33 +24,33 @@ std::int64_t losses_before(const std::vector<Send>& sends, std::int64_t index) {
 }
 
 // The law of the header: each lost send is blamed once, no other is, and in time.
-void expect_every_loss_once(const SenderHabits& habits, bool has_counter, Random& noise) {
-  const std::vector<Send> sends = story(habits, noise);
-  const MessageRow row = row_of(habits, has_counter);
+void expect_every_loss_once(const SenderTiming& timing, bool has_counter, Random& noise) {
+  const std::vector<Send> sends = trace(timing, noise);
+  const MessageRow row = row_of(timing, has_counter);
   const Received received = run_monitor(row, sends, milliseconds(150));
   std::int64_t last_received = 0;
   std::uint32_t lost = 0;
   for (std::size_t i = 0; i < sends.size(); ++i) {
     if (!sends[i].is_lost) last_received = static_cast<std::int64_t>(i);
   }
-  auto blame = blamed(sends, habits.period, received.reports);
+  auto blame = blamed(sends, timing.period, received.reports);
   for (std::size_t i = 0; i < sends.size(); ++i) {
     const auto index = static_cast<std::int64_t>(i);
     const bool is_trailing = index > last_received;
     const bool is_owed = sends[i].is_lost && (!is_trailing || index <= last_received + 5);
     ASSERT_EQ(blame[index], is_owed ? 1 : 0)
-        << "send " << i << " of period " << habits.period.ns << " top " << habits.top;
+        << "send " << i << " of period " << timing.period.ns << " top " << timing.top;
     lost += sends[i].is_lost ? 1U : 0U;
   }
   for (const LossReport& r : received.reports) {
     EXPECT_EQ(r.id, row.id);
-    const std::int64_t index = nearest_send(sends, habits.period, r.due);
-    if (index >= static_cast<std::int64_t>(sends.size())) continue;  // after the end of the story
+    const std::int64_t index = nearest_send(sends, timing.period, r.due);
+    if (index >= static_cast<std::int64_t>(sends.size())) continue;  // after the end of the trace
     const Instant due = sends[static_cast<std::size_t>(index)].due;
     if (losses_before(sends, index) >= 5) continue;  // past the timeout: by the frame that ends it
-    EXPECT_LE(r.due - due, habits.delay_max);
-    EXPECT_LE(due - r.due, habits.delay_max);
-    EXPECT_LE(r.noticed - r.due, slack_of(row) + kTick + habits.delay_max);
+    EXPECT_LE(r.due - due, timing.delay_max);
+    EXPECT_LE(due - r.due, timing.delay_max);
+    EXPECT_LE(r.noticed - r.due, tolerance_of(row) + kTick + timing.delay_max);
   }
   EXPECT_EQ(received.monitor.late, 0U);
   EXPECT_GE(received.monitor.lost, lost);  // and those that were due after the end
@@ -61,15 +61,15 @@ TEST(MessageMonitor, EveryLossIsReportedOnceAndNothingElse) {
   for (const int period_ms : kPeriods_ms) {
     for (const Cycle& cycle : kCycles) {
       for (const double loss : {0.0, 0.02, 0.3}) {
-        SenderHabits habits{.period = milliseconds(period_ms),
+        SenderTiming timing{.period = milliseconds(period_ms),
                             .bottom = cycle.bottom,
                             .top = cycle.top,
                             .loss = loss,
                             .sends = 300};
         for (const int percent : {0, 50, 99}) {
-          habits.delay_max = slack_of(row_of(habits, true)) * percent / 100;
-          expect_every_loss_once(habits, true, noise);
-          if (cycle.top == 7) expect_every_loss_once(habits, false, noise);
+          timing.delay_max = tolerance_of(row_of(timing, true)) * percent / 100;
+          expect_every_loss_once(timing, true, noise);
+          if (cycle.top == 7) expect_every_loss_once(timing, false, noise);
           if (HasFatalFailure()) return;
         }
       }
@@ -83,15 +83,15 @@ TEST(MessageMonitor, TheCounterFindsTheTotalsUnderLargeDelays) {
   for (const Cycle& cycle : {Cycle{0, 14}, Cycle{0, 15}, Cycle{0, 255}}) {
     for (const double loss : {0.0, 0.05, 0.2}) {
       for (const int periods : {1, 2, 3}) {
-        const SenderHabits habits{.delay_max = milliseconds(10) * periods,
+        const SenderTiming timing{.delay_max = milliseconds(10) * periods,
                                   .bottom = cycle.bottom,
                                   .top = cycle.top,
                                   .loss = loss,
                                   .sends = 2000};
-        std::vector<Send> sends = story(habits, noise);
+        std::vector<Send> sends = trace(timing, noise);
         sends.back().is_lost = false;
         const Received received =
-            run_monitor(row_of(habits, true), sends, kTick,
+            run_monitor(row_of(timing, true), sends, kTick,
                         {.top = cycle.top, .bottom = 0, .seen = CounterCycle::kKnown});
         const auto lost =
             std::count_if(sends.begin(), sends.end(), [](const Send& s) { return s.is_lost; });

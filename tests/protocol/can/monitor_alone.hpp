@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "protocol/can/message_monitor.hpp"
-#include "tests/protocol/can/bus_story.hpp"
+#include "tests/protocol/can/bus_trace.hpp"
 
 namespace pitwall::can {
 

@@ -15,17 +15,17 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 TEST(FieldKind, LimitsBelongToTheRange) {
-  EXPECT_FALSE(judge(Kind::kLatitude, 90.0));
-  EXPECT_FALSE(judge(Kind::kLatitude, -90.0));
-  EXPECT_EQ(judge(Kind::kLatitude, std::nextafter(90.0, 91.0)), DecodeError::kLatitude);
-  EXPECT_FALSE(judge(Kind::kLongitude, -180.0));
-  EXPECT_EQ(judge(Kind::kLongitude, 180.1), DecodeError::kLongitude);
-  EXPECT_FALSE(judge(Kind::kSigma, 0.0));
-  EXPECT_EQ(judge(Kind::kSigma, -1e-30), DecodeError::kNegativeDeviation);
-  EXPECT_FALSE(judge(Kind::kSeconds, 604'800.0));
-  EXPECT_EQ(judge(Kind::kSeconds, -0.001), DecodeError::kTimeOfWeek);
-  EXPECT_FALSE(judge(Kind::kNumber, -1e300));
-  EXPECT_FALSE(judge(Kind::kReserved, kUnset));
+  EXPECT_FALSE(check_field(Kind::kLatitude, 90.0));
+  EXPECT_FALSE(check_field(Kind::kLatitude, -90.0));
+  EXPECT_EQ(check_field(Kind::kLatitude, std::nextafter(90.0, 91.0)), DecodeError::kLatitude);
+  EXPECT_FALSE(check_field(Kind::kLongitude, -180.0));
+  EXPECT_EQ(check_field(Kind::kLongitude, 180.1), DecodeError::kLongitude);
+  EXPECT_FALSE(check_field(Kind::kSigma, 0.0));
+  EXPECT_EQ(check_field(Kind::kSigma, -1e-30), DecodeError::kNegativeDeviation);
+  EXPECT_FALSE(check_field(Kind::kSeconds, 604'800.0));
+  EXPECT_EQ(check_field(Kind::kSeconds, -0.001), DecodeError::kTimeOfWeek);
+  EXPECT_FALSE(check_field(Kind::kNumber, -1e300));
+  EXPECT_FALSE(check_field(Kind::kReserved, kUnset));
 }
 
 // One value that each kind of field cannot have, and why.
@@ -46,7 +46,7 @@ struct Spoiler {
     if constexpr (std::is_floating_point_v<T>) {
       if (kind == Kind::kReserved || numbers++ != at) return;
       field = static_cast<T>(value);
-      reason = judge(kind, value);
+      reason = check_field(kind, value);
     }
   }
 };

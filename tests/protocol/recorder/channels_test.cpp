@@ -26,7 +26,7 @@ TEST(Channels, EveryGroupAndTopicHasItsPlaceAndNoTwoShareAName) {
   EXPECT_EQ(topics.size(), all.size());
   EXPECT_EQ(all[channel_of(telemetry::Group::kEgo)].topic, "/car/ego");
   EXPECT_EQ(all[channel_of(Topic::kAudit)].topic, "/base/audit");
-  EXPECT_EQ(all[kPictureChannel].topic, "/base/picture");
+  EXPECT_EQ(all[kSnapshotChannel].topic, "/base/picture");
   EXPECT_EQ(all[kUpChannel].topic, "/radio/up");
   EXPECT_EQ(all[kUpChannel].message_encoding, "x-pitwall-datagram");
   EXPECT_EQ(all[kReceiverChannel + 1].topic, "/gnss/1");
@@ -61,8 +61,8 @@ TEST(Channels, APictureKeepsTheLastKnownValueOfEachField) {
   values[first + 1] = 7.25;
   known.take(kGroup, encode(kGroup, values).span(), Instant{200});
   Known back;
-  const auto fields = ChannelFields::of(all[kPictureChannel]);
-  ASSERT_TRUE(fields && fields->is_picture());
+  const auto fields = ChannelFields::of(all[kSnapshotChannel]);
+  ASSERT_TRUE(fields && fields->is_snapshot());
   ASSERT_TRUE(fields->decode(encode(known), back));
   EXPECT_EQ(back.value[first], 81.5);
   EXPECT_EQ(back.sampled[first], Instant{100});

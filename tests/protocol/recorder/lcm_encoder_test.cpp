@@ -14,7 +14,7 @@ TEST(LcmEncoder, EveryChannelButPictureAndTickHasAMessageUnderItsOwnName) {
   const auto all = channels();
   for (std::size_t i = 0; i < all.size(); ++i) {
     const auto channel = static_cast<std::uint16_t>(i);
-    EXPECT_EQ(encoder.has(channel), channel != kPictureChannel && channel != kTickChannel)
+    EXPECT_EQ(encoder.has(channel), channel != kSnapshotChannel && channel != kTickChannel)
         << all[i].topic;
     EXPECT_EQ(encoder.topic(channel), all[i].topic);
   }

@@ -37,7 +37,7 @@ struct ChainSource {
 };
 
 struct Seen {
-  std::uint64_t samples = 0, pictures = 0;
+  std::uint64_t samples = 0, snapshots = 0;
   std::vector<std::int64_t> logged;  // of samples
   recording::McapEnd end{};
 };
@@ -45,7 +45,7 @@ struct Seen {
 Seen look(std::span<const std::uint8_t> file, Seen seen = {}) {
   recording::McapReader reader{file};
   while (const auto m = reader.next()) {
-    if (m->channel == kPictureChannel) ++seen.pictures;
+    if (m->channel == kSnapshotChannel) ++seen.snapshots;
     if (m->channel != channel_of(telemetry::Group::kEgo)) continue;
     ++seen.samples;
     seen.logged.push_back(static_cast<std::int64_t>(m->logged_ns) - seconds(1'700'000'000).ns);
@@ -65,12 +65,12 @@ TEST(SegmentChain, SegmentsOfAMinuteHoldEveryRecordOnceAndBeginWithAPicture) {
     EXPECT_EQ(all.end, recording::McapEnd::kComplete) << name;
     recording::McapReader reader{bytes};
     const auto first = reader.next();
-    EXPECT_EQ(first->channel, kPictureChannel);
+    EXPECT_EQ(first->channel, kSnapshotChannel);
     EXPECT_TRUE(clock_of(reader.run()));
     EXPECT_EQ(reader.run().front(), (std::pair<std::string, std::string>{"mode", "HIL"}));
   }
   EXPECT_EQ(all.samples, source.given);
-  EXPECT_EQ(all.pictures, 15U);
+  EXPECT_EQ(all.snapshots, 15U);
   EXPECT_TRUE(std::ranges::is_sorted(all.logged));
   const ChainFigures& figures = source.chain.figures();
   EXPECT_EQ(figures.segments, 3U);
@@ -128,9 +128,9 @@ TEST(SegmentChain, AfterAGapThePictureStillHoldsWhatWasKnown) {
   source.chain.close();
   recording::McapReader reader{source.disk.files.begin()->second};
   const auto first = reader.next();
-  ASSERT_EQ(first->channel, kPictureChannel);
+  ASSERT_EQ(first->channel, kSnapshotChannel);
   Known known;
-  const auto fields = ChannelFields::of(reader.channels().at(kPictureChannel));
+  const auto fields = ChannelFields::of(reader.channels().at(kSnapshotChannel));
   ASSERT_TRUE(fields->decode(first->data, known));
   EXPECT_GT(known.value[telemetry::fields_of(telemetry::Group::kEgo).first], 100.0);
 }

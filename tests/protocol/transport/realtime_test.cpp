@@ -42,7 +42,7 @@ TEST(Realtime, AThreadGivesWayAloneAndWithWhatItStarts) {
   const int before = getpriority(PRIO_PROCESS, 0);
   int own = 0, started = 0;
   std::thread([&] {
-    give_way();
+    lower_priority();
     own = getpriority(PRIO_PROCESS, 0);
     std::thread([&] { started = getpriority(PRIO_PROCESS, 0); }).join();
   }).join();
@@ -90,13 +90,13 @@ TEST(Realtime, AnotherProcessIsPreferredWhereThatIsAllowed) {
     ::pause();
     ::_exit(0);
   }
-  const bool allowed = prefer(other);
+  const bool allowed = raise_priority(other);
   const int priority = ::getpriority(PRIO_PROCESS, static_cast<id_t>(other));
   EXPECT_EQ(priority < 0, allowed);
   EXPECT_EQ(::getpriority(PRIO_PROCESS, 0), allowed ? 0 : priority) << "not this one";
   ::kill(other, SIGKILL);
   ::waitpid(other, nullptr, 0);
-  EXPECT_FALSE(prefer(other)) << "gone";
+  EXPECT_FALSE(raise_priority(other)) << "gone";
 }
 
 TEST(Realtime, AnImpossiblePriorityIsRefusedWithItsReason) {

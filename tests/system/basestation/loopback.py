@@ -180,7 +180,7 @@ def ends_by_itself(folder):
     process.communicate(timeout=20)
     expect(process.returncode == 0, "a silent run ends well")
     heard = json.loads(summary.read_text())
-    expect(heard["car"] == "never heard" and heard["packets"] == 0, "and says so")
+    expect(heard["car"] == "not received yet" and heard["packets"] == 0, "and says so")
 
 
 with tempfile.TemporaryDirectory() as temporary:

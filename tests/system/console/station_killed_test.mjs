@@ -123,7 +123,7 @@ test("a base that is killed: the car's ladder, the recording, the race again", a
   );
   assert.ok(before.length > 200 && after.length > 20, `${before.length}, ${after.length} points`);
   assert.ok(after.at(-1).value < speed, "it brakes");
-  assert.match(programs.baseSaid, /known again: \d+ messages/);
+  assert.match(programs.baseSaid, /restored: \d+ messages/);
 
   car.kill("SIGTERM");
   await ended(car);

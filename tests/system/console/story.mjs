@@ -91,7 +91,7 @@ export const nothingKnown = [
   ["alarms", "high alarms"],
   ["race control", ""],
   ["standing", "m/s"],
-].map(([name, unit]) => gate(name, false, null, unit, null, "never heard: no data"));
+].map(([name, unit]) => gate(name, false, null, unit, null, "not received yet: no data"));
 
 export function refusedCommand(now) {
   return {

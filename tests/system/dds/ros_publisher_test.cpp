@@ -12,7 +12,7 @@
 
 #include "protocol/transport/process.hpp"
 #include "protocol/transport/udp_socket.hpp"
-#include "tests/basestation/publishers/ros_view/some_state.hpp"
+#include "tests/basestation/publishers/ros_view/sample_state.hpp"
 #include "tests/basestation/radio_rig.hpp"
 #include "tests/system/dds/cyclone_peer.hpp"
 
@@ -39,7 +39,7 @@ RosConfig config_of(int domain, Distribution distribution = Distribution::kJazzy
 class Base {
  public:
   explicit Base(RosConfig config) {
-    rig_.snapshot = ros_view::testing::some_state();
+    rig_.snapshot = ros_view::testing::sample_state();
     rig_.sampled = telemetry::groups_of(telemetry::Direction::kDown);
     rig_.run(seconds(2));  // sessions are made, every group has come
     auto started = start(std::move(config));

@@ -14,7 +14,7 @@
 
 #include "basestation/publishers/dds/ros_publisher.hpp"
 #include "protocol/transport/clock.hpp"
-#include "tests/basestation/publishers/ros_view/some_state.hpp"
+#include "tests/basestation/publishers/ros_view/sample_state.hpp"
 #include "tests/system/dds/cyclone_peer.hpp"
 
 namespace pitwall::publishers::dds {

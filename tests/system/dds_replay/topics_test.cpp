@@ -11,7 +11,7 @@
 #include "hil/replay/player.hpp"
 #include "hil/replay/recordings/recording_builder.hpp"
 #include "hil/replay/replay_verb.hpp"
-#include "hil/replay/socket_rim.hpp"
+#include "hil/replay/socket_io.hpp"
 #include "protocol/ros/cdr.hpp"
 #include "protocol/ros/messages/nav.hpp"
 #include "protocol/ros/messages/sensor.hpp"
@@ -167,13 +167,13 @@ TEST(ReplayTopics, CycloneGetsTheRecordedBytesInTheOrderOfTheRecording) {
   EXPECT_EQ(timeline->left_out[0].records, kMessages);
 
   Readers readers{kDomain};
-  auto rim = SocketRim::open(*timeline);
-  ASSERT_TRUE(rim) << to_string(rim.error());
-  rim->wait_for_callers(seconds(30));
-  EXPECT_TRUE(rim->unread_topics().empty());
-  Player player(*timeline, {.passes = kPassesOfTest}, *rim);
-  const PlayReport report = player.play(rim->now());
-  rim->finish(seconds(10));
+  auto io = SocketIo::open(*timeline);
+  ASSERT_TRUE(io) << to_string(io.error());
+  io->wait_for_clients(seconds(30));
+  EXPECT_TRUE(io->unread_topics().empty());
+  Player player(*timeline, {.passes = kPassesOfTest}, *io);
+  const PlayReport report = player.play(io->now());
+  io->finish(seconds(10));
   EXPECT_EQ(report.datagrams.sent, kPassesOfTest * 4 * kMessages);
   EXPECT_EQ(report.dropped(), 0U);
   EXPECT_EQ(report.lateness.count(), report.datagrams.sent);
@@ -196,10 +196,10 @@ TEST(ReplayTopics, ATopicThatNobodyReadsIsNamed) {
       make_timeline(recording_of(sensor_topics()),
                     {.dds = dds::DomainConfig{.domain = kDomain + 1}, .topics = {"/fix"}});
   ASSERT_TRUE(timeline) << to_string(timeline.error());
-  auto rim = SocketRim::open(*timeline);
-  ASSERT_TRUE(rim) << to_string(rim.error());
-  rim->wait_for_callers(milliseconds(100));
-  EXPECT_EQ(rim->unread_topics(), std::vector<std::string>{"rt/fix"});
+  auto io = SocketIo::open(*timeline);
+  ASSERT_TRUE(io) << to_string(io.error());
+  io->wait_for_clients(milliseconds(100));
+  EXPECT_EQ(io->unread_topics(), std::vector<std::string>{"rt/fix"});
 }
 
 void write_bag(const std::string& path, const std::vector<SensorTopic>& topics) {

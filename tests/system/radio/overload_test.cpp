@@ -59,8 +59,8 @@ TEST_P(Overload, SafetyStaysYoung) {
   EXPECT_GT(used, GetParam() >= 1.0 ? 0.94 : 0.2);
   EXPECT_LE(used, 1.0);
   EXPECT_EQ(down.rate_factor, 1.0);
-  EXPECT_EQ(radio.falsehoods().too_young, 0U);
-  EXPECT_EQ(radio.falsehoods().never_sampled, 0U);
+  EXPECT_EQ(radio.content_errors().too_young, 0U);
+  EXPECT_EQ(radio.content_errors().never_sampled, 0U);
 }
 
 // Bytes of bulk per second that came to the base, each piece counted once.
@@ -94,7 +94,7 @@ StateRun run_state(const RadioSetup& setup, double multiple, const char* what) {
   for (telemetry::PathId path = 0; path < setup.paths; ++path) {
     EXPECT_TRUE(judge(radio.departures(true, path), setup.budget_down[path], what).holds());
   }
-  EXPECT_EQ(radio.falsehoods().all(), 0U);
+  EXPECT_EQ(radio.content_errors().all(), 0U);
   return run;
 }
 

@@ -36,7 +36,7 @@ TEST(Restart, TheBaseIsBackWithinOneExchange) {
     // A packet there that nobody knows, a hint, an opening, an answer, a packet: four ways, air and
     // ticks of the car's loop.
     EXPECT_LE(*back, 5 * kWay + milliseconds(120)) << back->milliseconds();
-    EXPECT_EQ(radio.falsehoods().all(), 0u);
+    EXPECT_EQ(radio.content_errors().all(), 0u);
   }
 }
 
@@ -50,7 +50,7 @@ TEST(Restart, TheCarIsBackWithinOneExchange) {
     const auto back = time_to_be_back(radio);
     ASSERT_TRUE(back);
     EXPECT_LE(*back, 3 * kWay + milliseconds(80)) << back->milliseconds();
-    EXPECT_EQ(radio.falsehoods().all(), 0u);
+    EXPECT_EQ(radio.content_errors().all(), 0u);
   }
 }
 
@@ -61,7 +61,7 @@ TEST(Restart, BothAgainAndAgainWhileHalfIsLost) {
     (i % 2 == 0) ? radio.restart_base() : radio.restart_car();
     EXPECT_TRUE(time_to_be_back(radio)) << i;
   }
-  EXPECT_EQ(radio.falsehoods().all(), 0u);
+  EXPECT_EQ(radio.content_errors().all(), 0u);
 }
 
 TEST(Restart, TheStopStaysLatchedWhateverRestartsAtTheBase) {
@@ -153,7 +153,7 @@ TEST(Clocks, OffsetsOfHoursAndDriftChangeNothing) {
     }
     EXPECT_TRUE(radio.car().view(radio.car_now()).joystick) << offset_s;
     EXPECT_EQ(radio.car().view(radio.car_now()).authority, 1) << offset_s;
-    EXPECT_EQ(radio.falsehoods().all(), 0u) << offset_s;
+    EXPECT_EQ(radio.content_errors().all(), 0u) << offset_s;
   }
 }
 

@@ -123,7 +123,7 @@ TEST(Return, FromARelayThatFallsSilent) {
       }
       scene.run(scene.some(200, 1'500));
     }
-    scene.relay.fall_silent();
+    scene.relay.stop();
     const Duration back = scene.time_to_link();
     ASSERT_LE(back, seconds(2)) << "seed " << seed;
     worst = std::max(worst, back);

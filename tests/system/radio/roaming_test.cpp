@@ -47,7 +47,7 @@ TEST(Roaming, TheCarIsServedASlotAfterItsFirstSurvivingPacket) {
     }
     // A slot until the base speaks, and the way.
     EXPECT_LE(worst, telemetry::kSlot + kWay + milliseconds(10)) << seed;
-    EXPECT_EQ(radio.falsehoods().all(), 0u);
+    EXPECT_EQ(radio.content_errors().all(), 0u);
     EXPECT_EQ(radio.base_report().sessions, 1u);
   }
 }
@@ -61,7 +61,7 @@ TEST(Roaming, TheBaseMovesToo) {
     EXPECT_EQ(radio.car_report().paths[0].peer, address(n)) << n;
   }
   EXPECT_EQ(radio.base_report().sessions, 1u);
-  EXPECT_EQ(radio.falsehoods().all(), 0u);
+  EXPECT_EQ(radio.content_errors().all(), 0u);
 }
 
 TEST(Roaming, OneOfTwoRadiosMovesAndTheOtherCarriesOn) {
@@ -73,7 +73,7 @@ TEST(Roaming, OneOfTwoRadiosMovesAndTheOtherCarriesOn) {
     radio.run(seconds(1));
     EXPECT_EQ(radio.base_report().paths[n % 2].peer, address(n)) << n;
   }
-  EXPECT_EQ(radio.falsehoods().all(), 0u);
+  EXPECT_EQ(radio.content_errors().all(), 0u);
 }
 
 TEST(Roaming, AReplayedPacketFromElsewhereRedirectsNothing) {
@@ -93,7 +93,7 @@ TEST(Roaming, AReplayedPacketFromElsewhereRedirectsNothing) {
   }
   EXPECT_EQ(to_thief, 0u);
   EXPECT_EQ(radio.base_report().paths[0].peer, before);
-  EXPECT_EQ(radio.falsehoods().all(), 0u);
+  EXPECT_EQ(radio.content_errors().all(), 0u);
 }
 
 }  // namespace

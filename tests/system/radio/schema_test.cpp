@@ -15,16 +15,16 @@ namespace {
 
 using telemetry::Direction;
 using telemetry::Group;
-using telemetry::SchemaClaim;
+using telemetry::SchemaDescription;
 
 constexpr std::size_t kMany = 40;  // more than any group
 
 // A version of the registry: what is otherwise in it than in ours.
 struct Version {
-  SchemaClaim claim = telemetry::own_claim();
+  SchemaDescription claim = telemetry::own_schema();
   std::string text = telemetry::safety_text();
 
-  SchemaClaim::Place& place(Group group) {
+  SchemaDescription::Place& place(Group group) {
     for (auto* places : {&claim.down, &claim.up}) {
       for (auto& place : *places) {
         if (place.group.own == group) return place;
@@ -39,9 +39,9 @@ struct Version {
     return *this;
   }
   Version& remove(Group group) {
-    SchemaClaim::Places& places =
+    SchemaDescription::Places& places =
         telemetry::row_of(group).direction == Direction::kDown ? claim.down : claim.up;
-    SchemaClaim::Places rest;
+    SchemaDescription::Places rest;
     for (const auto& place : places) {
       if (place.group.own == group) continue;
       EXPECT_TRUE(rest.push(place));
@@ -55,7 +55,7 @@ struct Version {
     claim.whole_hash ^= 0x77;
     return *this;
   }
-  const SchemaClaim* done() {
+  const SchemaDescription* done() {
     claim.safety_text = text;
     return &claim;
   }
@@ -74,10 +74,10 @@ struct Seen {
   telemetry::GroupSet groups;  // that the base has
   bool car_agrees = false, base_agrees = false, stop_received = false;
   std::string difference;
-  std::uint64_t falsehoods = 0, bad_bodies = 0;
+  std::uint64_t content_errors = 0, bad_bodies = 0;
 };
 
-Seen look(const SchemaClaim* car, const SchemaClaim* base) {
+Seen look(const SchemaDescription* car, const SchemaDescription* base) {
   RadioSetup setup = lossy(0.2, 11);
   setup.schema_of_car = car;
   setup.schema_of_base = base;
@@ -97,7 +97,7 @@ Seen look(const SchemaClaim* car, const SchemaClaim* base) {
   seen.base_agrees = radio.station().schema_agrees();
   seen.difference = radio.station().schema_difference();
   seen.stop_received = radio.car().view(radio.car_now()).stop == telemetry::StopLevel::kControlled;
-  seen.falsehoods = radio.falsehoods().all();
+  seen.content_errors = radio.content_errors().all();
   for (const std::uint64_t bad : radio.base_report().bad_bodies) seen.bad_bodies += bad;
   for (const std::uint64_t bad : radio.car_report().bad_bodies) seen.bad_bodies += bad;
   return seen;
@@ -111,14 +111,14 @@ telemetry::GroupSet all_but(std::initializer_list<Group> missing) {
 
 // Both ways: the car is the one of the other version, or the base is.
 void expect_both_ways(Version version, const telemetry::GroupSet& groups, bool agree) {
-  const SchemaClaim* other = version.done();
+  const SchemaDescription* other = version.done();
   for (const bool at_car : {true, false}) {
     const Seen seen = look(at_car ? other : nullptr, at_car ? nullptr : other);
     EXPECT_EQ(seen.groups.bits, groups.bits) << at_car;
     EXPECT_EQ(seen.car_agrees, agree) << at_car;
     EXPECT_EQ(seen.base_agrees, agree) << at_car;
     EXPECT_EQ(seen.difference.empty(), agree) << seen.difference;
-    EXPECT_EQ(seen.falsehoods, 0u) << at_car;
+    EXPECT_EQ(seen.content_errors, 0u) << at_car;
     EXPECT_EQ(seen.bad_bodies, 0u) << at_car;
   }
 }

@@ -40,7 +40,7 @@ TEST(TwoRadios, KillingOneCostsNothing) {
     for (const Group group : {Group::kMode, Group::kFlags, Group::kEgo}) {
       EXPECT_EQ(killed.ages().worst(group), whole.ages().worst(group)) << seed;
     }
-    EXPECT_EQ(killed.falsehoods().all(), 0u);
+    EXPECT_EQ(killed.content_errors().all(), 0u);
     EXPECT_GT(killed.base_report().association.duplicates, 0u);
   }
 }
@@ -57,7 +57,7 @@ TEST(TwoRadios, TheBetterPathOnlyStillHasSafetyOnBoth) {
   run_with_kills(killed, seconds(60), 5);
   // As if it were one radio that nobody kills, but for the byte or two of a second path's records.
   EXPECT_LE(killed.ages().worst(Group::kMode), single.ages().worst(Group::kMode) + milliseconds(1));
-  EXPECT_EQ(killed.falsehoods().all(), 0u);
+  EXPECT_EQ(killed.content_errors().all(), 0u);
 }
 
 TEST(TwoRadios, BothLostSaysHowIndependentTheyAre) {

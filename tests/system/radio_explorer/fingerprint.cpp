@@ -28,7 +28,7 @@ void Fingerprint::add(const CommandTransmitterOf<4>& transmitter) {
     add(std::uint64_t{entry.car_boot} << 16U | std::uint64_t{entry.progress.command.issuer} << 8U |
         static_cast<std::uint64_t>(entry.progress.command.type));
     add(static_cast<std::uint64_t>(entry.progress.command.argument * 10.0));
-    add(entry.progress.fate ? 1U + static_cast<std::uint64_t>(*entry.progress.fate) : 0U);
+    add(entry.progress.outcome ? 1U + static_cast<std::uint64_t>(*entry.progress.outcome) : 0U);
   }
   add(transmitter.acks_due_.size());
   for (const CommandId id : transmitter.acks_due_) add(id);

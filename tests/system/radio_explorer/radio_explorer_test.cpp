@@ -92,7 +92,7 @@ TEST(RadioExplorer, FindsACarThatNeverLooksWhereItWasTold) {
 }
 TEST(RadioExplorer, FindsACarThatBelievesTheNewestPacket) {
   expect_found(Planted::kNone, kRoaming, Broken::kWrongAddressBelieved,
-               PlantedRoam::kBelievesNewest);
+               PlantedRoam::kNewestProvesAddress);
 }
 
 }  // namespace

@@ -16,20 +16,22 @@ std::size_t index_of(Address address) { return address == kHome ? 0 : address ==
 
 }  // namespace
 
-Whereabouts::Whereabouts(PlantedRoam planted) : planted_(planted) { base_seen_.prove(kHome); }
+BaseAddressModel::BaseAddressModel(PlantedRoam planted) : planted_(planted) {
+  base_seen_.prove(kHome);
+}
 
-UpRoute Whereabouts::base_sends() {
+UpRoute BaseAddressModel::base_sends() {
   const UpRoute route{.from = base_at_, .number = ++sent_, .proof = owed_};
   owed_.reset();
   return route;
 }
 
-DownRoute Whereabouts::car_sends(bool to_trial) const {
+DownRoute BaseAddressModel::car_sends(bool to_trial) const {
   if (!to_trial) return {.to = base_seen_.proved(), .probe = {}};
   return {.to = base_seen_.targets(1).back(), .probe = base_seen_.token()};
 }
 
-bool Whereabouts::car_hears(const UpRoute& route, Address from, Instant now) {
+bool BaseAddressModel::car_receives(const UpRoute& route, Address from, Instant now) {
   received_ = true;
   searched_ = false;
   const bool newest = route.number > newest_;
@@ -42,7 +44,7 @@ bool Whereabouts::car_hears(const UpRoute& route, Address from, Instant now) {
     ++trials_;
     trial_first_ = route.number;
   }
-  if (planted_ == PlantedRoam::kBelievesNewest && newest) base_seen_.prove(from);
+  if (planted_ == PlantedRoam::kNewestProvesAddress && newest) base_seen_.prove(from);
   if (route.proof) (void)base_seen_.take_proof(from, *route.proof, now);
   if (from == proved && from != kRelay) {
     newest_of_base_ = std::max(newest_of_base_, route.number);
@@ -55,20 +57,20 @@ bool Whereabouts::car_hears(const UpRoute& route, Address from, Instant now) {
   return reached_[index_of(now_proved)] && !(now_proved == kRelay && base_lives);
 }
 
-bool Whereabouts::base_hears(const DownRoute& route) {
+bool BaseAddressModel::base_receives(const DownRoute& route) {
   if (route.to != kRelay && route.to != base_at_) return false;  // the relay forwards it
   if (route.probe) owed_ = route.probe, reached_[index_of(route.to)] = true;
   return true;
 }
 
-void Whereabouts::base_restarts() {
+void BaseAddressModel::base_restarts() {
   base_at_ = kHome;  // a spare one, where the car was told
   owed_.reset();
   sent_ = newest_ = newest_of_base_ = 0;
   searched_ = false;
 }
 
-void Whereabouts::car_restarts() {
+void BaseAddressModel::car_restarts() {
   base_seen_ = {};
   base_seen_.prove(kHome);
   owed_.reset();
@@ -79,12 +81,12 @@ void Whereabouts::car_restarts() {
   searched_ = false;
 }
 
-void Whereabouts::base_moves() {
+void BaseAddressModel::base_moves() {
   base_at_ = base_at_ == kHome ? kAway : kHome;
   searched_ = false;
 }
 
-bool Whereabouts::wait() {
+bool BaseAddressModel::wait() {
   searched_ = !received_;
   received_ = false;
   if (!searched_) return false;
@@ -94,11 +96,11 @@ bool Whereabouts::wait() {
   return true;
 }
 
-bool Whereabouts::found() const {
+bool BaseAddressModel::found() const {
   return !searched_ || base_at_ != kHome || base_seen_.proved() == kHome;
 }
 
-void Whereabouts::fingerprint(telemetry::Fingerprint& print) const {
+void BaseAddressModel::fingerprint(telemetry::Fingerprint& print) const {
   print.add(std::uint64_t{base_at_.port} << 32U | std::uint64_t{trials_} << 24U |
             std::uint64_t{sent_} << 16U | std::uint64_t{newest_} << 8U | newest_of_base_);
   print.add(std::uint64_t{trial_first_} << 8U | (reached_[1] ? 2U : 0U) | (reached_[2] ? 1U : 0U));

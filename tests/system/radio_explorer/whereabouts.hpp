@@ -26,8 +26,8 @@ inline constexpr telemetry::Address kHome{1, 1}, kAway{1, 2}, kRelay{9, 9};
 // Planted faults of the address tracking, to check that the explorer finds them.
 enum class PlantedRoam : std::uint8_t {
   kNone,
-  kNoReturn,        // in silence the car sends openings only to the proved address
-  kBelievesNewest,  // the newest packet proves its address
+  kNoReturn,             // in silence the car sends openings only to the proved address
+  kNewestProvesAddress,  // the newest packet proves its address
 };
 
 struct UpRoute {
@@ -40,17 +40,17 @@ struct DownRoute {
   std::optional<std::uint64_t> probe;
 };
 
-class Whereabouts {
+class BaseAddressModel {
  public:
-  explicit Whereabouts(PlantedRoam planted);
+  explicit BaseAddressModel(PlantedRoam planted);
 
   UpRoute base_sends();
   DownRoute car_sends(bool to_trial) const;
   bool on_trial() const { return base_seen_.token().has_value(); }
   // False if an address has become proved that must not be.
-  [[nodiscard]] bool car_hears(const UpRoute& route, telemetry::Address from, Instant now);
+  [[nodiscard]] bool car_receives(const UpRoute& route, telemetry::Address from, Instant now);
   // True if the packet arrives.
-  bool base_hears(const DownRoute& route);
+  bool base_receives(const DownRoute& route);
   void base_moves();
   void base_restarts();
   void car_restarts();

@@ -50,7 +50,7 @@ World::World(const Budget& budget, Planted planted, PlantedRoam roam)
       transmitter_(kRunBoots + 1),
       ledger_(kCarBoots + 1),
       where_(roam) {
-  transmitter_.meets(kCarBoots + boot_, now_);
+  transmitter_.set_peer_boot(kCarBoots + boot_, now_);
   authority_.take(kA, now_);
   note_holders();
 }
@@ -120,7 +120,7 @@ Broken World::act(Action action) {
   if (action < Action::kBaseSends) {
     by_operator(action);
   } else if (action < Action::kHandOut) {
-    broken = by_air(action);
+    broken = deliver(action);
   } else if (action < Action::kBaseMoves) {
     broken = by_car_or_fate(action);
   } else {
@@ -155,7 +155,7 @@ void World::by_operator(Action action) {
   }
 }
 
-Broken World::by_air(Action action) {
+Broken World::deliver(Action action) {
   using enum Action;
   if (action == kBaseSends) {
     base_sends();
@@ -297,7 +297,7 @@ void World::car_sends(bool to_trial) {
 }
 
 void World::meet(std::uint8_t run) {
-  ledger_.meets(kRunBoots + run);
+  ledger_.set_peer_boot(kRunBoots + run);
   view_.base_restarted();
   latch_.base_restarted();
   run_met_ = run;
@@ -306,7 +306,7 @@ void World::meet(std::uint8_t run) {
   truth_.newest_applied = 0;
 }
 
-void World::hear_state(const UpPacket& packet) {
+void World::receive_state(const UpPacket& packet) {
   if (packet.run != run_met_) meet(packet.run);
   telemetry::Values values;
   values[telemetry::field("authority.holder")] = packet.holder;
@@ -330,15 +330,15 @@ void World::hear_state(const UpPacket& packet) {
 Broken World::deliver_up(const UpPacket& packet, bool relayed) {
   // Keys of a run of the car that is no more, or of a session before the one in use, open nothing.
   if (packet.boot != boot_ || packet.run < run_met_) return Broken::kNothing;
-  if (!where_.car_hears(packet.route, relayed ? kRelay : packet.route.from, now_)) {
+  if (!where_.car_receives(packet.route, relayed ? kRelay : packet.route.from, now_)) {
     return Broken::kWrongAddressBelieved;
   }
   const std::uint64_t run_word = kRunBoots + packet.run;
   if (planted_ == Planted::kForgetfulLedger && packet.run == run_met_) {
     ledger_ = telemetry::CommandLedgerOf<4>{kCarBoots + boot_};
-    ledger_.meets(run_word);
+    ledger_.set_peer_boot(run_word);
   }
-  hear_state(packet);
+  receive_state(packet);
   const auto body = telemetry::parse_body(packet.body.span(), Direction::kUp);
   CHECK(body.has_value());
   Received received;
@@ -353,10 +353,10 @@ Broken World::deliver_up(const UpPacket& packet, bool relayed) {
 }
 
 Broken World::deliver_down(const DownPacket& packet) {
-  if (!where_.base_hears(packet.route)) return Broken::kNothing;
+  if (!where_.base_receives(packet.route)) return Broken::kNothing;
   if (packet.run != run_ || packet.boot < boot_met_) return Broken::kNothing;
   boot_met_ = packet.boot;
-  transmitter_.meets(kCarBoots + packet.boot, now_);
+  transmitter_.set_peer_boot(kCarBoots + packet.boot, now_);
   challenge_known_ = packet.challenge;
   const auto body = telemetry::parse_body(packet.body.span(), Direction::kDown);
   CHECK(body.has_value());
@@ -364,17 +364,17 @@ Broken World::deliver_down(const DownPacket& packet) {
   received.at = now_;
   for (const Record& record : body->records) CHECK(transmitter_.take(record, received));
   const telemetry::CommandProgress* released = transmitter_.progress(release_id_);
-  if (released != nullptr && released->fate == Outcome::kApplied) {
+  if (released != nullptr && released->outcome == Outcome::kApplied) {
     if (planted_ == Planted::kReleaseAfterPress) stop_.release_asked(release_id_);
     stop_.released(release_id_);
     release_id_ = 0;
   }
   for (CommandId id = 1; id < kNumbersMax; ++id) {
     const telemetry::CommandProgress* one = transmitter_.progress(id);
-    if (one == nullptr || !one->fate) continue;
-    if (one->fate == Outcome::kOtherRun) continue;  // a car that is no more may have applied it
+    if (one == nullptr || !one->outcome) continue;
+    if (one->outcome == Outcome::kOtherRun) continue;  // a car that is no more may have applied it
     const bool applied = truth_.commands[run_][id].applied > 0;
-    if (applied != (one->fate == Outcome::kApplied)) return Broken::kFateIsWrong;
+    if (applied != (one->outcome == Outcome::kApplied)) return Broken::kWrongOutcome;
   }
   return Broken::kNothing;
 }
@@ -442,8 +442,8 @@ Broken World::note_applied(const telemetry::DueCommand& due, Truth::OfCommand& t
   if (++truth.applied > 1) return Broken::kAppliedTwice;
   if (now_ - truth.issued > row_of(due.command.type).time_to_live) return Broken::kAppliedLate;
   const telemetry::CommandProgress* reported = transmitter_.progress(due.number);
-  const bool over = run_in_hand_ == run_ && reported != nullptr && reported->fate.has_value();
-  return over ? Broken::kFateIsWrong : Broken::kNothing;
+  const bool over = run_in_hand_ == run_ && reported != nullptr && reported->outcome.has_value();
+  return over ? Broken::kWrongOutcome : Broken::kNothing;
 }
 
 void World::restart_base() {
@@ -452,7 +452,7 @@ void World::restart_base() {
   ++run_;
   transmitter_ = telemetry::CommandTransmitterOf<4>{kRunBoots + run_};
   boot_met_ = boot_;
-  transmitter_.meets(kCarBoots + boot_, now_);
+  transmitter_.set_peer_boot(kCarBoots + boot_, now_);
   authority_ = {};
   stop_ = {};
   challenge_known_ = 0;

@@ -99,8 +99,7 @@ enum class Planted : std::uint8_t {
   kRenewalAtReception,  // any received packet renews the authority
   kLatchFollows,        // the stop ends when the base sends no stop
   kReleaseAfterPress,   // a release issued before the press cancels the press at the base
-  kAnyConsole,          // the ledger does not check the issuer of a command
-  kOldRunsCount         // the ledger keeps its numbers after a restart of the base
+  kAnyConsole           // the ledger does not check the issuer of a command
 };
 
 enum class Broken : std::uint8_t {
@@ -109,7 +108,7 @@ enum class Broken : std::uint8_t {
   kAppliedLate,
   kAppliedWithoutAuthority,
   kAppliedOutOfOrder,
-  kFateIsWrong,
+  kWrongOutcome,
   kHolderIsOld,
   kStopWentByItself,
   kPressIgnored,
@@ -165,7 +164,7 @@ class World {
 
  private:
   void by_operator(Action action);
-  Broken by_air(Action action);
+  Broken deliver(Action action);
   Broken by_car_or_fate(Action action);
   void issue(HolderId by);
   void press();
@@ -177,7 +176,7 @@ class World {
   Broken by_roaming(Action action);
   void wait();
   void meet(std::uint8_t run);
-  void hear_state(const UpPacket& packet);
+  void receive_state(const UpPacket& packet);
   Broken deliver_down(const DownPacket& packet);
   void hand_out();
   telemetry::AuthorityView forged_view(HolderId who) const;
@@ -207,7 +206,7 @@ class World {
   std::optional<telemetry::DueCommand> in_hand_;
   std::uint8_t run_in_hand_ = 0;  // run of the base that issued it
 
-  Whereabouts where_;
+  BaseAddressModel where_;
   FixedVector<UpPacket, 3> up_;
   FixedVector<DownPacket, 2> down_;
   Truth truth_;

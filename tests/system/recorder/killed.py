@@ -105,8 +105,8 @@ def main():
     address = address_of(again)
     said = [again.stderr.readline() for _ in range(3)]
     expect(any(cut.name in line and "kept" in line for line in said), f"recovery is told: {said}")
-    known = [re.search(r"known again: (\d+) messages", line) for line in said]
-    expect(any(k and int(k.group(1)) > 100 for k in known), f"history is known again: {said}")
+    known = [re.search(r"restored: (\d+) messages", line) for line in said]
+    expect(any(k and int(k.group(1)) > 100 for k in known), f"history is restored: {said}")
     drive(folder, address, 1)
     again.send_signal(signal.SIGTERM)
     _, errors = again.communicate(timeout=30)
@@ -150,7 +150,7 @@ def main():
                              capture_output=True, text=True)
     expect(nothing.returncode == 2 and "no recording" in nothing.stderr, nothing.stderr)
     subprocess.run(["rm", "-r", str(folder)], check=True)
-    print(f"killed, recovered, known again, replayed; lost {max(lost):.2f} s at most")
+    print(f"killed, recovered, restored, replayed; lost {max(lost):.2f} s at most")
 
 
 main()

@@ -54,7 +54,7 @@ const pipeline::Setup& setup() {
 }
 
 // As if nobody had thought of banking: all brake there is, at once.
-const pipeline::Setup& brutal() {
+const pipeline::Setup& harsh_setup() {
   static const pipeline::Setup made = [] {
     pipeline::Setup s = setup();
     planning::Params& p = s.params.planning;
@@ -167,7 +167,7 @@ class StopRun {
   }
   const pipeline::Setup& broken(const pipeline::Setup&) const {
     if (stop_.breakage == Breakage::kFullBrake || stop_.breakage == Breakage::kFullRearBrake)
-      return brutal();
+      return harsh_setup();
     return breaks(Breakage::kControl) ? without_control() : setup();
   }
 

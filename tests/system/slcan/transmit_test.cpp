@@ -1,4 +1,4 @@
-// The car's rim and the guard, turned tick by tick against a controller that stalls, goes bus-off
+// The car's I/O and the guard, turned tick by tick against a controller that stalls, goes bus-off
 // or only listens.
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
@@ -14,7 +14,7 @@
 #include "tests/support/in_time.hpp"
 #include "tests/system/slcan/scripted_controller.hpp"
 #include "vehicle/io/black_box.hpp"
-#include "vehicle/io/rim.hpp"
+#include "vehicle/io/car_io.hpp"
 #include "vehicle/safety/bus_guard.hpp"
 
 namespace pitwall::slcan {
@@ -53,7 +53,7 @@ class Transmit : public ::testing::Test {
   void SetUp() override { set_up(false); }
 
   void set_up(bool listen_only) {
-    rim_.reset();
+    car_io_.reset();
     controller_.reset();
     auto opened = ScriptedController::open();
     ASSERT_TRUE(opened) << to_string(opened.error());
@@ -64,23 +64,23 @@ class Transmit : public ::testing::Test {
     ASSERT_FALSE(problem) << to_string(*problem);
     io::Arguments args;
     args.can_interface = controller_->interface();
-    auto rim = io::Rim::open(args);
-    ASSERT_TRUE(rim) << to_string(rim.error());
-    rim_.emplace(*std::move(rim));
+    auto car_io = io::CarIo::open(args);
+    ASSERT_TRUE(car_io) << to_string(car_io.error());
+    car_io_.emplace(*std::move(car_io));
   }
 
   // One tick of the car: hear, let the guard judge, send.
   safety::BusGuardOutput tick(bool may_restart) {
     next_ = std::max(next_ + kTick, transport::monotonic_now());
     transport::sleep_until(next_);
-    const auto received = rim_->read(box_);
+    const auto received = car_io_->read(box_);
     link_ = received.link;
     const Instant now = transport::monotonic_now();
     const auto out = safety::guard(params_, guard_, link_, false, now);
     std::vector<can::Frame> frames;
     for (const std::uint32_t id : kIds) frames.push_back(command(id, tick_));
-    rim_->write(frames, now);
-    if (out.restart_now && may_restart) rim_->restart_bus();
+    car_io_->write(frames, now);
+    if (out.restart_now && may_restart) car_io_->restart_bus();
     ++tick_;
     return out;
   }
@@ -93,7 +93,7 @@ class Transmit : public ::testing::Test {
 
   std::unique_ptr<ScriptedController> controller_;
   io::BlackBox box_;  // off
-  std::optional<io::Rim> rim_;
+  std::optional<io::CarIo> car_io_;
   safety::BusGuardParams params_;
   safety::BusGuardState guard_;
   world::LinkObservation link_;
@@ -105,11 +105,11 @@ TEST_F(Transmit, WhatTheKernelTakesGoesOutInItsOrder) {
   for (int i = 0; i < 50; ++i) ASSERT_FALSE(tick(true).failed);
   std::vector<std::string> lines;
   const Instant limit = transport::monotonic_now() + seconds(10);
-  while (lines.size() < rim_->transmit().taken && transport::monotonic_now() < limit) {
+  while (lines.size() < car_io_->transmit().taken && transport::monotonic_now() < limit) {
     transport::sleep_until(transport::monotonic_now() + milliseconds(5));
     for (std::string& line : controller_->take_frames()) lines.push_back(std::move(line));
   }
-  ASSERT_EQ(lines.size(), rim_->transmit().taken);
+  ASSERT_EQ(lines.size(), car_io_->transmit().taken);
   EXPECT_TRUE(in_time(lines.size() >= 5 * std::size(kIds)));
   std::uint32_t last = 0;
   for (std::size_t i = 0; i < lines.size(); ++i) {
@@ -132,8 +132,8 @@ TEST_F(Transmit, AfterAStallOfASecondOnlyTheNewestCommandsGoOut) {
     longest = std::max(longest, link_.tx_stalled);
   }
   EXPECT_GE(longest, milliseconds(500));  // the transmit watchdog saw it
-  EXPECT_GT(rim_->transmit().replaced, 50u);
-  EXPECT_GT(rim_->bus().flushes, 10u);
+  EXPECT_GT(car_io_->transmit().replaced, 50u);
+  EXPECT_GT(car_io_->bus().flushes, 10u);
   const std::uint32_t resumed = tick_;
   static_cast<void>(controller_->take_frames());
   controller_->listen(true);
@@ -151,7 +151,7 @@ TEST_F(Transmit, AfterAStallOfASecondOnlyTheNewestCommandsGoOut) {
   }
   for (int i = 0; i < 500 && link_.tx_stalled > Duration{}; ++i) tick(false);
   EXPECT_EQ(link_.tx_stalled, Duration{});
-  const std::uint64_t dropped = rim_->transmit().dropped();
+  const std::uint64_t dropped = car_io_->transmit().dropped();
   tick(false);
   EXPECT_EQ(link_.tx_drops, dropped);
 }
@@ -160,7 +160,7 @@ TEST_F(Transmit, OneBusOffIsRestartedAndTheCarGoesOn) {
   for (int i = 0; i < 20; ++i) tick(true);
   controller_->say("sb256000\r");
   ASSERT_TRUE(run_until([&](const auto&) { return link_.controller == ControllerState::kBusOff; }));
-  ASSERT_TRUE(run_until([&](const auto&) { return rim_->bus().restarts == 1; }));
+  ASSERT_TRUE(run_until([&](const auto&) { return car_io_->bus().restarts == 1; }));
   ASSERT_TRUE(run_until([&](const auto&) { return link_.controller == ControllerState::kActive; }));
   static_cast<void>(controller_->take_frames());
   const std::uint32_t restarted = tick_;
@@ -185,7 +185,7 @@ TEST_F(Transmit, BusOffAgainAndAgainIsRestartedThreeTimesAndThenNeverAgain) {
     ASSERT_FALSE(out.restart_now);
   }
   EXPECT_EQ(guard_.restarts_total, 3u);
-  EXPECT_EQ(rim_->bus().restarts, 3u);
+  EXPECT_EQ(car_io_->bus().restarts, 3u);
   EXPECT_EQ(controller_->opened(), opened + 3);
   EXPECT_EQ(link_.controller, ControllerState::kBusOff);
 }
@@ -203,9 +203,9 @@ TEST_F(Transmit, AnUnpluggedInterfaceIsDownAndLatches) {
   controller_->unplug();
   EXPECT_TRUE(run_until([](const auto& out) { return out.failed; }));
   EXPECT_EQ(link_.controller, ControllerState::kDown);
-  EXPECT_EQ(rim_->bus().restarts, 0u);
-  EXPECT_GT(rim_->bus().restarts_refused, 0u);
-  EXPECT_NE(std::string(rim_->bus().refusal.data()).find("error: "), std::string::npos);
+  EXPECT_EQ(car_io_->bus().restarts, 0u);
+  EXPECT_GT(car_io_->bus().restarts_refused, 0u);
+  EXPECT_NE(std::string(car_io_->bus().refusal.data()).find("error: "), std::string::npos);
 }
 
 TEST_F(Transmit, FramesLostInTheControllerShowWithoutAFurtherFrame) {
@@ -217,14 +217,14 @@ TEST_F(Transmit, FramesLostInTheControllerShowWithoutAFurtherFrame) {
 }
 
 TEST_F(Transmit, AnInterfaceThatOnlyListensIsNeverSentTo) {
-  ASSERT_FALSE(rim_->listen_only());
+  ASSERT_FALSE(car_io_->listen_only());
   set_up(true);
-  EXPECT_TRUE(rim_->listen_only());
+  EXPECT_TRUE(car_io_->listen_only());
   for (int i = 0; i < 30; ++i) tick(true);
   transport::sleep_until(transport::monotonic_now() + milliseconds(50));
   EXPECT_TRUE(controller_->take_frames().empty());
-  EXPECT_EQ(rim_->can().sent, 0u);
-  EXPECT_EQ(rim_->tx_drops(), 30u * std::size(kIds));
+  EXPECT_EQ(car_io_->can().sent, 0u);
+  EXPECT_EQ(car_io_->tx_drops(), 30u * std::size(kIds));
   EXPECT_EQ(guard_.restarts_total, 0u);
 }
 

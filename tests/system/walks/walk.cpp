@@ -36,15 +36,15 @@
 #include "protocol/transport/can/unix_can_hub.hpp"
 #include "protocol/transport/clock.hpp"
 #include "protocol/transport/file.hpp"
-#include "tests/support/browser.hpp"
+#include "tests/support/web_client.hpp"
 #include "vehicle/io/black_box.hpp"
+#include "vehicle/io/car_io.hpp"
 #include "vehicle/io/radio.hpp"
-#include "vehicle/io/rim.hpp"
 #include "vehicle/parameters/car_file.hpp"
 #include "vehicle/parameters/track_file.hpp"
 #include "vehicle/pipeline/radio_adapter.hpp"
 #include "vehicle/pipeline/step.hpp"
-#include "vehicle/pipeline/telemetry_tap.hpp"
+#include "vehicle/pipeline/telemetry_mapper.hpp"
 #include "vehicle/pipeline/tick_log.hpp"
 
 namespace pitwall {
@@ -53,7 +53,7 @@ namespace {
 namespace web = publishers::web;
 
 constexpr int kAttempts = 50;
-constexpr Duration kPatience = seconds(20);  // under callgrind, on a loaded machine
+constexpr Duration kTimeout = seconds(20);  // under callgrind, on a loaded machine
 constexpr Duration kTick = milliseconds(10);
 
 [[noreturn]] void give_up(const std::string& why) {
@@ -112,7 +112,7 @@ class Car {
       : hub_(had(transport::UnixCanHub::open("unix:" + folder + "/bus"))),
         wheels_(had(transport::CanSocket::open("unix:" + folder + "/bus"))),
         setup_(made_setup()),
-        rim_(had(io::Rim::open(arguments(folder), setup_.params.receivers))),
+        car_io_(had(io::CarIo::open(arguments(folder), setup_.params.receivers))),
         box_(had(io::BlackBox::open("", "", ""))),
         radio_(had(
             io::Radio::open({{base}, folder + "/" + link::kCarKeys}, setup_.params.radio, true))) {}
@@ -129,28 +129,28 @@ class Car {
   }
 
   void tick() {
-    const io::Rim::Received received = rim_.read(box_);
-    radio_.listen(box_);
+    const io::CarIo::Received received = car_io_.read(box_);
+    radio_.receive(box_);
     const Instant now = transport::monotonic_now();
     pipeline::Inputs in{.now = now,
                         .dt = now - last_,
                         .can = received.can,
                         .sensors = received.sensors,
                         .requests = {},
-                        .may_arm = !rim_.listen_only(),
+                        .may_arm = !car_io_.listen_only(),
                         .link = received.link};
     adapter_.fill(radio_.endpoint(), in);
     const pipeline::Outputs out = pipeline::step(setup_, *car_, in);
-    rim_.write(out.passed.frames.span(), now);
+    car_io_.write(out.passed.frames.span(), now);
     last_ = now;
     log_->note(in, out, setup_.track.length_m());
     adapter_.take(radio_.endpoint(), setup_, *car_, out, now);
     if (!radio_.due(now)) return;
-    pipeline::RimCounters counters;
+    pipeline::IoCounters counters;
     adapter_.show(radio_.endpoint(), counters, now);
-    radio_.speak(
-        pipeline::tap(
-            {.setup = setup_, .car = *car_, .out = out, .log = *log_, .rim = counters, .now = now}),
+    radio_.send(
+        pipeline::map_telemetry(
+            {.setup = setup_, .car = *car_, .out = out, .log = *log_, .io = counters, .now = now}),
         now, box_);
   }
   bool due() const { return radio_.due(transport::monotonic_now()); }
@@ -174,7 +174,7 @@ class Car {
   std::unique_ptr<transport::UnixCanHub> hub_;
   transport::CanSocket wheels_;
   pipeline::Setup setup_;
-  io::Rim rim_;
+  io::CarIo car_io_;
   io::BlackBox box_;
   io::Radio radio_;
   pipeline::RadioAdapter adapter_;
@@ -187,13 +187,13 @@ class Car {
 class Console {
  public:
   void open(std::uint16_t port) {
-    if (browser_.open(port) != 101) give_up("the console is refused");
+    if (web_client_.open(port) != 101) give_up("the console is refused");
     reader_ = std::thread([this] {
-      while (const auto received = browser_.receive()) take(*received);
+      while (const auto received = web_client_.receive()) take(*received);
     });
     reader_.detach();
   }
-  void say(const std::string& text) { browser_.say(text); }
+  void say(const std::string& text) { web_client_.send_text(text); }
   double value(telemetry::FieldIndex field) const { return values_[field]; }
   std::optional<json::JsonValue> text(const std::string& type) {
     const std::lock_guard lock(texts_lock_);
@@ -202,7 +202,7 @@ class Console {
   }
 
  private:
-  void take(const web::Browser::Received& received) {
+  void take(const web::WebClient::Received& received) {
     if (received.text) {
       const auto value = json::JsonValue::parse(received.bytes, "text");
       const std::lock_guard lock(texts_lock_);
@@ -220,7 +220,7 @@ class Console {
     }
   }
 
-  web::Browser browser_;
+  web::WebClient web_client_;
   std::thread reader_;
   std::array<std::atomic<float>, telemetry::kFieldCount> values_{};
   std::mutex texts_lock_;
@@ -294,7 +294,7 @@ class Walk {
   }
   template <class Holds>
   void run_until(const char* what, const Holds& holds) {
-    const Instant end = transport::monotonic_now() + kPatience;
+    const Instant end = transport::monotonic_now() + kTimeout;
     while (!holds()) {
       if (transport::monotonic_now() > end) {
         const auto error = console_.text("error");

@@ -24,7 +24,7 @@ constexpr std::array kStates{
     CtState::kNominalRace,      CtState::kCoordinatedStop, CtState::kControlledShutdown,
     CtState::kEmergencyShutdown};
 
-struct BenchServer {
+struct DriveByWireRig {
   HandshakeParams params;
   HandshakeState state;
   HandshakeInputs inputs{.speed_mps = 0.0};
@@ -41,7 +41,7 @@ struct BenchServer {
 };
 
 TEST(Handshake, AWholeDayFromPowerOnToShutdown) {
-  BenchServer adapter;
+  DriveByWireRig adapter;
   EXPECT_EQ(adapter.wait(seconds(5)), CtState::kDefault) << "waits for race control";
   adapter.inputs.track = TrackFlag::kRed;
   adapter.inputs.sys = SysState::kPowerOn;
@@ -87,7 +87,7 @@ TEST(Handshake, ACarThatIsDisarmedAtRestIsReadyToBeArmedAgain) {
   for (const CtState from : {CtState::kInitDriving, CtState::kCaution, CtState::kNominalRace,
                              CtState::kCoordinatedStop}) {
     for (const TrackFlag flag : {TrackFlag::kGreen, TrackFlag::kRed}) {
-      BenchServer adapter;
+      DriveByWireRig adapter;
       adapter.state = {from, adapter.now};
       adapter.inputs = {.sys = SysState::kDriving, .track = flag, .mode = Mode::kHalted};
       adapter.inputs.speed_mps = 0.0;
@@ -108,7 +108,7 @@ TEST(Handshake, ACarThatIsDisarmedAtRestIsReadyToBeArmedAgain) {
 
 // Whatever is asked while the car moves: only what an emergency or an open throttle asks.
 TEST(Handshake, NothingElseTurnsTheEngineOffWhileTheCarMoves) {
-  BenchServer adapter;
+  DriveByWireRig adapter;
   adapter.state = {CtState::kNominalRace, adapter.now};
   for (const Mode mode : {Mode::kDriving, Mode::kCoast, Mode::kControlledStop}) {
     for (const double v : {1.01, 20.0, 65.0, kUnset}) {
@@ -126,7 +126,7 @@ TEST(Handshake, NothingElseTurnsTheEngineOffWhileTheCarMoves) {
 TEST(Handshake, EveryEmergencyFromEveryStateAndThereItStays) {
   for (const CtState from : kStates) {
     for (int kind = 0; kind < 4; ++kind) {
-      BenchServer adapter;
+      DriveByWireRig adapter;
       adapter.state = {from, adapter.now};
       if (kind == 0) adapter.inputs.mode = Mode::kEmergencyStop;
       if (kind == 1) adapter.inputs.operator_emergency = true;
@@ -186,7 +186,7 @@ TEST(Handshake, RandomInputsNeverLeaveThePublishedEdges) {
   Random random{11};
   int changes = 0;
   for (int run = 0; run < 400; ++run) {
-    BenchServer adapter;
+    DriveByWireRig adapter;
     adapter.state = {kStates[random.below(kStates.size())], adapter.now};
     for (int i = 0; i < 200; ++i) {
       const CtState from = adapter.state.ct;

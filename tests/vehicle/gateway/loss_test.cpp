@@ -148,7 +148,8 @@ TEST(Losses, TheLastFrameOfAllIsReportedThoughNothingFollows) {
     const auto first =
         std::find_if(received.reports.begin(), received.reports.end(),
                      [&row](const LossReport& report) { return report.id == row.id; });
-    if (row.period + can::slack_of(row) > seconds(1) - row.period) continue;  // not due by the end
+    if (row.period + can::tolerance_of(row) > seconds(1) - row.period)
+      continue;  // not due by the end
     ASSERT_NE(first, received.reports.end()) << row.name;
     EXPECT_EQ(first->detector, LossDetector::kPeriod) << row.name;
     EXPECT_GE(first->due, silent) << row.name;

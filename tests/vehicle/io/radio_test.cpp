@@ -26,7 +26,7 @@ using telemetry::KeyFile;
 using telemetry::Role;
 using transport::UdpSocket;
 
-constexpr Duration kPatience = seconds(5);  // of a loaded machine; nothing is measured with it
+constexpr Duration kTimeout = seconds(5);  // of a loaded machine; nothing is measured with it
 
 class CarRadio : public ::testing::Test {
  protected:
@@ -132,13 +132,13 @@ struct Ticked {
 Ticked tick_until(Radio& radio, Base& base, const std::function<bool()>& condition,
                   BlackBox box = *BlackBox::open("", "", "")) {
   Ticked out;
-  const Instant limit = transport::monotonic_now() + kPatience;
+  const Instant limit = transport::monotonic_now() + kTimeout;
   while (!(out.held = condition()) && transport::monotonic_now() < limit) {
     base.serve();
     out.allocations += testing::allocations_of([&] {
-      radio.listen(box);
+      radio.receive(box);
       const Instant now = transport::monotonic_now();
-      if (radio.due(now)) radio.speak(driving_at(61.5, now), now, box);
+      if (radio.due(now)) radio.send(driving_at(61.5, now), now, box);
     });
     transport::sleep_until(transport::monotonic_now() + milliseconds(2));
   }

@@ -8,7 +8,7 @@
 
 #include "tests/support/allocation_guard.hpp"
 #include "tests/vehicle/pipeline/standing_car.hpp"
-#include "vehicle/pipeline/telemetry_tap.hpp"
+#include "vehicle/pipeline/telemetry_mapper.hpp"
 
 namespace pitwall::pipeline {
 namespace {
@@ -136,8 +136,8 @@ TEST(OperatorStep, AnExcludedReceiverIsNotBelievedFromThisTickOn) {
   EXPECT_EQ(t.out->ego.validity, world::Validity::kGood) << "by the other one";
   EXPECT_EQ(t.car->orders.use.excluded, 1) << "it stays";
   TickLog log;
-  const auto reported =
-      tap({.setup = setup(), .car = *t.car, .out = *t.out, .log = log, .rim = {}, .now = t.now});
+  const auto reported = map_telemetry(
+      {.setup = setup(), .car = *t.car, .out = *t.out, .log = log, .io = {}, .now = t.now});
   EXPECT_EQ(reported.values[telemetry::field("localization.excluded")], 1.0);
   EXPECT_EQ(t.say(OperatorCommandKind::kSensorsExcluded, 0.0), CommandAnswer::kApplied);
   t.run(seconds(3));
@@ -157,12 +157,12 @@ TEST(OperatorStep, AJoystickLowersTheThrottleUntilItsSampleIsOld) {
   t.tick();
   EXPECT_EQ(t.out->chosen.command.throttle_fraction, 0.0);
   EXPECT_GT(t.out->chosen.command.brake_kpa, 0.0);
-  t.run(seconds(2));  // the rim goes on saying it; its age is looked at here
+  t.run(seconds(2));  // the I/O repeats it; its age is checked here
   EXPECT_GT(t.out->chosen.command.throttle_fraction, 0.0);
   EXPECT_EQ(t.out->radio.throttle_cap, 1.0);
 }
 
-// Anything an operator or a broken rim may hand over: one answer each, no heap, nothing refused by
+// Anything an operator or broken I/O may hand over: one answer each, no heap, nothing refused by
 // the frame gate.
 TEST(OperatorStep, WhateverIsSaidIsAnsweredOnceWithoutTheHeapOrTheGate) {
   Random random{7};

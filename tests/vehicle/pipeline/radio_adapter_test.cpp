@@ -25,9 +25,9 @@ using testing::setup;
 const std::string kParameters = "car: some\n";
 
 // Car and base with a wire between them, in virtual time.
-class BenchServer : public ::testing::Test {
+class RadioAdapterRig : public ::testing::Test {
  protected:
-  BenchServer() {
+  RadioAdapterRig() {
     telemetry::LinkEndpointConfig car, &base = base_config_;
     car.association.keys.own = telemetry::make_identity(random_);
     base.association.keys.role = telemetry::Role::kBase;
@@ -55,7 +55,7 @@ class BenchServer : public ::testing::Test {
       EXPECT_TRUE(out_->answers.push({command.id, answer_, now_}));
     }
     adapter_.take(*car_radio_, setup(), *car_, *out_, now_);
-    RimCounters figures;
+    IoCounters figures;
     adapter_.show(*car_radio_, figures, now_);
     shown_ = figures;
     telemetry::Snapshot snapshot;
@@ -79,7 +79,7 @@ class BenchServer : public ::testing::Test {
     EXPECT_TRUE(id);
     run(milliseconds(400));
     const auto* progress = id ? base_radio_->progress(*id) : nullptr;
-    return progress != nullptr && progress->fate ? *progress->fate : Outcome::kReceived;
+    return progress != nullptr && progress->outcome ? *progress->outcome : Outcome::kReceived;
   }
 
   static constexpr telemetry::Address kCarAt{1, 40'000}, kBaseAt{2, 23'431};
@@ -97,7 +97,7 @@ class BenchServer : public ::testing::Test {
   bool may_arm_ = true;
   std::optional<Instant> radio_at_;
   std::vector<world::OperatorCommand> commands_;
-  RimCounters shown_;
+  IoCounters shown_;
   std::optional<telemetry::Path> path_;
   std::string parameters_;
   int events_ = 0;
@@ -105,7 +105,7 @@ class BenchServer : public ::testing::Test {
   std::vector<telemetry::ThreatChange> threats_;
 };
 
-TEST_F(BenchServer, TheBaseIsAliveAndEndsThatAgreeMayArm) {
+TEST_F(RadioAdapterRig, TheBaseIsAliveAndEndsThatAgreeMayArm) {
   tick();
   EXPECT_FALSE(radio_at_);
   run(seconds(1));
@@ -118,7 +118,7 @@ TEST_F(BenchServer, TheBaseIsAliveAndEndsThatAgreeMayArm) {
   EXPECT_GT(shown_.heartbeats, 10u);
 }
 
-TEST_F(BenchServer, EndsThatUnderstandSafetyDifferentlyDoNotArm) {
+TEST_F(RadioAdapterRig, EndsThatUnderstandSafetyDifferentlyDoNotArm) {
   base_config_.association.greeting.safety_schema = 1;
   base_radio_.emplace(base_config_, random_);
   run(seconds(1));
@@ -127,7 +127,7 @@ TEST_F(BenchServer, EndsThatUnderstandSafetyDifferentlyDoNotArm) {
   EXPECT_FALSE(shown_.uplink.schema_agrees);
 }
 
-TEST_F(BenchServer, AStopOfTheOperatorIsAWishThatStays) {
+TEST_F(RadioAdapterRig, AStopOfTheOperatorIsAWishThatStays) {
   run(milliseconds(500));
   EXPECT_EQ(operator_inputs_.stop, world::StopRequest::kNone);
   base_radio_->stop().demand(telemetry::StopLevel::kControlled, telemetry::StopReason::kOperator);
@@ -138,7 +138,7 @@ TEST_F(BenchServer, AStopOfTheOperatorIsAWishThatStays) {
   EXPECT_EQ(operator_inputs_.stop, world::StopRequest::kEmergency);
 }
 
-TEST_F(BenchServer, ThePipelinesAnswerIsTheCommandsFate) {
+TEST_F(RadioAdapterRig, ThePipelinesAnswerIsTheCommandsFate) {
   run(milliseconds(500));
   EXPECT_EQ(fate_of(CommandType::kSpeedLimit, 30.0), Outcome::kApplied);
   answer_ = world::CommandAnswer::kRefused;
@@ -152,7 +152,7 @@ TEST_F(BenchServer, ThePipelinesAnswerIsTheCommandsFate) {
   EXPECT_NEAR(commands_[0].argument, 30.0, 0.05);
 }
 
-TEST_F(BenchServer, TheRunEndsAtStandstillOnly) {
+TEST_F(RadioAdapterRig, TheRunEndsAtStandstillOnly) {
   run(milliseconds(500));
   EXPECT_EQ(fate_of(CommandType::kEndRun, 1.0), Outcome::kRefused);
   EXPECT_FALSE(adapter_.end_asked());
@@ -162,14 +162,14 @@ TEST_F(BenchServer, TheRunEndsAtStandstillOnly) {
   EXPECT_TRUE(commands_.empty()) << "no business of the pipeline";
 }
 
-TEST_F(BenchServer, ParametersAreSentWhenAskedFor) {
+TEST_F(RadioAdapterRig, ParametersAreSentWhenAskedFor) {
   run(milliseconds(500));
   EXPECT_EQ(fate_of(CommandType::kSendParameters, 1.0), Outcome::kApplied);
   run(seconds(1));
   EXPECT_EQ(parameters_, kParameters);
 }
 
-TEST_F(BenchServer, ThePathThatIsFollowedIsShown) {
+TEST_F(RadioAdapterRig, ThePathThatIsFollowedIsShown) {
   for (int i = 0; i < 40; ++i) {
     EXPECT_TRUE(
         car_->plan.output.drive.points.push({.x_m = 2.0 * i, .y_m = -1.0 * i, .speed_mps = 50.0}));
@@ -186,7 +186,7 @@ TEST_F(BenchServer, ThePathThatIsFollowedIsShown) {
   EXPECT_NEAR((*path_)[3].speed_mps, 34.0, 0.006);
 }
 
-TEST_F(BenchServer, WhatHappenedReachesTheBase) {
+TEST_F(RadioAdapterRig, WhatHappenedReachesTheBase) {
   run(milliseconds(500));
   out_->chosen.mode = world::Mode::kStandby;
   run(milliseconds(500));
@@ -194,7 +194,7 @@ TEST_F(BenchServer, WhatHappenedReachesTheBase) {
   EXPECT_EQ(adapter_.events_missed(), 0u);
 }
 
-TEST_F(BenchServer, AnAttackOnTheCarReachesItsOwnLogTheBaseAndTheTelemetry) {
+TEST_F(RadioAdapterRig, AnAttackOnTheCarReachesItsOwnLogTheBaseAndTheTelemetry) {
   run(seconds(1));
   EXPECT_EQ(shown_.threats, 0.0);
   const std::vector<std::uint8_t> noise(30, 0xFF);
@@ -223,10 +223,10 @@ TEST_F(BenchServer, AnAttackOnTheCarReachesItsOwnLogTheBaseAndTheTelemetry) {
   EXPECT_EQ(shown_.threats, 0.0);
 }
 
-TEST_F(BenchServer, NothingIsAllocated) {
+TEST_F(RadioAdapterRig, NothingIsAllocated) {
   run(seconds(2));
   Inputs in{.now = now_, .dt = milliseconds(10), .can = {}, .sensors = none_, .requests = {}};
-  RimCounters figures;
+  IoCounters figures;
   const std::size_t allocations = pitwall::testing::allocations_of([&] {
     adapter_.fill(*car_radio_, in);
     adapter_.take(*car_radio_, setup(), *car_, *out_, now_);

@@ -15,7 +15,7 @@
 
 #include "tests/support/allocation_guard.hpp"
 #include "tests/vehicle/pipeline/standing_car.hpp"
-#include "vehicle/pipeline/telemetry_tap.hpp"
+#include "vehicle/pipeline/telemetry_mapper.hpp"
 
 namespace pitwall::pipeline {
 namespace {
@@ -340,8 +340,8 @@ TEST(Step, ReportsThePlaceOnTheTrack) {
 std::vector<std::uint64_t> bits_of(const Outputs& out, Instant now) {
   std::vector<std::uint64_t> bits;
   static const auto kNoCar = std::make_unique<Car>();
-  const telemetry::Snapshot shown =
-      tap({.setup = setup(), .car = *kNoCar, .out = out, .log = {}, .rim = {}, .now = now});
+  const telemetry::Snapshot shown = map_telemetry(
+      {.setup = setup(), .car = *kNoCar, .out = out, .log = {}, .io = {}, .now = now});
   for (const double v : shown.values.at)
     bits.push_back(std::isnan(v) ? 0 : std::bit_cast<std::uint64_t>(v));
   for (const can::Frame& f : out.passed.frames) {

@@ -36,7 +36,7 @@ export function shownAge(reading: Reading): string {
 
 /** What a screen reader says of it. */
 export function stateWord(reading: Reading): string {
-  if (reading.quality === Quality.never) return "never heard";
+  if (reading.quality === Quality.never) return "not received yet";
   if (reading.quality === Quality.stale) return "stale";
   return kWords[reading.judgement];
 }

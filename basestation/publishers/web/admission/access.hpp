@@ -16,13 +16,13 @@
 #include <vector>
 
 #include "basestation/publishers/web/admission/identity.hpp"
-#include "basestation/publishers/web/admission/token_book.hpp"
+#include "basestation/publishers/web/admission/token_store.hpp"
 #include "protocol/vocabulary/result.hpp"
 
 namespace pitwall::publishers::web {
 
 struct AccessRules {
-  std::shared_ptr<TokenBook> tokens = std::make_shared<TokenBook>();
+  std::shared_ptr<TokenStore> tokens = std::make_shared<TokenStore>();
   std::optional<Role> default_role = Role::kViewer;  // without a token; nullopt: refused
   std::vector<std::string> names{};  // of this machine, beside addresses and localhost
   // Origins of foreign pages that are admitted: "https://app.foxglove.dev".

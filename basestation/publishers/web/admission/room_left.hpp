@@ -21,9 +21,9 @@ struct MemoryUse {
   std::uint64_t used = 0, allowed = 0;  // bytes
 };
 
-inline constexpr std::uint64_t kRoomToCome = 6'000'000;     // bytes: with less, none is admitted
-inline constexpr std::uint64_t kRoomPerNewcomer = 130'000;  // bytes: twice a console's measured use
-inline constexpr std::uint64_t kRoomToStay = 3'000'000;     // bytes: with less, one is disconnected
+inline constexpr std::uint64_t kMemoryToAccept = 6'000'000;  // bytes: with less, none is admitted
+inline constexpr std::uint64_t kMemoryPerClient = 130'000;  // bytes: twice a console's measured use
+inline constexpr std::uint64_t kMemoryToKeep = 3'000'000;   // bytes: with less, one is disconnected
 inline constexpr int kKeptDescriptors = 16;  // for the radio, recordings, files of the console
 
 // The limits that are set, in no particular order.

@@ -35,8 +35,8 @@ struct Both {
                            Instant) { refused.emplace_back(client, to_string(problem)); }});
   }
   void pass(Duration span) {
-    for (Duration done{}; done < span; done = done + BenchLink::kLook) {
-      now += BenchLink::kLook;
+    for (Duration done{}; done < span; done = done + BenchLink::kPollPeriod) {
+      now += BenchLink::kPollPeriod;
       link.publish(*rig.base, now);
     }
   }
@@ -115,13 +115,13 @@ TEST(BenchLink, NonsenseOfADeskIsCountedAndItGoesOn) {
   both.server->send(std::string(transport::LineSocket::kLineMax_bytes + 10, 'x'));
   for (int i = 0; i < 100; ++i) {
     both.server->flush();
-    both.pass(BenchLink::kLook);
+    both.pass(BenchLink::kPollPeriod);
   }
   both.server->send(R"({"type": "run", "run": 1, "seed": 1, "state": "running", "scenario": "a",)"
                     R"("name": "a", "mode": "live"})");
   both.pass(seconds(1));
   EXPECT_EQ(both.state().number("malformed"), 2.0);
-  EXPECT_EQ(both.link.book().counters().taken, 2U);
+  EXPECT_EQ(both.link.bench().counters().taken, 2U);
 }
 
 TEST(BenchLink, AFastRunIsToldFiveTimesASecond) {
@@ -135,7 +135,7 @@ TEST(BenchLink, AFastRunIsToldFiveTimesASecond) {
     for (int k = 0; k < 10; ++k)
       both.server->send(R"({"run": 1, "type": "at", "t_s": 1, "cross_track": [],)"
                         R"("expect": [], "reactions": []})");
-    both.pass(BenchLink::kLook);
+    both.pass(BenchLink::kPollPeriod);
   }
   EXPECT_LE(both.reported.size(), 6U);
   EXPECT_GE(both.reported.size(), 4U);

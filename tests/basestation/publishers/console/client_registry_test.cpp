@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "protocol/json/json_value.hpp"
-#include "tests/basestation/publishers/console/looking.hpp"
+#include "tests/basestation/publishers/console/fake_state_source.hpp"
 #include "tests/basestation/publishers/console/now.hpp"
 
 namespace pitwall::publishers::console {
@@ -30,11 +30,11 @@ class Clients : public ::testing::Test {
     return types;
   }
   std::optional<Request> says(ClientId client, const std::string& text) {
-    return clients_.receive_text(client, text, eyes_, kNow);
+    return clients_.receive_text(client, text, source_, kNow);
   }
   using Types = std::vector<std::string>;
 
-  Looking eyes_;
+  FakeStateSource source_;
   service::MessageLog messages_;
   ClientRegistry clients_{R"({"type": "catalogue"})", messages_};
 };
@@ -45,7 +45,7 @@ TEST_F(Clients, WhoJoinsIsToldWhoItIsThenWhatThereIs) {
   for (int i = 0; i < 300; ++i) messages_.add_line("audit", R"({"type": "audit"})", kNow);
   clients_.take();
   clients_.joined(18, {.role = Role::kViewer, .name = {}}, kNow);
-  clients_.serve(eyes_, {}, kNow);
+  clients_.serve(source_, {}, kNow);
   const Types types = reported(18);
   ASSERT_EQ(types.size(), 3 + service::MessageLog::kLines + 1);
   EXPECT_EQ(types[0], "hello");
@@ -76,7 +76,7 @@ TEST_F(Clients, ACrowdThatComesAtOnceSharesWhatItIsTold) {
 // In the order of what the base says, and once.
 TEST_F(Clients, ALineThatIsSaidWhileSomebodyComesIsToldAfterTheEarlierOnes) {
   messages_.subscribe([this](std::string_view, std::string_view text, Instant) {
-    clients_.tell_all(std::string{text});
+    clients_.send_to_all(std::string{text});
   });
   messages_.add_line("audit", R"({"type": "audit"})", kNow);
   clients_.take();
@@ -111,7 +111,7 @@ TEST_F(Clients, HistoryIsAFrameForWhoAsked) {
 TEST_F(Clients, WhoLeftIsToldNothingAndSaysNothing) {
   clients_.left(kAnna);
   EXPECT_FALSE(says(kAnna, R"({"type":"stop","kind":"emergency"})"));
-  clients_.tell_all("{}");
+  clients_.send_to_all("{}");
   for (const Sending& sending : clients_.take()) EXPECT_FALSE(sending.to.test(kAnna));
   EXPECT_FALSE(clients_.role(kAnna));
   EXPECT_EQ(clients_.clients(), 1u);

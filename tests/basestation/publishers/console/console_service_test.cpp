@@ -9,13 +9,13 @@
 
 #include "protocol/json/json_value.hpp"
 #include "tests/basestation/radio_rig.hpp"
-#include "tests/support/browser.hpp"
+#include "tests/support/web_client.hpp"
 
 namespace pitwall::publishers::console {
 namespace {
 
 using telemetry::field;
-using web::Browser;
+using web::WebClient;
 
 class Consoles : public ::testing::Test {
  protected:
@@ -40,14 +40,14 @@ class Consoles : public ::testing::Test {
       consoles_->publish(*rig_.base, rig_.now);
     }
   }
-  void join(Browser& browser) {
-    ASSERT_EQ(browser.open(server_->local().port), 101u);
+  void join(WebClient& web_client) {
+    ASSERT_EQ(web_client.open(server_->local().port), 101u);
     for (int i = 0; i < 20'000 && consoles_->clients().clients() == 0; ++i) run(milliseconds(1));
     ASSERT_EQ(consoles_->clients().clients(), 1u);
   }
   // What the console does not read yet waits in its socket.
-  json::JsonValue receive(Browser& browser, const std::string& type) {
-    while (const auto received = browser.receive()) {
+  json::JsonValue receive(WebClient& web_client, const std::string& type) {
+    while (const auto received = web_client.receive()) {
       if (!received->text) {
         take(received->bytes);
         continue;
@@ -69,12 +69,12 @@ class Consoles : public ::testing::Test {
     }
   }
   // Says it, lets the base act, and gives the next text of this type.
-  json::JsonValue ask(Browser& browser, const std::string& text, const std::string& type) {
+  json::JsonValue ask(WebClient& web_client, const std::string& text, const std::string& type) {
     const std::uint64_t before = server_->counters().texts_received;
-    browser.say(text);
+    web_client.send_text(text);
     while (server_->counters().texts_received == before) run(milliseconds(1));
     run(milliseconds(200));
-    return receive(browser, type);
+    return receive(web_client, type);
   }
 
   RadioRig rig_{{.service = {.car = 7}}};
@@ -86,15 +86,15 @@ class Consoles : public ::testing::Test {
 
 TEST_F(Consoles, AConsoleSeesTheCarAsSoonAsItJoins) {
   run(seconds(2));
-  Browser browser;
-  join(browser);
+  WebClient web_client;
+  join(web_client);
   run(milliseconds(1'200));
-  const auto hello = receive(browser, "hello");
+  const auto hello = receive(web_client, "hello");
   EXPECT_EQ(hello.number("car"), 7.0);
   EXPECT_EQ(hello.text("mode"), "REAL");
   EXPECT_EQ(hello.text("role"), "operator");
-  EXPECT_GT(receive(browser, "catalogue").items("fields").size(), 200u);
-  for (int i = 0; i < 3; ++i) receive(browser, "link");  // the last one after the first picture
+  EXPECT_GT(receive(web_client, "catalogue").items("fields").size(), 200u);
+  for (int i = 0; i < 3; ++i) receive(web_client, "link");  // the last one after the first picture
   EXPECT_EQ(values_[field("ego.x")], 12.5F);
   EXPECT_EQ(status_[field("ego.x")] & 3, 0) << "fresh";
   EXPECT_EQ(status_[field("ego.y")] & 3, 3) << "never";
@@ -103,41 +103,41 @@ TEST_F(Consoles, AConsoleSeesTheCarAsSoonAsItJoins) {
 
 TEST_F(Consoles, AStopNeedsNoAuthorityAndIsInTheNextPacket) {
   run(seconds(1));
-  Browser browser;
-  join(browser);
-  ask(browser, R"({"type":"stop","kind":"emergency"})", "audit");
+  WebClient web_client;
+  join(web_client);
+  ask(web_client, R"({"type":"stop","kind":"emergency"})", "audit");
   EXPECT_EQ(rig_.car->view(rig_.now).stop, telemetry::StopLevel::kEmergency);
 }
 
 TEST_F(Consoles, ACommandGoesThroughTheDesk) {
   run(seconds(1));
-  Browser browser;
-  join(browser);
+  WebClient web_client;
+  join(web_client);
   const std::string stage = R"({"type":"stage","name":"sensors excluded","argument":2})";
-  const auto without = ask(browser, stage, "command");
+  const auto without = ask(web_client, stage, "command");
   EXPECT_EQ(without.text("step"), "staged") << "a gate has not passed";
   EXPECT_TRUE(rig_.reported.empty());
-  ask(browser, R"({"type":"authority","do":"take"})", "authority");
-  const auto staged = ask(browser, stage, "command");
-  const auto sent = ask(browser,
+  ask(web_client, R"({"type":"authority","do":"take"})", "authority");
+  const auto staged = ask(web_client, stage, "command");
+  const auto sent = ask(web_client,
                         R"({"type":"send","ticket":)" +
                             std::to_string(static_cast<int>(staged.number("ticket"))) + "}",
                         "command");
   ASSERT_EQ(rig_.reported.size(), 1u);
   EXPECT_EQ(rig_.reported[0].command.argument, 2.0);
-  EXPECT_EQ(ask(browser, R"({"type":"stage","name":"fly","argument":2})", "error").text("place"),
+  EXPECT_EQ(ask(web_client, R"({"type":"stage","name":"fly","argument":2})", "error").text("place"),
             "stage.name");
-  EXPECT_EQ(ask(browser, R"({"type":"playback","speed":2})", "error").text("place"), "playback");
+  EXPECT_EQ(ask(web_client, R"({"type":"playback","speed":2})", "error").text("place"), "playback");
 }
 
 // Also without a bench server: who wanted to start what is in the audit log.
 TEST_F(Consoles, AWishForTheBenchLeavesALine) {
   run(seconds(1));
-  Browser browser;
-  join(browser);
+  WebClient web_client;
+  join(web_client);
   const auto refused =
-      ask(browser, R"({"type":"bench","do":"start","scenario":"red","mode":"lockstep","seed":7})",
-          "error");
+      ask(web_client,
+          R"({"type":"bench","do":"start","scenario":"red","mode":"lockstep","seed":7})", "error");
   EXPECT_EQ(refused.text("place"), "bench");
   const command::AuditLine& line = rig_.base->requests().audit().lines().back();
   EXPECT_EQ(line.what, "bench: start red, lockstep, seed 7");
@@ -146,30 +146,30 @@ TEST_F(Consoles, AWishForTheBenchLeavesALine) {
 
 TEST_F(Consoles, WhatTheHolderSetsIsToldToAll) {
   run(seconds(1));
-  Browser browser;
-  join(browser);
-  ask(browser, R"({"type":"authority","do":"take"})", "authority");
-  json::JsonValue reported = ask(browser, R"({"type":"fuel_loaded","litres":40})", "expected");
-  while (!(reported.number("fuel_loaded_l") == 40.0)) reported = receive(browser, "expected");
+  WebClient web_client;
+  join(web_client);
+  ask(web_client, R"({"type":"authority","do":"take"})", "authority");
+  json::JsonValue reported = ask(web_client, R"({"type":"fuel_loaded","litres":40})", "expected");
+  while (!(reported.number("fuel_loaded_l") == 40.0)) reported = receive(web_client, "expected");
   reported =
-      ask(browser,
+      ask(web_client,
           R"({"type":"edit_limit","field":"electric.battery","bad_low":11,"reason":"old one"})",
           "settings");
-  while (!(reported.number("revision") == 1.0)) reported = receive(browser, "settings");
+  while (!(reported.number("revision") == 1.0)) reported = receive(web_client, "settings");
   EXPECT_FALSE(reported.flag("kept")) << "there is no file";
   EXPECT_EQ(rig_.base->evaluator().limits().of(state::field_id("electric.battery")).bad_low, 11.0);
   // A set of values; the other one stays as it was.
   constexpr state::FieldId kMode = state::field_id("mode.mode");
   const alarms::Limit before = rig_.base->evaluator().limits().of(kMode);
   reported =
-      ask(browser, R"({"type":"edit_limit","field":"mode.mode","bad_values":[3],"reason":"x"})",
+      ask(web_client, R"({"type":"edit_limit","field":"mode.mode","bad_values":[3],"reason":"x"})",
           "settings");
   EXPECT_EQ(reported.number("revision"), 2.0);
   EXPECT_EQ(rig_.base->evaluator().limits().of(kMode).bad_values, 1U << 3);
   EXPECT_EQ(rig_.base->evaluator().limits().of(kMode).warning_values, before.warning_values);
-  EXPECT_EQ(
-      ask(browser, R"({"type":"edit_budget","up_kbit_s":100,"reason":"x"})", "error").text("place"),
-      "budget")
+  EXPECT_EQ(ask(web_client, R"({"type":"edit_budget","up_kbit_s":100,"reason":"x"})", "error")
+                .text("place"),
+            "budget")
       << "no budget was given at the start: there is none to lower";
 }
 
@@ -194,8 +194,8 @@ TEST_F(Consoles, ASilentJoystickIsAnAlarm) {
 
 TEST_F(Consoles, ALinkThatIsLostIsShownWithinHalfASecondAndRaisesOneAlarm) {
   run(seconds(3));
-  Browser browser;
-  join(browser);
+  WebClient web_client;
+  join(web_client);
   run(milliseconds(100));
   rig_.loses = [](bool to_base, telemetry::PathId) { return to_base; };
   run(milliseconds(600));
@@ -203,7 +203,7 @@ TEST_F(Consoles, ALinkThatIsLostIsShownWithinHalfASecondAndRaisesOneAlarm) {
   run(seconds(2));
   json::JsonValue alarms;
   do {
-    alarms = receive(browser, "alarms");
+    alarms = receive(web_client, "alarms");
   } while (alarms.items("active").empty());
   EXPECT_EQ(alarms.items("active").size(), 1u);
   EXPECT_EQ(alarms.items("active")[0].text("priority"), "high");
@@ -211,13 +211,13 @@ TEST_F(Consoles, ALinkThatIsLostIsShownWithinHalfASecondAndRaisesOneAlarm) {
 
 TEST_F(Consoles, HistoryLooksBack) {
   run(seconds(5));
-  Browser browser;
-  join(browser);
-  browser.say(R"({"type":"history","field":)" + std::to_string(field("ego.x")) +
-              R"(,"from_s":60,"to_s":0,"points":1000})");
+  WebClient web_client;
+  join(web_client);
+  web_client.send_text(R"({"type":"history","field":)" + std::to_string(field("ego.x")) +
+                       R"(,"from_s":60,"to_s":0,"points":1000})");
   while (server_->counters().texts_received == 0) run(milliseconds(1));
   run(milliseconds(5));
-  while (const auto received = browser.receive()) {
+  while (const auto received = web_client.receive()) {
     if (received->text || received->bytes[0] != 2) continue;
     std::uint32_t points = 0;
     std::memcpy(&points, received->bytes.data() + web::kFrameHeader + 4, sizeof points);

@@ -20,12 +20,12 @@ TEST(ReplayConsole, GoesOnWithTheTimeThatPasses) {
   const auto folder = transport::TemporaryFolder::create("pitwall_wall");
   replay::testing::record_race(folder->path(), seconds(6));
   const auto web = server();
-  ReplayConsole wall{{}, *replay::Player::open(folder->path()), *web};
-  EXPECT_EQ(wall.player().now(), replay::testing::kRaceStart);
-  for (int i = 0; i < 100; ++i) wall.serve(milliseconds(40));
-  EXPECT_EQ(wall.player().now(), replay::testing::kRaceStart + seconds(4));
-  for (int i = 0; i < 100; ++i) wall.serve(milliseconds(40));
-  EXPECT_TRUE(wall.player().ended());
+  ReplayConsole console{{}, *replay::Player::open(folder->path()), *web};
+  EXPECT_EQ(console.player().now(), replay::testing::kRaceStart);
+  for (int i = 0; i < 100; ++i) console.serve(milliseconds(40));
+  EXPECT_EQ(console.player().now(), replay::testing::kRaceStart + seconds(4));
+  for (int i = 0; i < 100; ++i) console.serve(milliseconds(40));
+  EXPECT_TRUE(console.player().ended());
 }
 
 struct Other : replay::Listener {
@@ -39,19 +39,19 @@ TEST(ReplayConsole, AToolIsToldTheSameAndMayWind) {
   const auto folder = transport::TemporaryFolder::create("pitwall_wall");
   replay::testing::record_race(folder->path(), seconds(6));
   const auto web = server();
-  ReplayConsole wall{{}, *replay::Player::open(folder->path()), *web};
+  ReplayConsole console{{}, *replay::Player::open(folder->path()), *web};
   Other other;
-  wall.tell_also(other);
-  for (int i = 0; i < 50; ++i) wall.serve(milliseconds(40));
+  console.tell_also(other);
+  for (int i = 0; i < 50; ++i) console.serve(milliseconds(40));
   EXPECT_GT(other.states, 50);
   EXPECT_EQ(other.restarts, 0);
-  wall.wind(0.0, replay::testing::kRaceStart + seconds(1));
+  console.control_playback(0.0, replay::testing::kRaceStart + seconds(1));
   EXPECT_EQ(other.restarts, 1);
-  wall.serve(seconds(1));
-  EXPECT_EQ(wall.player().now(), replay::testing::kRaceStart + seconds(1)) << "it pauses there";
-  wall.wind(2.0, std::nullopt);
-  wall.serve(seconds(1));
-  EXPECT_EQ(wall.player().now(), replay::testing::kRaceStart + seconds(3));
+  console.serve(seconds(1));
+  EXPECT_EQ(console.player().now(), replay::testing::kRaceStart + seconds(1)) << "it pauses there";
+  console.control_playback(2.0, std::nullopt);
+  console.serve(seconds(1));
+  EXPECT_EQ(console.player().now(), replay::testing::kRaceStart + seconds(3));
 }
 
 }  // namespace

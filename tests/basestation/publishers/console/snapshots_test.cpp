@@ -5,7 +5,7 @@
 
 #include <map>
 
-#include "tests/basestation/publishers/console/looking.hpp"
+#include "tests/basestation/publishers/console/fake_state_source.hpp"
 #include "tests/basestation/publishers/console/now.hpp"
 
 namespace pitwall::publishers::console {
@@ -14,9 +14,9 @@ namespace {
 using telemetry::field;
 
 TEST(Snapshots, TheFirstIsWhole) {
-  Looking eyes;
+  FakeStateSource source;
   Snapshots snapshots;
-  const auto frame = snapshots.make(eyes, kNow);
+  const auto frame = snapshots.make(source, kNow);
   ASSERT_TRUE(frame);
   EXPECT_EQ(frame->count, reported_fields().size());
   EXPECT_EQ(frame->flags & web::kFullPicture, web::kFullPicture);
@@ -24,18 +24,18 @@ TEST(Snapshots, TheFirstIsWhole) {
 }
 
 TEST(Snapshots, PacketsOfFiftyASecondMakeTwentyFiveFramesEachAtItsPacket) {
-  Looking eyes;
+  FakeStateSource source;
   Snapshots snapshots;
   int frames = 0;
   for (int tick = 0; tick < 10'000; ++tick) {  // ms
     const Instant now = kNow + milliseconds(tick);
     const bool packet = tick % 20 == 7;
     if (packet) {
-      eyes.show(field("ego.x"), tick, now);
+      source.show(field("ego.x"), tick, now);
       snapshots.receive();
     }
     if (!packet && now < snapshots.due()) continue;
-    if (!snapshots.make(eyes, now)) continue;
+    if (!snapshots.make(source, now)) continue;
     ++frames;
     EXPECT_TRUE(packet || frames == 1) << tick;
   }
@@ -43,29 +43,29 @@ TEST(Snapshots, PacketsOfFiftyASecondMakeTwentyFiveFramesEachAtItsPacket) {
 }
 
 TEST(Snapshots, WithoutPacketsValuesAreSeenToGrowOld) {
-  Looking eyes;
-  eyes.show(field("ego.x"), 1.0, kNow);
+  FakeStateSource source;
+  source.show(field("ego.x"), 1.0, kNow);
   Snapshots snapshots;
   int frames = 0;
   for (int tick = 0; tick < 1'000; ++tick) {
-    if (snapshots.make(eyes, kNow + milliseconds(tick))) ++frames;
+    if (snapshots.make(source, kNow + milliseconds(tick))) ++frames;
   }
   EXPECT_NEAR(frames, 20, 2);
 }
 
 TEST(Snapshots, ASafetyValueIsToldAtOnceAndItsAgeIsNot) {
-  Looking eyes;
-  eyes.show(field("mode.mode"), 2.0, kNow);
-  eyes.show(field("uplink.link_age"), 0.1, kNow);
+  FakeStateSource source;
+  source.show(field("mode.mode"), 2.0, kNow);
+  source.show(field("uplink.link_age"), 0.1, kNow);
   Snapshots snapshots;
-  ASSERT_TRUE(snapshots.make(eyes, kNow));
-  eyes.show(field("mode.mode"), 2.0, kNow + milliseconds(5));
-  eyes.show(field("uplink.link_age"), 0.2, kNow + milliseconds(5));
+  ASSERT_TRUE(snapshots.make(source, kNow));
+  source.show(field("mode.mode"), 2.0, kNow + milliseconds(5));
+  source.show(field("uplink.link_age"), 0.2, kNow + milliseconds(5));
   snapshots.receive();
-  EXPECT_FALSE(snapshots.make(eyes, kNow + milliseconds(5)));
-  eyes.show(field("mode.mode"), 3.0, kNow + milliseconds(6));
+  EXPECT_FALSE(snapshots.make(source, kNow + milliseconds(5)));
+  source.show(field("mode.mode"), 3.0, kNow + milliseconds(6));
   snapshots.receive();
-  const auto frame = snapshots.make(eyes, kNow + milliseconds(6));
+  const auto frame = snapshots.make(source, kNow + milliseconds(6));
   ASSERT_TRUE(frame);
   EXPECT_EQ(frame->flags, web::kAtOnce);
   EXPECT_EQ(frame->entries[0], field("mode.mode"));
@@ -73,7 +73,7 @@ TEST(Snapshots, ASafetyValueIsToldAtOnceAndItsAgeIsNot) {
 
 // A reader that takes every frame has at any time exactly what a new whole picture has.
 TEST(Snapshots, WhatIsToldAddsUpToTheWholePicture) {
-  Looking eyes;
+  FakeStateSource source;
   Snapshots snapshots;
   std::map<int, std::vector<std::uint8_t>> known;
   const auto take = [&](const Frame& frame) {
@@ -84,14 +84,14 @@ TEST(Snapshots, WhatIsToldAddsUpToTheWholePicture) {
   };
   for (int round = 0; round < 200; ++round) {
     const Instant now = kNow + milliseconds(40) * round;
-    eyes.show(field("ego.x"), round / 3, now);
-    if (round % 7 == 0) eyes.show(field("tyres.pressure_rear_left"), round, now);
+    source.show(field("ego.x"), round / 3, now);
+    if (round % 7 == 0) source.show(field("tyres.pressure_rear_left"), round, now);
     snapshots.receive();
-    const auto frame = snapshots.make(eyes, now);
+    const auto frame = snapshots.make(source, now);
     ASSERT_TRUE(frame);
     take(*frame);
     Snapshots fresh;
-    const auto whole = fresh.make(eyes, now);
+    const auto whole = fresh.make(source, now);
     for (std::size_t i = 0; i < whole->count; ++i) {
       const auto* at = &whole->entries[i * web::kSnapshotEntry];
       ASSERT_EQ(known[at[0] | at[1] << 8], std::vector<std::uint8_t>(at, at + web::kSnapshotEntry))

@@ -17,18 +17,19 @@ class FoxgloveRoom : public testing::Test {
     return {{.topic = "/a"}, {.topic = "/b"}, {.topic = "/latched", .latched = true}};
   }
   void SetUp() override {
-    room_.joined(kAnna);
-    room_.joined(kBert);
-    room_.take();
+    clients_.joined(kAnna);
+    clients_.joined(kBert);
+    clients_.take();
   }
   void subscribe(web::ClientId client, int id, int channel) {
-    room_.receive_text(client, R"({"op":"subscribe","subscriptions":[{"id":)" + std::to_string(id) +
-                                   R"(,"channelId":)" + std::to_string(channel) + "}]}");
+    clients_.receive_text(client, R"({"op":"subscribe","subscriptions":[{"id":)" +
+                                      std::to_string(id) + R"(,"channelId":)" +
+                                      std::to_string(channel) + "}]}");
   }
   // The statuses that a client was told, in a row.
   std::string statuses(web::ClientId client) {
     std::string all;
-    for (const Sending& sending : room_.take()) {
+    for (const Sending& sending : clients_.take()) {
       if (!sending.to.test(client) || sending.message->text.empty()) continue;
       const auto value = json::JsonValue::parse(sending.message->text, "text");
       if (value->text("op") == "status") all += value->text("message") + "\n";
@@ -36,18 +37,18 @@ class FoxgloveRoom : public testing::Test {
     return all;
   }
   std::uint64_t refused(const std::string& kind) const {
-    for (const auto& [name, count] : room_.figures().refused) {
+    for (const auto& [name, count] : clients_.figures().refused) {
       if (name == kind) return count;
     }
     return 0;
   }
 
-  ClientRegistry room_{{.name = "car", .session = "s"}, rows()};
+  ClientRegistry clients_{{.name = "car", .session = "s"}, rows()};
 };
 
 TEST_F(FoxgloveRoom, WhoJoinsIsToldWhatIsServedBeforeAnythingElse) {
-  room_.joined(18);
-  const auto out = room_.take();
+  clients_.joined(18);
+  const auto out = clients_.take();
   ASSERT_EQ(out.size(), 2U);
   EXPECT_NE(out[0].message->text.find("serverInfo"), std::string::npos);
   EXPECT_NE(out[1].message->text.find("/latched"), std::string::npos);
@@ -59,8 +60,8 @@ TEST_F(FoxgloveRoom, AMessageGoesToItsSubscribersUnderTheirOwnIds) {
   subscribe(kAnna, 5, 0);
   subscribe(kBert, 9, 0);
   subscribe(kBert, 8, 1);
-  room_.message(0, UtcTime{77}, kBody);
-  const auto out = room_.take();
+  clients_.message(0, UtcTime{77}, kBody);
+  const auto out = clients_.take();
   ASSERT_EQ(out.size(), 2U);
   for (const Sending& sending : out) {
     const web::Bytes& bytes = *sending.message->binary;
@@ -73,28 +74,28 @@ TEST_F(FoxgloveRoom, AMessageGoesToItsSubscribersUnderTheirOwnIds) {
 }
 
 TEST_F(FoxgloveRoom, NobodyIsToldWhatHeHasNotSubscribedOrNoMore) {
-  EXPECT_FALSE(room_.wanted(0));
+  EXPECT_FALSE(clients_.wanted(0));
   subscribe(kAnna, 5, 0);
-  EXPECT_TRUE(room_.wanted(0));
-  room_.receive_text(kAnna, R"({"op":"unsubscribe","subscriptionIds":[5]})");
-  room_.message(0, UtcTime{}, kBody);
-  EXPECT_TRUE(room_.take().empty());
+  EXPECT_TRUE(clients_.wanted(0));
+  clients_.receive_text(kAnna, R"({"op":"unsubscribe","subscriptionIds":[5]})");
+  clients_.message(0, UtcTime{}, kBody);
+  EXPECT_TRUE(clients_.take().empty());
   subscribe(kAnna, 5, 0);
-  room_.left(kAnna);
-  room_.message(0, UtcTime{}, kBody);
-  EXPECT_TRUE(room_.take().empty());
+  clients_.left(kAnna);
+  clients_.message(0, UtcTime{}, kBody);
+  EXPECT_TRUE(clients_.take().empty());
 }
 
 TEST_F(FoxgloveRoom, OfALatchedChannelWhoComesLateIsToldTheNewest) {
-  room_.message(2, UtcTime{1}, {});
-  room_.message(2, UtcTime{2}, kBody);
+  clients_.message(2, UtcTime{1}, {});
+  clients_.message(2, UtcTime{2}, kBody);
   subscribe(kBert, 1, 2);
-  const auto out = room_.take();
+  const auto out = clients_.take();
   ASSERT_EQ(out.size(), 1U);
   EXPECT_EQ(*out[0].message->binary->body, kBody);
-  room_.forget();
+  clients_.forget();
   subscribe(kAnna, 1, 2);
-  EXPECT_TRUE(room_.take().empty());
+  EXPECT_TRUE(clients_.take().empty());
 }
 
 TEST_F(FoxgloveRoom, MistakesOfSubscriptionAreToldAndCounted) {
@@ -106,20 +107,20 @@ TEST_F(FoxgloveRoom, MistakesOfSubscriptionAreToldAndCounted) {
   subscribe(kAnna, 2, 0);
   EXPECT_NE(statuses(kAnna).find("channel 0 is subscribed already"), std::string::npos);
   EXPECT_EQ(refused("subscribe"), 3U);
-  room_.receive_text(kAnna, R"({"op":"unsubscribe","subscriptionIds":[3]})");
+  clients_.receive_text(kAnna, R"({"op":"unsubscribe","subscriptionIds":[3]})");
   EXPECT_NE(statuses(kAnna).find("no subscription 3"), std::string::npos);
-  room_.receive_text(kAnna, "nonsense");
+  clients_.receive_text(kAnna, "nonsense");
   EXPECT_EQ(refused("malformed"), 1U);
 }
 
 TEST_F(FoxgloveRoom, WhoPublishesOrSetsIsRefusedAndNobodyElseHearsOfIt) {
-  room_.receive_text(kAnna, R"({"op":"advertise","channels":[{"id":1,"topic":"/cmd"}]})");
-  room_.receive_bytes(kAnna, std::vector<std::uint8_t>{1, 0, 0, 0, 0, 'x'});
-  room_.receive_bytes(kAnna, std::vector<std::uint8_t>{2, 0});
-  room_.receive_text(kAnna, R"({"op":"setParameters","parameters":[]})");
-  EXPECT_FALSE(room_.receive_bytes(
+  clients_.receive_text(kAnna, R"({"op":"advertise","channels":[{"id":1,"topic":"/cmd"}]})");
+  clients_.receive_bytes(kAnna, std::vector<std::uint8_t>{1, 0, 0, 0, 0, 'x'});
+  clients_.receive_bytes(kAnna, std::vector<std::uint8_t>{2, 0});
+  clients_.receive_text(kAnna, R"({"op":"setParameters","parameters":[]})");
+  EXPECT_FALSE(clients_.receive_bytes(
       kAnna, std::vector<std::uint8_t>{3, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0}));
-  for (const Sending& sending : room_.take()) {
+  for (const Sending& sending : clients_.take()) {
     EXPECT_TRUE(sending.to.test(kAnna));
     EXPECT_EQ(sending.to.count(), 1U);
     EXPECT_NE(sending.message->text.find(R"("level": 2)"), std::string::npos)
@@ -135,7 +136,7 @@ TEST_F(FoxgloveRoom, ThresholdsAreReadAndWatched) {
   // Name, value and request of each parameter that a client was told.
   const auto reported = [&](web::ClientId client) {
     std::string all;
-    for (const Sending& sending : room_.take()) {
+    for (const Sending& sending : clients_.take()) {
       if (!sending.to.test(client) || sending.message->text.empty()) continue;
       const auto value = json::JsonValue::parse(sending.message->text, "text");
       for (const auto& row : value->items("parameters"))
@@ -144,28 +145,29 @@ TEST_F(FoxgloveRoom, ThresholdsAreReadAndWatched) {
     }
     return all;
   };
-  room_.receive_text(kAnna, R"({"op":"subscribeParameterUpdates","parameterNames":[]})");
-  room_.parameters({{"/a", 1}, {"/b", 2}});
+  clients_.receive_text(kAnna, R"({"op":"subscribeParameterUpdates","parameterNames":[]})");
+  clients_.parameters({{"/a", 1}, {"/b", 2}});
   EXPECT_EQ(reported(kAnna), "/a=1 /b=2 ") << "all means those to come, too";
-  room_.receive_text(kBert, R"({"op":"getParameters","parameterNames":["/b","/none"],"id":"!"})");
+  clients_.receive_text(kBert,
+                        R"({"op":"getParameters","parameterNames":["/b","/none"],"id":"!"})");
   EXPECT_EQ(reported(kBert), "/b=2! ");
-  room_.receive_text(kBert, R"({"op":"subscribeParameterUpdates","parameterNames":["/b"]})");
-  room_.parameters({{"/a", 1}, {"/b", 3}});
+  clients_.receive_text(kBert, R"({"op":"subscribeParameterUpdates","parameterNames":["/b"]})");
+  clients_.parameters({{"/a", 1}, {"/b", 3}});
   EXPECT_EQ(reported(kBert), "/b=3 ");
-  room_.parameters({{"/a", 5}, {"/b", 3}});
+  clients_.parameters({{"/a", 5}, {"/b", 3}});
   EXPECT_EQ(reported(kBert), "") << "not asked for";
-  room_.receive_text(kAnna, R"({"op":"unsubscribeParameterUpdates","parameterNames":[]})");
-  room_.left(kBert);
-  room_.parameters({{"/a", 6}, {"/b", 6}});
+  clients_.receive_text(kAnna, R"({"op":"unsubscribeParameterUpdates","parameterNames":[]})");
+  clients_.left(kBert);
+  clients_.parameters({{"/a", 6}, {"/b", 6}});
   EXPECT_EQ(reported(kAnna), "");
-  room_.receive_text(kAnna, R"({"op":"getParameters","parameterNames":[]})");
+  clients_.receive_text(kAnna, R"({"op":"getParameters","parameterNames":[]})");
   EXPECT_EQ(reported(kAnna), "/a=6 /b=6 ");
 }
 
 TEST_F(FoxgloveRoom, TheGraphIsToldToWhoAsks) {
-  room_.receive_text(kAnna, R"({"op":"subscribeConnectionGraph"})");
-  room_.receive_text(kAnna, R"({"op":"unsubscribeConnectionGraph"})");
-  const auto out = room_.take();
+  clients_.receive_text(kAnna, R"({"op":"subscribeConnectionGraph"})");
+  clients_.receive_text(kAnna, R"({"op":"unsubscribeConnectionGraph"})");
+  const auto out = clients_.take();
   ASSERT_EQ(out.size(), 1U);
   EXPECT_TRUE(out[0].to.test(kAnna));
   EXPECT_NE(out[0].message->text.find("/latched"), std::string::npos);
@@ -174,12 +176,12 @@ TEST_F(FoxgloveRoom, TheGraphIsToldToWhoAsks) {
 TEST_F(FoxgloveRoom, WhoLosesMessagesIsToldOfWhichTopicsAndHowMany) {
   subscribe(kAnna, 1, 0);
   subscribe(kAnna, 2, 1);
-  room_.message(0, UtcTime{}, kBody);
-  const std::uint32_t tag = room_.take()[0].message->binary->tag;
+  clients_.message(0, UtcTime{}, kBody);
+  const std::uint32_t tag = clients_.take()[0].message->binary->tag;
   const std::vector<web::Drop> drops{{kAnna, tag, 5}, {kAnna, tag + 1, 2}, {kBert, tag, 1}};
-  room_.lost(drops);
+  clients_.lost(drops);
   EXPECT_NE(statuses(kAnna).find("/a 5, /b 2"), std::string::npos);
-  const auto figures = room_.figures();
+  const auto figures = clients_.figures();
   ASSERT_EQ(figures.dropped.size(), 2U);
   EXPECT_EQ(figures.dropped[0].first, "/a");
   EXPECT_EQ(figures.dropped[0].second, 6U);
@@ -199,10 +201,10 @@ TEST_F(FoxgloveRoom, ARecordingIsWoundByItsClients) {
 }
 
 TEST_F(FoxgloveRoom, WhoHasLeftIsNotHeard) {
-  room_.left(kBert);
+  clients_.left(kBert);
   subscribe(kBert, 1, 0);
-  EXPECT_FALSE(room_.wanted(0));
-  EXPECT_TRUE(room_.take().empty());
+  EXPECT_FALSE(clients_.wanted(0));
+  EXPECT_TRUE(clients_.take().empty());
 }
 
 }  // namespace

@@ -15,9 +15,9 @@ namespace {
 
 using telemetry::Group;
 
-std::unique_ptr<FoxglovePublisher> publisher(FoxglovePublisher::Look look = {}) {
+std::unique_ptr<FoxglovePublisher> publisher(FoxglovePublisher::ReadStatus read_status = {}) {
   auto started =
-      FoxglovePublisher::start({.name = "Pitwall", .clock = {.boot = "b"}}, std::move(look));
+      FoxglovePublisher::start({.name = "Pitwall", .clock = {.boot = "b"}}, std::move(read_status));
   EXPECT_TRUE(started) << to_string(started.error());
   return *std::move(started);
 }
@@ -67,11 +67,11 @@ TEST(FoxglovePublisher, WhatIsRefusedIsToldAndCounted) {
   const auto served = publisher();
   Viewer viewer;
   ASSERT_EQ(viewer.open(served->local().port), 101u);
-  viewer.browser().say(R"({"op":"advertise","channels":[]})");
+  viewer.web_client().send_text(R"({"op":"advertise","channels":[]})");
   EXPECT_NE(viewer.text("status").text("message").find("read only"), std::string::npos);
-  viewer.browser().say_bytes(std::string("\1\0\0\0\0cmd", 8));
+  viewer.web_client().send_bytes(std::string("\1\0\0\0\0cmd", 8));
   EXPECT_EQ(viewer.text("status").number("level"), 2.0);
-  viewer.browser().say("nonsense");
+  viewer.web_client().send_text("nonsense");
   EXPECT_NE(viewer.text("status").text("message").find("message"), std::string::npos);
   viewer.bytes(2);
   viewer.bytes(2);  // figures are told after each turn

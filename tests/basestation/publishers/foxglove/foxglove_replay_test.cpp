@@ -70,7 +70,7 @@ class FoxgloveReplays : public testing::Test {
   }
   // Turns of no length until the state that answers a request has come.
   Reported ask(const std::string& bytes, const std::string& request) {
-    viewer_.browser().say_bytes(bytes);
+    viewer_.web_client().send_bytes(bytes);
     for (int i = 0; i < 1'000; ++i) {
       now_ += seconds(1);  // so that each turn tells a state
       turn({});

@@ -55,7 +55,7 @@ TEST(FoxgloveDesk, AClientThatDoesNotReadIsToldWhichTopicsItLost) {
   // What the sockets' thread has not come to yet is lost a moment later.
   for (Instant now{seconds(1).ns}; status.empty(); now += FoxgloveServer::kLossEvery) {
     served->turn(now, Instant{});
-    while (const auto incoming = slow.browser().receive()) {
+    while (const auto incoming = slow.web_client().receive()) {
       if (!incoming->text && incoming->bytes[0] == 2) break;  // the time of this turn
       if (incoming->text) status += incoming->bytes;
     }

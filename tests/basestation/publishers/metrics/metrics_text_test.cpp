@@ -19,7 +19,7 @@ CarStatus status() {
   status.numbers[telemetry::field("ego.y")] = kUnset;
   status.numbers[telemetry::field("tyres.pressure_rear_left")] = 152.5;
   status.ages_s[telemetry::index_of(telemetry::Group::kEgo)] = 0.02;
-  status.alarms = {{.priority = "high", .active = 2, .unseen = 1}};
+  status.alarms = {{.priority = "high", .active = 2, .unacknowledged = 1}};
   status.counts = {{"packets", "packets of the car", 1'234}};
   status.refused = {{"bad tag", 3}};
   status.publishers = {{.publisher = "foxglove",

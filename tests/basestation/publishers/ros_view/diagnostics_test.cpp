@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "tests/basestation/publishers/ros_view/some_state.hpp"
+#include "tests/basestation/publishers/ros_view/sample_state.hpp"
 
 namespace pitwall::publishers::ros_view {
 namespace {
@@ -14,7 +14,7 @@ using telemetry::field;
 using telemetry::Group;
 using telemetry::Snapshot;
 using testing::kNow;
-using testing::some_state;
+using testing::sample_state;
 
 BaseStatus base_status() { return {.at = kNow}; }
 
@@ -32,7 +32,7 @@ Level level_of(const Snapshot& state, const std::string& name,
 }
 
 TEST(RosDiagnostics, AWatchdogsStateIsItsLevel) {
-  Snapshot state = some_state();
+  Snapshot state = sample_state();
   const auto dog = field("streams.gnss0_link");
   for (const auto& [health, level] : {std::pair{0.0, Level::kOk},
                                       {1.0, Level::kStale},
@@ -46,7 +46,7 @@ TEST(RosDiagnostics, AWatchdogsStateIsItsLevel) {
 }
 
 TEST(RosDiagnostics, WhatIsNotHeardOfIsStaleAtOnce) {
-  Snapshot state = some_state();
+  Snapshot state = sample_state();
   EXPECT_EQ(level_of(state, "mode"), Level::kOk);
   state.at(Group::kMode) = kNow - seconds(3);
   EXPECT_EQ(level_of(state, "mode"), Level::kStale);
@@ -54,7 +54,7 @@ TEST(RosDiagnostics, WhatIsNotHeardOfIsStaleAtOnce) {
 }
 
 TEST(RosDiagnostics, ASensorIsJudgedByItsRateItsGapAndItsLatency) {
-  Snapshot state = some_state();
+  Snapshot state = sample_state();
   const auto set = [&](double rate, double gap, double latency) {
     state.values[field("sensors.lidar_rate")] = rate;
     state.values[field("sensors.lidar_gap")] = gap;
@@ -71,7 +71,7 @@ TEST(RosDiagnostics, ASensorIsJudgedByItsRateItsGapAndItsLatency) {
 }
 
 TEST(RosDiagnostics, AlarmsFaultsLinkAndDropsAreInIt) {
-  Snapshot state = some_state();
+  Snapshot state = sample_state();
   BaseStatus base = base_status();
   EXPECT_EQ(level_of(state, "faults", base), Level::kOk);
   state.values[field("faults.now_more")] = 1;
@@ -91,7 +91,7 @@ TEST(RosDiagnostics, AlarmsFaultsLinkAndDropsAreInIt) {
 }
 
 TEST(RosDiagnostics, NamesBearTheCar) {
-  for (const auto& status : diagnostics(some_state(), base_status(), "car 7")) {
+  for (const auto& status : diagnostics(sample_state(), base_status(), "car 7")) {
     EXPECT_TRUE(status.name.starts_with("car 7/")) << status.name;
     EXPECT_EQ(status.hardware_id, "car 7");
   }

@@ -10,7 +10,7 @@
 #include "basestation/publishers/ros_view/group_message.hpp"
 #include "protocol/ros/cdr.hpp"
 #include "protocol/ros/names.hpp"
-#include "tests/basestation/publishers/ros_view/some_state.hpp"
+#include "tests/basestation/publishers/ros_view/sample_state.hpp"
 #include "tests/protocol/ros/sample_messages.hpp"
 #include "tests/support/ros_oracle.hpp"
 
@@ -20,7 +20,7 @@ namespace {
 using telemetry::Group;
 using testing::kNow;
 using testing::kUtc;
-using testing::some_state;
+using testing::sample_state;
 using Reported = std::multimap<std::string, std::vector<std::uint8_t>>;
 
 ViewConfig whole_config() {
@@ -49,7 +49,7 @@ Reported all_reported(View& view) {
   Reported reported;
   const Sink sink = into(reported, view);
   view.statics(kNow, kUtc, sink);
-  view.car(some_state(), all_groups(), kNow, kUtc, sink);
+  view.car(sample_state(), all_groups(), kNow, kUtc, sink);
   view.base(some_base_status(), kUtc, sink);
   return reported;
 }
@@ -72,7 +72,7 @@ TEST(RosView, OnlyWhatIsNewIsTold) {
   Reported reported;
   telemetry::GroupSet fresh;
   fresh.add(Group::kEgo);
-  view.car(some_state(), fresh, kNow, kUtc, into(reported, view));
+  view.car(sample_state(), fresh, kNow, kUtc, into(reported, view));
   std::set<std::string> names;
   for (const auto& [name, bytes] : reported) names.insert(name);
   EXPECT_EQ(names, (std::set<std::string>{"/vehicle/odom", "/vehicle/fix", "/tf", "/base/ego"}));
@@ -102,7 +102,7 @@ TEST(RosView, DiagnosticsComeOnceASecondAndAtOnceWhenALevelChanges) {
   View view{whole_config()};
   Reported reported;
   const Sink sink = into(reported, view);
-  telemetry::Snapshot state = some_state();
+  telemetry::Snapshot state = sample_state();
   view.car(state, all_groups(), kNow, kUtc, sink);
   BaseStatus base_status = some_base_status();
   const auto count = [&](Duration after) {

@@ -31,7 +31,7 @@ TEST(LinkText, AgesAreShortOrLong) {
 
 TEST(LinkText, SaysWhatIsNotKnownYet) {
   RadioRig rig;
-  EXPECT_TRUE(says(rig, "link      nothing heard")) << text_of(rig);
+  EXPECT_TRUE(says(rig, "link      nothing received")) << text_of(rig);
   EXPECT_TRUE(says(rig, "the car has told nothing"));
   EXPECT_TRUE(says(rig, "latched by the car: not told   authority: nobody"));
 }

@@ -32,7 +32,7 @@ TEST(Summary, SaysWhatWasHeardAndSaid) {
   rig.run(milliseconds(100));
   const std::string json = summary(rig);
   for (const char* part :
-       {"\"source\": \"car\"", "\"car\": \"heard\"", "\"lost\": 0,", "\"refused\": 0,",
+       {"\"source\": \"car\"", "\"car\": \"received\"", "\"lost\": 0,", "\"refused\": 0,",
         "\"forged\": 0", "\"sessions\": 1,", "\"clock\": {\"known\": true, \"round_trip_ms\": ",
         "\"health\": {\"p50\": null,", "\"motion\": {\"p50\": ", "\"command\": \"arm \\\"arm\\\"\"",
         "\"fate\": null", "\"event\": \"a \\\"quote\\\"\"", "\"loss_by_place_m\": {\"400\": 0}",
@@ -57,7 +57,7 @@ TEST(Summary, SaysForHowLongBenchTimeStood) {
 TEST(Summary, OfNothingIsStillADocument) {
   RadioRig rig;
   const std::string json = summary(rig);
-  EXPECT_NE(json.find("\"car\": \"never heard\""), std::string::npos);
+  EXPECT_NE(json.find("\"car\": \"not received yet\""), std::string::npos);
   EXPECT_NE(json.find("\"source\": \"none\""), std::string::npos);
   EXPECT_NE(json.find("\"packets\": 0,"), std::string::npos);
   EXPECT_NE(json.find("\"round_trip_ms\": null"), std::string::npos);

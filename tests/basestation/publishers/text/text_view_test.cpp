@@ -118,7 +118,7 @@ TEST(TextView, EveryFieldOfAHeardGroupIsThereWithItsUnitAndItsGroupsAge) {
     if (row.unit == telemetry::FieldRow::kBitSet) continue;
     EXPECT_NE(screen.find(std::string{row.unit}), std::string::npos) << row.name;
   }
-  EXPECT_EQ(screen.find("never heard"), std::string::npos);
+  EXPECT_EQ(screen.find("not received yet"), std::string::npos);
 }
 
 TEST(TextView, ALostCarIsNamedAndAHeardOneIsNot) {
@@ -154,7 +154,7 @@ TEST(TextView, GroupsThatWereNeverHeardAreNamedAndShowNoValue) {
   Base base;
   base.drive();
   const std::string screen = base.screen({.all = true});
-  const std::size_t never = screen.find("never heard:");
+  const std::size_t never = screen.find("not received yet:");
   ASSERT_NE(never, std::string::npos);
   EXPECT_NE(screen.find(" gnss0", never), std::string::npos);
   EXPECT_EQ(screen.find(" tyres", never), std::string::npos);

@@ -24,10 +24,10 @@ TEST(ClientQueue, OneThatDoesNotReadLosesItsOldestPicturesAndNoText) {
   EXPECT_TRUE(queue.push(text("first")));
   for (std::uint32_t i = 0; i < 1'000; ++i) EXPECT_TRUE(queue.push(vehicle(i, 0)));
   EXPECT_TRUE(queue.push(text("last")));
-  EXPECT_EQ(queue.dropped(), 1'000 - QueueLimits{}.pictures);
+  EXPECT_EQ(queue.dropped(), 1'000 - QueueLimits{}.snapshots);
   EXPECT_EQ(queue.pop()->text, "first");
-  for (std::uint32_t i = 0; i < QueueLimits{}.pictures; ++i) {
-    EXPECT_EQ(queue.pop()->frame->sequence, 1'000 - QueueLimits{}.pictures + i);
+  for (std::uint32_t i = 0; i < QueueLimits{}.snapshots; ++i) {
+    EXPECT_EQ(queue.pop()->frame->sequence, 1'000 - QueueLimits{}.snapshots + i);
   }
   EXPECT_EQ(queue.pop()->text, "last");
   EXPECT_TRUE(queue.empty());
@@ -43,7 +43,7 @@ SharedMessage shared(Message message) {
 }
 
 TEST(ClientQueue, TaggedBytesAreLostOldestFirstAndByTheirTag) {
-  ClientQueue queue{{.pictures = 3}};
+  ClientQueue queue{{.snapshots = 3}};
   for (std::uint32_t tag = 1; tag <= 5; ++tag) queue.push(shared(tagged_bytes(tag, 10)));
   EXPECT_EQ(queue.take_lost_tags(), (std::vector<std::uint32_t>{1, 2}));
   EXPECT_TRUE(queue.take_lost_tags().empty());
@@ -52,7 +52,7 @@ TEST(ClientQueue, TaggedBytesAreLostOldestFirstAndByTheirTag) {
 }
 
 TEST(ClientQueue, TheyAreBoundedByTheirBytesTooButOneAloneIsKept) {
-  ClientQueue queue{{.pictures = 100, .picture_bytes = 1'000}};
+  ClientQueue queue{{.snapshots = 100, .snapshot_bytes = 1'000}};
   for (std::uint32_t tag = 1; tag <= 5; ++tag) queue.push(shared(tagged_bytes(tag, 400)));
   EXPECT_EQ(queue.take_lost_tags(), (std::vector<std::uint32_t>{1, 2, 3}));
   queue.push(shared(tagged_bytes(9, 5'000)));
@@ -61,7 +61,7 @@ TEST(ClientQueue, TheyAreBoundedByTheirBytesTooButOneAloneIsKept) {
 }
 
 TEST(ClientQueue, BytesWithoutATagAreNeverLost) {
-  ClientQueue queue{{.pictures = 1, .unread_bytes = 1'000}};
+  ClientQueue queue{{.snapshots = 1, .unread_bytes = 1'000}};
   for (int i = 0; i < 10; ++i) EXPECT_TRUE(queue.push(shared(tagged_bytes(0, 100))));
   EXPECT_FALSE(queue.push(shared(tagged_bytes(0, 100))))
       << "but end the client that leaves them unread";

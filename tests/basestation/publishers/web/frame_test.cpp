@@ -8,7 +8,7 @@
 namespace pitwall::publishers::web {
 namespace {
 
-using alarms::Judgement;
+using alarms::Evaluation;
 using state::FieldView;
 using state::Quality;
 
@@ -35,14 +35,14 @@ TEST(Frame, AnOlderValueNeverHasASmallerCode) {
 
 TEST(Frame, AnOldValueHasNoColour) {
   const FieldView fresh{.value = 1.0, .age = milliseconds(20), .quality = Quality::kFresh};
-  EXPECT_EQ(entry_of(7, fresh, Judgement::kBad).status, 0b01100);
+  EXPECT_EQ(entry_of(7, fresh, Evaluation::kBad).status, 0b01100);
   const FieldView stale{.value = 1.0, .age = seconds(20), .quality = Quality::kStale};
-  EXPECT_EQ(entry_of(7, stale, Judgement::kGood).status, 0b00010);
-  EXPECT_EQ(entry_of(7, FieldView{}, Judgement::kGood).status, 0b00011);
-  EXPECT_EQ(entry_of(7, FieldView{}, Judgement::kNone).age, 255);
+  EXPECT_EQ(entry_of(7, stale, Evaluation::kGood).status, 0b00010);
+  EXPECT_EQ(entry_of(7, FieldView{}, Evaluation::kGood).status, 0b00011);
+  EXPECT_EQ(entry_of(7, FieldView{}, Evaluation::kNone).age, 255);
   FieldView unset = fresh;
   unset.unset = true;
-  EXPECT_EQ(entry_of(7, unset, Judgement::kNone).status, 0b100000);
+  EXPECT_EQ(entry_of(7, unset, Evaluation::kNone).status, 0b100000);
 }
 
 TEST(Frame, BytesStandWhereTheProtocolPutsThem) {

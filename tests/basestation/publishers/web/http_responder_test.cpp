@@ -14,7 +14,7 @@ constexpr const char *kOperator = "8f2c41d09b7a4d51", *kViewer = "77aa0c1be04f43
 HttpConfig config(std::string layouts = {}) {
   const std::string file =
       std::string{"operator "} + kOperator + " Anna\nviewer " + kViewer + " G\n";
-  return {.access = {.tokens = std::make_shared<TokenBook>(*Tokens::parse(file, "tokens"))},
+  return {.access = {.tokens = std::make_shared<TokenStore>(*Tokens::parse(file, "tokens"))},
           .console = "/nowhere",
           .documents = {{"/api/track", "{}"}},
           .layouts = std::move(layouts)};

@@ -22,7 +22,7 @@ TEST_F(HttpSession, AForeignPageOrAWrongTokenGetsNoSocket) {
   EXPECT_EQ(asked("/ws", own, "Authorization: Bearer 0123456789abcdef\r\n"), "HTTP/1.1 401");
   EXPECT_EQ(asked("/socket", own, ""), "HTTP/1.1 404");
   EXPECT_EQ(asked("/ws", own, "Origin: http://" + own + "\r\n"), "HTTP/1.1 101");
-  Browser foreign;
+  WebClient foreign;
   EXPECT_NE(foreign.open(port_, "/ws", {{"Origin", "http://evil.com"}}), 101u);
 }
 

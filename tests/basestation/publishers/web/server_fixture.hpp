@@ -12,7 +12,7 @@
 #include "basestation/publishers/web/web_server.hpp"
 #include "protocol/transport/clock.hpp"
 #include "protocol/transport/readiness.hpp"
-#include "tests/support/browser.hpp"
+#include "tests/support/web_client.hpp"
 
 namespace pitwall::publishers::web {
 
@@ -33,7 +33,7 @@ class WebServerTest : public testing::Test {
     HttpConfig config;
     config.documents.emplace("/api/track", "{\"name\": \"X\"}");
     config.console = "/nowhere";
-    config.access.tokens = std::make_shared<TokenBook>(
+    config.access.tokens = std::make_shared<TokenStore>(
         *Tokens::parse(std::string{"operator "} + kOperatorToken + " Anna\n", "tokens"));
     auto started = WebServer::start({}, std::move(config));
     ASSERT_TRUE(started) << to_string(started.error());
@@ -41,11 +41,11 @@ class WebServerTest : public testing::Test {
     port_ = server_->local().port;
   }
   // Waits for the next event of this kind; other events before it are dropped.
-  std::optional<ClientNews> wait_for(ClientNews::Kind kind) {
-    constexpr Duration kPatience = seconds(20);
-    const Instant end = transport::monotonic_now() + kPatience;
+  std::optional<ClientEvent> wait_for(ClientEvent::Kind kind) {
+    constexpr Duration kTimeout = seconds(20);
+    const Instant end = transport::monotonic_now() + kTimeout;
     while (transport::monotonic_now() < end) {
-      while (auto news = server_->next_news()) {
+      while (auto news = server_->next_event()) {
         if (news->kind == kind) return news;
       }
       const int fd = server_->fd();
@@ -53,14 +53,14 @@ class WebServerTest : public testing::Test {
     }
     return std::nullopt;
   }
-  ClientId join(Browser& browser, const Browser::Fields& fields = {}) {
-    EXPECT_EQ(browser.open(port_, "/ws", fields), 101u);
-    const auto news = wait_for(ClientNews::Kind::kJoined);
+  ClientId join(WebClient& web_client, const WebClient::Fields& fields = {}) {
+    EXPECT_EQ(web_client.open(port_, "/ws", fields), 101u);
+    const auto news = wait_for(ClientEvent::Kind::kJoined);
     EXPECT_TRUE(news);
     return news ? news->client : ClientId{0};
   }
-  ClientId join_as_operator(Browser& browser) {
-    return join(browser, {{"Authorization", std::string{"Bearer "} + kOperatorToken}});
+  ClientId join_as_operator(WebClient& web_client) {
+    return join(web_client, {{"Authorization", std::string{"Bearer "} + kOperatorToken}});
   }
   static ClientSet only(ClientId client) { return ClientSet{}.set(client); }
 

@@ -14,15 +14,15 @@ namespace pitwall::publishers::web {
 namespace {
 
 TEST_F(WebServerTest, TextsAndFramesGoBothWays) {
-  Browser browser;
-  const ClientId client = join(browser);
+  WebClient web_client;
+  const ClientId client = join(web_client);
   EXPECT_GE(client, kFirstClient);
-  browser.say("{\"type\": \"x\"}");
-  EXPECT_EQ(wait_for(ClientNews::Kind::kText)->text, "{\"type\": \"x\"}");
+  web_client.send_text("{\"type\": \"x\"}");
+  EXPECT_EQ(wait_for(ClientEvent::Kind::kText)->text, "{\"type\": \"x\"}");
   server_->send(only(client), text("hello"));
   server_->send(only(client), vehicle(7, 8));
-  EXPECT_EQ(browser.receive()->bytes, "hello");
-  const auto frame = browser.receive();
+  EXPECT_EQ(web_client.receive()->bytes, "hello");
+  const auto frame = web_client.receive();
   ASSERT_TRUE(frame);
   EXPECT_FALSE(frame->text);
   EXPECT_EQ(frame->bytes.size(), kFrameHeader + 8);
@@ -32,11 +32,11 @@ TEST_F(WebServerTest, TextsAndFramesGoBothWays) {
 TEST_F(WebServerTest, OneThatLeavesIsToldAndItsNumberIsNotSoonAnothers) {
   ClientId first = 0;
   {
-    Browser browser;
-    first = join(browser);
+    WebClient web_client;
+    first = join(web_client);
   }
-  EXPECT_EQ(wait_for(ClientNews::Kind::kLeft)->client, first);
-  Browser next;
+  EXPECT_EQ(wait_for(ClientEvent::Kind::kLeft)->client, first);
+  WebClient next;
   EXPECT_NE(join(next), first);
 }
 
@@ -45,24 +45,24 @@ TEST_F(WebServerTest, AConsoleIsOfTheCarItCameTo) {
   ASSERT_TRUE(started);
   WebServer& server = **started;
   const std::uint16_t port = server.local().port;
-  Browser first, second, nobody;
+  WebClient first, second, nobody;
   EXPECT_EQ(second.open(port, "/ws?car=8"), 101u);
   EXPECT_EQ(first.open(port, "/ws"), 101u);
   EXPECT_NE(nobody.open(port, "/ws?car=9"), 101u);
-  second.say("{\"type\": \"stop\"}");
-  std::array<std::vector<ClientNews>, 2> received;
+  second.send_text("{\"type\": \"stop\"}");
+  std::array<std::vector<ClientEvent>, 2> received;
   const Instant end = transport::monotonic_now() + seconds(20);
   while ((received[0].empty() || received[1].size() < 2) && transport::monotonic_now() < end) {
     const std::array<int, 2> fds{server.fd(0), server.fd(1)};
     transport::wait_readable(fds, end);
     for (std::size_t car = 0; car < received.size(); ++car) {
-      while (auto news = server.next_news(car)) received[car].push_back(*std::move(news));
+      while (auto news = server.next_event(car)) received[car].push_back(*std::move(news));
     }
   }
   ASSERT_EQ(received[0].size(), 1u);
   ASSERT_EQ(received[1].size(), 2u);
   EXPECT_NE(received[0][0].client, received[1][0].client) << "one numbering for all";
-  EXPECT_EQ(received[1][1].kind, ClientNews::Kind::kText);
+  EXPECT_EQ(received[1][1].kind, ClientEvent::Kind::kText);
   EXPECT_EQ(received[1][1].client, received[1][0].client);
 }
 
@@ -84,10 +84,10 @@ TEST_F(WebServerTest, ADocumentOfTheMomentIsThereSoon) {
 }
 
 TEST_F(WebServerTest, ATextThatIsTooLongClosesItsSocketOnly) {
-  Browser good, bad;
+  WebClient good, bad;
   const ClientId kept = join(good);
   join(bad);
-  bad.say(std::string(kTextMax + 1, 'x'));
+  bad.send_text(std::string(kTextMax + 1, 'x'));
   while (bad.receive()) {
   }
   EXPECT_EQ(bad.close_code(), 1009u);
@@ -96,18 +96,18 @@ TEST_F(WebServerTest, ATextThatIsTooLongClosesItsSocketOnly) {
 }
 
 TEST_F(WebServerTest, ATextThatIsNoUtf8ClosesItsSocket) {
-  Browser browser;
-  join(browser);
-  browser.say("\xFF\xFE");
-  EXPECT_FALSE(browser.receive());
-  EXPECT_EQ(browser.close_code(), 1007u);
+  WebClient web_client;
+  join(web_client);
+  web_client.send_text("\xFF\xFE");
+  EXPECT_FALSE(web_client.receive());
+  EXPECT_EQ(web_client.close_code(), 1007u);
 }
 
 TEST_F(WebServerTest, BytesAreToldAsSuch) {
-  Browser browser;
-  join(browser);
-  browser.say_bytes("abc");
-  EXPECT_EQ(wait_for(ClientNews::Kind::kBinary)->text, "abc");
+  WebClient web_client;
+  join(web_client);
+  web_client.send_bytes("abc");
+  EXPECT_EQ(wait_for(ClientEvent::Kind::kBinary)->text, "abc");
 }
 
 SharedMessage headed_bytes(std::uint32_t tag, std::size_t size) {
@@ -117,9 +117,9 @@ SharedMessage headed_bytes(std::uint32_t tag, std::size_t size) {
 }
 
 TEST_F(WebServerTest, BytesGoOutBehindTheirHeadAndWhatIsLostIsKnownByItsTag) {
-  Browser slow;
+  WebClient slow;
   ASSERT_EQ(slow.open(port_, "/ws", {}, 4'096), 101u);
-  const ClientId client = wait_for(ClientNews::Kind::kJoined)->client;
+  const ClientId client = wait_for(ClientEvent::Kind::kJoined)->client;
   constexpr std::uint64_t kSent = 400;
   for (std::uint64_t i = 0; i < kSent; ++i) server_->send(only(client), headed_bytes(5, 10'000));
   server_->send(only(client), text("end"));
@@ -153,9 +153,9 @@ TEST(WebServerOfAnotherProtocol, TheSubprotocolIsNegotiated) {
 }
 
 TEST_F(WebServerTest, AClientThatDoesNotReadLosesItsOwnOldestAndSeesHowMuch) {
-  Browser slow, quick;
+  WebClient slow, quick;
   ASSERT_EQ(slow.open(port_, "/ws", {}, 4'096), 101u);
-  const ClientId stopped = wait_for(ClientNews::Kind::kJoined)->client;
+  const ClientId stopped = wait_for(ClientEvent::Kind::kJoined)->client;
   const ClientId reading = join(quick);
   constexpr std::uint32_t kFrames = 2'000;
   for (std::uint32_t i = 1; i <= kFrames; ++i) {
@@ -178,28 +178,28 @@ TEST_F(WebServerTest, AClientThatDoesNotReadLosesItsOwnOldestAndSeesHowMuch) {
 }
 
 TEST_F(WebServerTest, AClientThatLeavesTooMuchUnreadIsClosed) {
-  Browser slow;
+  WebClient slow;
   ASSERT_EQ(slow.open(port_, "/ws", {}, 4'096), 101u);
-  const ClientId stopped = wait_for(ClientNews::Kind::kJoined)->client;
+  const ClientId stopped = wait_for(ClientEvent::Kind::kJoined)->client;
   const auto long_text = text(std::string(256 * 1'024, 'x'));
   for (int i = 0; i < 40; ++i) server_->send(only(stopped), long_text);
-  EXPECT_TRUE(wait_for(ClientNews::Kind::kLeft));
+  EXPECT_TRUE(wait_for(ClientEvent::Kind::kLeft));
   EXPECT_EQ(server_->counters().closed_unread, 1u);
 }
 
 TEST_F(WebServerTest, WhoSaysMoreThanIsHandledIsReadNoFurther) {
-  Browser browser;
-  join(browser);
-  for (int i = 0; i < 100; ++i) browser.say(std::to_string(i));
+  WebClient web_client;
+  join(web_client);
+  for (int i = 0; i < 100; ++i) web_client.send_text(std::to_string(i));
   int texts = 0;
-  while (texts < 100 && wait_for(ClientNews::Kind::kText)) ++texts;
+  while (texts < 100 && wait_for(ClientEvent::Kind::kText)) ++texts;
   EXPECT_EQ(texts, 100) << "nothing is lost";
 }
 
 TEST_F(WebServerTest, RandomBytesDoNoHarm) {
   std::mt19937 random(3);
-  Browser browser;
-  const ClientId client = join(browser);
+  WebClient web_client;
+  const ClientId client = join(web_client);
   for (int round = 0; round < 60; ++round) {
     std::string bytes(random() % 600, ' ');
     for (char& c : bytes) c = static_cast<char>(random() % 256);
@@ -207,7 +207,7 @@ TEST_F(WebServerTest, RandomBytesDoNoHarm) {
     bare(port_, opening() + bytes);
   }
   server_->send(only(client), text("still here"));
-  EXPECT_EQ(browser.receive()->bytes, "still here");
+  EXPECT_EQ(web_client.receive()->bytes, "still here");
   EXPECT_EQ(server_->counters().faults, 0u);
 }
 
@@ -223,10 +223,10 @@ TEST(WebServerStart, AnAddressThatIsTakenIsAProblem) {
 TEST(WebServerStart, EndsWithConsolesConnected) {
   auto server = WebServer::start({}, {});
   ASSERT_TRUE(server);
-  Browser browser;
-  EXPECT_EQ(browser.open((*server)->local().port), 101u);
+  WebClient web_client;
+  EXPECT_EQ(web_client.open((*server)->local().port), 101u);
   server->reset();
-  EXPECT_FALSE(browser.receive());
+  EXPECT_FALSE(web_client.receive());
 }
 
 }  // namespace

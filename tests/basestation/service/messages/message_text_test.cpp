@@ -27,7 +27,7 @@ TEST(MessageText, ATicketHasItsGatesItsStepsAndItsReason) {
                           .age = milliseconds(120),
                           .known = true,
                           .text = "cold"});
-  ticket.gates.push_back({.kind = command::GateKind::kFuel, .text = "never heard"});
+  ticket.gates.push_back({.kind = command::GateKind::kFuel, .text = "not received yet"});
   const auto json = json_of(ticket_text(ticket));
   EXPECT_EQ(json.text("type"), "command");
   EXPECT_EQ(json.text("name"), "speed limit");

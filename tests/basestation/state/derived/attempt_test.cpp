@@ -16,7 +16,7 @@ constexpr Duration kTick = milliseconds(100);
 
 // A car at 60 m/s, heard ten times a second.
 struct Race {
-  AttemptBook book;
+  AttemptTracker tracker;
   RaceSample sample{.track_flag = kGreen,
                     .vehicle_flag = kAttacker,
                     .lap = 3,
@@ -40,8 +40,8 @@ struct Race {
     sample.track_flag = flag;
     drive(span);
   }
-  void say() { book.receive(sample, kAttemptLaps, now); }
-  Attempt at() const { return book.attempt(); }
+  void say() { tracker.receive(sample, kAttemptLaps, now); }
+  Attempt at() const { return tracker.attempt(); }
 };
 
 TEST(Attempt, BeginsWithTheWavingGreenFlagAndCountsItsLaps) {

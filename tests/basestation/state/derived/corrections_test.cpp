@@ -10,7 +10,7 @@ constexpr double kSky = 14.0;
 
 // Two receivers heard twice a second; a stream of corrections, one a second, as each case says.
 struct Drive {
-  CorrectionWatch evaluator;
+  CorrectionMonitor evaluator;
   Instant now{seconds(1'000).ns};
   double age_s[2] = {0.5, 0.5};
   bool ever = false;
@@ -96,7 +96,7 @@ TEST(Corrections, TwoLossesAreNotEnough) {
 }
 
 TEST(Corrections, NoNumbersAreNone) {
-  CorrectionWatch evaluator;
+  CorrectionMonitor evaluator;
   for (int i = 0; i < 200; ++i) {
     const Instant at = Instant{} + seconds(i);
     evaluator.receive(0, kUnset, kUnset, at);

@@ -10,7 +10,7 @@ namespace {
 
 // A car that burns so much per lap, heard twice in each lap's second.
 struct Car {
-  FuelBook book;
+  FuelEstimator estimator;
   double level_l, used_l = 0.0, lap = 0.0, slosh_l = 0.0;
   bool counts_used = true;
 
@@ -25,7 +25,7 @@ struct Car {
     lap += 1.0;
     say(0.0);
   }
-  void say(double slosh) { book.receive(level_l + slosh, counts_used ? used_l : kUnset, lap); }
+  void say(double slosh) { estimator.receive(level_l + slosh, counts_used ? used_l : kUnset, lap); }
 };
 
 // The paper's final: the team took an attempt of two laps with fuel for one. The figures of the
@@ -36,16 +36,16 @@ TEST(Fuel, WarnsBeforeTheLastAttempt) {
   car.drive_lap(2.5);
   car.drive_lap(2.5);
   car.drive_lap(2.5);
-  EXPECT_EQ(car.book.left(plan).state, FuelState::kEnough);  // 14.5 l: 5 laps, two attempts
-  EXPECT_EQ(car.book.left(plan).attempts, 2.0);
+  EXPECT_EQ(car.estimator.left(plan).state, FuelState::kEnough);  // 14.5 l: 5 laps, two attempts
+  EXPECT_EQ(car.estimator.left(plan).attempts, 2.0);
   car.drive_lap(2.5);
   car.drive_lap(2.5);
   // 9.5 l: three laps: an attempt and home.
-  EXPECT_EQ(car.book.left(plan).state, FuelState::kEnough);
-  EXPECT_EQ(car.book.left(plan).attempts, 1.0);
+  EXPECT_EQ(car.estimator.left(plan).state, FuelState::kEnough);
+  EXPECT_EQ(car.estimator.left(plan).attempts, 1.0);
   car.drive_lap(2.5);
   // 7 l: two laps. The attempt would end without fuel: said before it begins.
-  const FuelLeft left = car.book.left(plan);
+  const FuelLeft left = car.estimator.left(plan);
   EXPECT_EQ(left.state, FuelState::kNoAttempt);
   EXPECT_EQ(left.attempts, 0.0);
   EXPECT_NEAR(left.laps, 2.0, 0.01);
@@ -58,7 +58,7 @@ TEST(Fuel, AnAttemptThatIsPossibleEndsInThePits) {
     Car car{40.0};
     const FuelPlan plan{.guess_l_per_lap = 4.0};
     car.drive_lap(burn);
-    while (car.book.left(plan).attempts >= 1.0) {
+    while (car.estimator.left(plan).attempts >= 1.0) {
       const double before = car.level_l;
       car.drive_lap(burn);
       car.drive_lap(burn);
@@ -70,19 +70,19 @@ TEST(Fuel, AnAttemptThatIsPossibleEndsInThePits) {
 TEST(Fuel, TheThirstiestOfTheLastLapsCounts) {
   Car car{60.0};
   for (const double burn : {2.0, 2.0, 3.0, 2.0}) car.drive_lap(burn);
-  EXPECT_NEAR(car.book.left({}).per_lap_l, 3.0, 1e-9);
+  EXPECT_NEAR(car.estimator.left({}).per_lap_l, 3.0, 1e-9);
   car.drive_lap(2.0);
   car.drive_lap(2.0);
-  EXPECT_NEAR(car.book.left({}).per_lap_l, 2.0, 1e-9);  // it was too long ago
+  EXPECT_NEAR(car.estimator.left({}).per_lap_l, 2.0, 1e-9);  // it was too long ago
 }
 
 TEST(Fuel, ALapThatWasNotDrivenWholeDoesNotCount) {
-  FuelBook book;
-  book.receive(30.0, 10.0, 5.0);  // heard for the first time somewhere in lap 5
-  book.receive(29.9, 10.1, 6.0);
-  EXPECT_FALSE(book.left({}).measured);
-  book.receive(27.0, 13.0, 8.0);  // lap 7 was never heard
-  EXPECT_FALSE(book.left({}).measured);
+  FuelEstimator estimator;
+  estimator.receive(30.0, 10.0, 5.0);  // heard for the first time somewhere in lap 5
+  estimator.receive(29.9, 10.1, 6.0);
+  EXPECT_FALSE(estimator.left({}).measured);
+  estimator.receive(27.0, 13.0, 8.0);  // lap 7 was never received
+  EXPECT_FALSE(estimator.left({}).measured);
 }
 
 TEST(Fuel, FillingTheTankForgetsNoLap) {
@@ -92,10 +92,10 @@ TEST(Fuel, FillingTheTankForgetsNoLap) {
   car.drive_lap(2.0);
   car.level_l = 40.0;
   car.say(0.0);
-  EXPECT_NEAR(car.book.left({}).per_lap_l, 2.0, 1e-9);
-  EXPECT_NEAR(car.book.left({}).laps, 19.0, 1e-9);
+  EXPECT_NEAR(car.estimator.left({}).per_lap_l, 2.0, 1e-9);
+  EXPECT_NEAR(car.estimator.left({}).laps, 19.0, 1e-9);
   car.drive_lap(2.0);
-  EXPECT_NEAR(car.book.left({}).per_lap_l, 2.0, 1e-9);
+  EXPECT_NEAR(car.estimator.left({}).per_lap_l, 2.0, 1e-9);
 }
 
 TEST(Fuel, ASloshingTankIsNoFilling) {
@@ -103,19 +103,19 @@ TEST(Fuel, ASloshingTankIsNoFilling) {
   car.counts_used = false;
   car.slosh_l = 0.8;
   for (int i = 0; i < 4; ++i) car.drive_lap(2.0);
-  EXPECT_NEAR(car.book.left({}).per_lap_l, 2.0, 1.0);
-  EXPECT_TRUE(car.book.left({}).measured);
+  EXPECT_NEAR(car.estimator.left({}).per_lap_l, 2.0, 1.0);
+  EXPECT_TRUE(car.estimator.left({}).measured);
 }
 
 TEST(Fuel, NothingHeardNothingKnown) {
-  FuelBook book;
-  EXPECT_EQ(book.left({}).state, FuelState::kUnknown);
-  EXPECT_TRUE(std::isnan(book.left({}).laps));
-  book.receive(kUnset, 1.0, 1.0);
-  EXPECT_EQ(book.left({}).state, FuelState::kUnknown);
-  book.receive(30.0, kUnset, kUnset);
-  EXPECT_FALSE(book.left({}).measured);  // by the plan's guess
-  EXPECT_EQ(book.left({}).state, FuelState::kEnough);
+  FuelEstimator estimator;
+  EXPECT_EQ(estimator.left({}).state, FuelState::kUnknown);
+  EXPECT_TRUE(std::isnan(estimator.left({}).laps));
+  estimator.receive(kUnset, 1.0, 1.0);
+  EXPECT_EQ(estimator.left({}).state, FuelState::kUnknown);
+  estimator.receive(30.0, kUnset, kUnset);
+  EXPECT_FALSE(estimator.left({}).measured);  // by the plan's guess
+  EXPECT_EQ(estimator.left({}).state, FuelState::kEnough);
 }
 
 }  // namespace

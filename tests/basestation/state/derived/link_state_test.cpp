@@ -9,7 +9,7 @@ namespace pitwall::state {
 namespace {
 
 struct Radio {
-  LinkWatch evaluator;
+  LinkStateMonitor evaluator;
   LinkFigures figures;
   Instant now{seconds(10).ns};
   std::vector<LinkState> states{LinkState::kNone};
@@ -34,7 +34,7 @@ TEST(LinkState, SilenceIsLost) {
   const Instant last = *radio.figures.received;
   radio.run(seconds(2), false);
   EXPECT_EQ(radio.states, (States{kNone, kGood, kLost}));
-  EXPECT_EQ(radio.evaluator.since() - last, LinkWatch::kLostAfter);
+  EXPECT_EQ(radio.evaluator.since() - last, LinkStateMonitor::kLostAfter);
 }
 
 TEST(LinkState, GoodAgainOnlyAfterTwoSteadySeconds) {

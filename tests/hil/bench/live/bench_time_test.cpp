@@ -12,8 +12,8 @@
 namespace pitwall::bench {
 namespace {
 
-using can_bus::from_word;
-using can_bus::to_word;
+using can_bus::decode_clock;
+using can_bus::encode_clock;
 using transport::SerialLine;
 
 // A bench whose line ends in a terminal of this test.
@@ -35,7 +35,7 @@ void go(BenchTime& time, SerialLine& host, Duration wall, Answer&& answer) {
   while (transport::wall_now() < end) {
     time.advance();
     while (const auto word = host.receive())
-      if (const auto now = from_word(*word)) answer(*now);
+      if (const auto now = decode_clock(*word)) answer(*now);
     transport::nap(microseconds(200));
   }
 }
@@ -51,15 +51,15 @@ TEST(BenchTime, GoesNoFartherThanItsHostHasFollowed) {
   time->begin();
   go(*time, host, milliseconds(150), [](Instant) {});
   EXPECT_LE(now() - begun, BenchTime::kBehind + milliseconds(1)) << "nobody answers";
-  EXPECT_GE(now() - begun, BenchTime::kBehind - BenchTime::kWordEvery);
+  EXPECT_GE(now() - begun, BenchTime::kBehind - BenchTime::kReportPeriod);
   EXPECT_FALSE(time->advance());
   std::uint64_t words = 0;
   go(*time, host, milliseconds(300), [&](Instant at) {
     ++words;
-    host.send(to_word(at));
+    host.send(encode_clock(at));
     host.flush();
   });
-  host.send(to_word(now()));
+  host.send(encode_clock(now()));
   host.flush();
   go(*time, host, milliseconds(100), [](Instant) {});
   EXPECT_GT(now() - begun, BenchTime::kBehind + milliseconds(15)) << "it goes on when followed";

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "protocol/transport/clock.hpp"
-#include "tests/hil/bench/patience.hpp"
+#include "tests/hil/bench/test_timeout.hpp"
 
 namespace pitwall::bench {
 namespace {
@@ -25,7 +25,7 @@ struct Monitored : ::testing::Test {
     const auto received = [&] { return monitor.packets() + monitor.refused(); };
     const auto before = received();
     ASSERT_TRUE(car.send_to({.port = monitor.port()}, bytes));
-    const Instant limit = transport::monotonic_now() + kPatience;
+    const Instant limit = transport::monotonic_now() + kTestTimeout;
     while (received() == before && transport::monotonic_now() < limit) monitor.read(now);
     EXPECT_EQ(received(), before + 1);
   }

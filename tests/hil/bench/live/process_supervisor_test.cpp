@@ -6,7 +6,7 @@
 
 #include "protocol/transport/clock.hpp"
 #include "protocol/transport/file.hpp"
-#include "tests/hil/bench/patience.hpp"
+#include "tests/hil/bench/test_timeout.hpp"
 #include "tests/support/instants.hpp"
 
 namespace pitwall::bench {
@@ -33,7 +33,7 @@ struct Notebook {
     return read ? *read : "";
   }
   bool comes_to_hold(const std::string& wanted) const {
-    const Instant limit = transport::monotonic_now() + kPatience;
+    const Instant limit = transport::monotonic_now() + kTestTimeout;
     while (transport::monotonic_now() < limit) {
       if (text().find(wanted) != std::string::npos) return true;
       transport::sleep_until(transport::monotonic_now() + milliseconds(5));
@@ -54,7 +54,7 @@ TEST(ProcessSupervisor, OneThatEndsByItselfIsAnErrorThatNamesIt) {
   ProcessSupervisor processes{car_only(shell("exit 3")), {}};
   ASSERT_FALSE(processes.start());
   std::optional<Problem> problem;
-  const Instant limit = transport::monotonic_now() + kPatience;
+  const Instant limit = transport::monotonic_now() + kTestTimeout;
   while (!problem && transport::monotonic_now() < limit) problem = processes.missing();
   ASSERT_TRUE(problem);
   EXPECT_NE(problem->what.find("car ended with code 3"), std::string::npos) << problem->what;
@@ -82,7 +82,7 @@ TEST(ProcessSupervisor, OneThatWasKilledIsNotMissedAndComesBackByTheOtherCommand
   EXPECT_EQ(processes.done()[0].at, at_s(1.25)) << "when it was done, not when it was due";
   EXPECT_EQ(processes.done()[0].what, "car killed (SIGKILL)");
   EXPECT_EQ(processes.done()[1].what, "car started again, not armed");
-  EXPECT_FALSE(processes.finish(kPatience, nap));
+  EXPECT_FALSE(processes.finish(kTestTimeout, nap));
 }
 
 TEST(ProcessSupervisor, APausedOneStandsStillAndIsStillToldToEnd) {
@@ -94,11 +94,11 @@ TEST(ProcessSupervisor, APausedOneStandsStillAndIsStillToldToEnd) {
   ASSERT_TRUE(notes.comes_to_hold("\n"));
   const std::string pid = notes.text().substr(0, notes.text().find('\n'));
   EXPECT_FALSE(processes.advance(at_s(1.0)));
-  const Instant limit = transport::monotonic_now() + kPatience;
+  const Instant limit = transport::monotonic_now() + kTestTimeout;
   while (state_of(pid) != 'T' && transport::monotonic_now() < limit) nap();
   EXPECT_EQ(state_of(pid), 'T');
   EXPECT_FALSE(processes.missing()) << "stopped is not ended";
-  EXPECT_FALSE(processes.finish(kPatience, nap));
+  EXPECT_FALSE(processes.finish(kTestTimeout, nap));
   EXPECT_TRUE(processes.ended_well(Role::kCar));
 }
 
@@ -107,7 +107,7 @@ TEST(ProcessSupervisor, AKilledOneIsNotOneThatEndedWell) {
                               {{.at = at_s(1.0), .act = Act::kKill}}};
   ASSERT_FALSE(processes.start());
   EXPECT_FALSE(processes.advance(at_s(5.0)));
-  EXPECT_FALSE(processes.finish(kPatience, nap));
+  EXPECT_FALSE(processes.finish(kTestTimeout, nap));
   EXPECT_FALSE(processes.ended_well(Role::kCar));
 }
 

@@ -11,7 +11,7 @@
 
 #include "protocol/transport/clock.hpp"
 #include "protocol/transport/readiness.hpp"
-#include "tests/hil/bench/patience.hpp"
+#include "tests/hil/bench/test_timeout.hpp"
 #include "tests/support/instants.hpp"
 
 namespace pitwall::bench {
@@ -29,7 +29,7 @@ UdpSocket socket() {
 
 Bytes take(UdpSocket& from) {
   const int watched[] = {from.fd()};
-  transport::wait_readable(watched, transport::monotonic_now() + kPatience);
+  transport::wait_readable(watched, transport::monotonic_now() + kTestTimeout);
   std::vector<transport::UdpDatagram> got(1);
   if (from.receive(got) == 0) return {};
   return {got[0].payload().begin(), got[0].payload().end()};
@@ -56,7 +56,7 @@ struct Ends {
   template <class Count>
   void carry(const Count& count) {
     const auto before = count();
-    const Instant limit = transport::monotonic_now() + kPatience;
+    const Instant limit = transport::monotonic_now() + kTestTimeout;
     while (count() == before && transport::monotonic_now() < limit) path->serve(now);
     EXPECT_EQ(count(), before + 1);
   }

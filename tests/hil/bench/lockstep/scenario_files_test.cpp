@@ -68,7 +68,8 @@ INSTANTIATE_TEST_SUITE_P(All, ScenarioFile, ::testing::ValuesIn(scenario_files()
 RunResult until_it_fails(const Loaded& loaded) {
   const auto failed = [](const RunView& run) {
     return (run.now - Instant{}).ns % seconds(1).ns == 0 &&
-           std::ranges::count(run.grader.standings(), grading::Standing::kFailed) > 0;
+           std::ranges::count(run.grader.expectation_states(), grading::ExpectationState::kFailed) >
+               0;
   };
   auto run = run_lockstep(loaded.scenario, loaded.setup, {.over = failed});
   if (!run) ADD_FAILURE() << to_string(run.error());

@@ -146,7 +146,7 @@ TEST(VirtualStation, ACommandIsAppliedOnceAndItsFateIsKnown) {
   for (const telemetry::CommandId id : radio.station().commands()) {
     const auto* progress = radio.station().base()->link().endpoint().progress(id);
     ASSERT_NE(progress, nullptr);
-    EXPECT_EQ(progress->fate, telemetry::Outcome::kApplied);
+    EXPECT_EQ(progress->outcome, telemetry::Outcome::kApplied);
   }
 }
 

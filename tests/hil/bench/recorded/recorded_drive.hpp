@@ -16,7 +16,7 @@
 #include "protocol/transport/file.hpp"
 #include "tests/vehicle/pipeline/standing_car.hpp"
 #include "vehicle/io/black_box.hpp"
-#include "vehicle/pipeline/telemetry_tap.hpp"
+#include "vehicle/pipeline/telemetry_mapper.hpp"
 #include "vehicle/pipeline/tick_log.hpp"
 
 namespace pitwall::bench {
@@ -50,16 +50,16 @@ class RecordedDrive {
     const pipeline::Outputs out = pipeline::step(pipeline::testing::setup(), *car_, in);
     box_.tick(in, out.passed.frames.span());
     log_->note(in, out, pipeline::testing::setup().track.length_m());
-    pipeline::RimCounters rim;
-    rim.steps = tick;
+    pipeline::IoCounters io;
+    io.steps = tick;
     if (!box_.state_due(tick)) return;
     const Instant at = now + microseconds(700);  // a step takes its time
-    box_.state(pipeline::tap({.setup = pipeline::testing::setup(),
-                              .car = *car_,
-                              .out = out,
-                              .log = *log_,
-                              .rim = rim,
-                              .now = at}),
+    box_.state(pipeline::map_telemetry({.setup = pipeline::testing::setup(),
+                                        .car = *car_,
+                                        .out = out,
+                                        .log = *log_,
+                                        .io = io,
+                                        .now = at}),
                at);
   }
 

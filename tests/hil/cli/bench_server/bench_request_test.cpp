@@ -15,7 +15,7 @@ TEST(BenchRequest, AStartHasScenarioModeAndPerhapsASeed) {
   const auto word = parse_request(
       R"({"do": "start", "scenario": "faults/x", "mode": "live", "seed": 7, "by": "Ana"})");
   ASSERT_TRUE(word);
-  const auto& start = std::get<StartRequest>(*word);
+  const auto& start = std::get<StartRunRequest>(*word);
   EXPECT_EQ(start.scenario, "faults/x");
   EXPECT_TRUE(start.live);
   EXPECT_EQ(start.seed, 7U);
@@ -23,13 +23,13 @@ TEST(BenchRequest, AStartHasScenarioModeAndPerhapsASeed) {
   const auto without =
       parse_request(R"({"do": "start", "scenario": "x", "mode": "lockstep", "seed": null})");
   ASSERT_TRUE(without);
-  EXPECT_FALSE(std::get<StartRequest>(*without).seed);
+  EXPECT_FALSE(std::get<StartRunRequest>(*without).seed);
 }
 
 TEST(BenchRequest, AStopSaysByWhom) {
   const auto word = parse_request(R"({"do": "stop", "by": "Ana"})");
   ASSERT_TRUE(word);
-  EXPECT_EQ(std::get<StopRequest>(*word).by, "Ana");
+  EXPECT_EQ(std::get<StopRunRequest>(*word).by, "Ana");
 }
 
 TEST(BenchRequest, WhatIsWrongIsNamed) {

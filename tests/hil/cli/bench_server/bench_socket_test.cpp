@@ -14,7 +14,7 @@ namespace pitwall::bench_server {
 namespace {
 
 using json::JsonValue;
-constexpr Duration kPatience = seconds(60);  // ends a test that hangs; nothing is judged by it
+constexpr Duration kTimeout = seconds(60);  // ends a test that hangs; nothing is judged by it
 
 const std::string kScenario = std::string{PITWALL_SOURCE_DIR} + "/hil/scenarios/red_flag_stop.yaml";
 
@@ -37,7 +37,7 @@ class BenchSocketTest : public ::testing::Test {
     ASSERT_TRUE(until([&] { return has("scenario", "id", "good"); }));
   }
   bool until(const std::function<bool()>& done) {
-    const Instant limit = transport::monotonic_now() + kPatience;
+    const Instant limit = transport::monotonic_now() + kTimeout;
     while (transport::monotonic_now() < limit) {
       server_->serve(transport::monotonic_now() + milliseconds(20));
       for (const std::string& line : client_->receive()) {

@@ -70,11 +70,11 @@ TEST_F(DbcSectionTest, WarnsOfStrangersButNotOfWhatWasLeftOut) {
   DbcSection section{scan, draft_};
   draft_.leave_out(7);
   draft_.leave_out(100, "lost");
-  section.stranger(7, "");
-  section.stranger(100, "lost");
+  section.warn_unknown_reference(7, "");
+  section.warn_unknown_reference(100, "lost");
   EXPECT_TRUE(draft_.database.findings.empty());
-  section.stranger(8, "");
-  section.stranger(100, "other");
+  section.warn_unknown_reference(8, "");
+  section.warn_unknown_reference(100, "other");
   ASSERT_EQ(draft_.database.findings.size(), 2U);
   EXPECT_EQ(draft_.database.findings[0].what, "CM_ of message 8, which the file does not have");
   EXPECT_EQ(draft_.database.findings[1].subject, "M.other");

@@ -77,10 +77,10 @@ TEST(AuthorityView, RepeatedPacketsRenewNothing) {
   EXPECT_EQ(rig.view.holder(rig.car_now()), 0);
   const auto id = rig.issue(CommandType::kArm, 1.0);
   rig.run(seconds(1));
-  EXPECT_EQ(rig.transmitter.progress(*id)->fate, Outcome::kNoAuthority);
+  EXPECT_EQ(rig.transmitter.progress(*id)->outcome, Outcome::kNoAuthority);
   const auto free = rig.issue(CommandType::kSendParameters, 1.0);
   rig.run(seconds(1));
-  EXPECT_EQ(rig.transmitter.progress(*free)->fate, Outcome::kApplied) << "it needs no authority";
+  EXPECT_EQ(rig.transmitter.progress(*free)->outcome, Outcome::kApplied) << "it needs no authority";
 }
 
 TEST(AuthorityView, HoldsOverABadLinkAndEndsWithinItsTimeWhenTheLinkEnds) {

@@ -1,4 +1,4 @@
-// Gate: a hundred thousand commands over air that loses half, each with one definite fate.
+// Gate: a hundred thousand commands over air that loses half, each with one definite outcome.
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <random>
@@ -24,27 +24,28 @@ struct Tally {
 };
 
 void settle(TwoEnds& rig, Tally& tally) {
-  for (auto it = rig.stories.begin(); it != rig.stories.end();) {
-    const auto& [id, story] = *it;
+  for (auto it = rig.histories.begin(); it != rig.histories.end();) {
+    const auto& [id, history] = *it;
     const CommandProgress* progress = rig.transmitter.progress(id);
-    if (progress == nullptr || !progress->fate) {
+    if (progress == nullptr || !progress->outcome) {
       ++it;
       continue;
     }
-    const bool applied = story.applied > 0;
-    const Duration ttl = row_of(story.command.type).time_to_live;
-    tally.twice += story.applied > 1;
-    tally.late += applied && *story.applied_at - story.issued > ttl;
-    tally.liars += applied != (progress->fate == Outcome::kApplied);
-    ++tally.fates[static_cast<std::size_t>(*progress->fate)];
-    if (story.known) tally.known_after_ms.push_back((*story.known - story.issued).milliseconds());
-    it = rig.stories.erase(it);
+    const bool applied = history.applied > 0;
+    const Duration ttl = row_of(history.command.type).time_to_live;
+    tally.twice += history.applied > 1;
+    tally.late += applied && *history.applied_at - history.issued > ttl;
+    tally.liars += applied != (progress->outcome == Outcome::kApplied);
+    ++tally.fates[static_cast<std::size_t>(*progress->outcome)];
+    if (history.known)
+      tally.known_after_ms.push_back((*history.known - history.issued).milliseconds());
+    it = rig.histories.erase(it);
   }
 }
 
-// `commands` of random types at random moments, and time until the last has its fate.
+// `commands` of random types at random moments, and time until the last has its outcome.
 Tally issue_many(TwoEnds& rig, int commands, int every_ms) {
-  std::mt19937 random(rig.air.seed);
+  std::mt19937 random(rig.channel.seed);
   Tally tally;
   while (tally.issued < commands) {
     rig.tick();
@@ -57,7 +58,7 @@ Tally issue_many(TwoEnds& rig, int commands, int every_ms) {
   }
   for (int s = 0; s < 60 && rig.transmitter.open() > 0; ++s) rig.run(seconds(1));
   settle(rig, tally);
-  tally.without_fate = static_cast<int>(rig.stories.size());
+  tally.without_fate = static_cast<int>(rig.histories.size());
   tally.out_of_order = rig.out_of_order;
   return tally;
 }

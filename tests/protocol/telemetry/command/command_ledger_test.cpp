@@ -10,8 +10,8 @@
 namespace pitwall::telemetry {
 namespace {
 
+using testing::CommandHistory;
 using testing::kOperator;
-using testing::Story;
 using testing::TwoEnds;
 
 // A peer repeated a command in five packets, fifty milliseconds, and forgot it: a fade of a tenth
@@ -23,10 +23,10 @@ TEST(CommandLedger, ACommandOutlivesAFadeOfAnyLengthUnlikeFiveRepeats) {
     rig.up.cut = true;
     const auto id = rig.issue(CommandType::kSpeedLimit, 33.3);
     rig.run(milliseconds(fade_ms));
-    EXPECT_FALSE(fate(rig, *id));
+    EXPECT_FALSE(outcome(rig, *id));
     rig.up.cut = false;
     rig.run(milliseconds(100));
-    EXPECT_EQ(fate(rig, *id), Outcome::kApplied) << fade_ms;
+    EXPECT_EQ(outcome(rig, *id), Outcome::kApplied) << fade_ms;
   }
   TwoEnds rig({.seed = 1});
   rig.run(seconds(1));
@@ -35,8 +35,8 @@ TEST(CommandLedger, ACommandOutlivesAFadeOfAnyLengthUnlikeFiveRepeats) {
   rig.run(seconds(30));
   rig.up.cut = false;
   rig.run(milliseconds(100));
-  EXPECT_EQ(fate(rig, *id), Outcome::kExpired) << "past its time it still learns its fate";
-  EXPECT_EQ(rig.stories[*id].applied, 0);
+  EXPECT_EQ(outcome(rig, *id), Outcome::kExpired) << "past its time it still learns its fate";
+  EXPECT_EQ(rig.histories[*id].applied, 0);
 }
 
 // A peer told copies of a command from a second press by the clock: within a second the second
@@ -47,8 +47,8 @@ TEST(CommandLedger, ASecondPressWithinASecondCounts) {
   for (int i = 0; i < 10; ++i) {
     const auto id = rig.issue(CommandType::kSpeedLimit, 30.0);
     rig.run(milliseconds(400));
-    EXPECT_EQ(fate(rig, *id), Outcome::kApplied);
-    EXPECT_EQ(rig.stories[*id].applied, 1);
+    EXPECT_EQ(outcome(rig, *id), Outcome::kApplied);
+    EXPECT_EQ(rig.histories[*id].applied, 1);
   }
 }
 
@@ -64,7 +64,7 @@ TEST(CommandLedger, CopiesHoweverLateAreOneCommandAndNoCommandIsRelative) {
     rig.run(milliseconds(500));
   }
   rig.run(seconds(10));
-  for (const CommandId id : ids) EXPECT_LE(rig.stories[id].applied, 1) << id;
+  for (const CommandId id : ids) EXPECT_LE(rig.histories[id].applied, 1) << id;
   EXPECT_GT(rig.ledger.counters().repeated, 1'000U);
   for (const CommandRow& row : kCommandTable) {
     EXPECT_GE(row.min, 0.0) << row.name << " could be a step down";
@@ -79,18 +79,18 @@ TEST(CommandLedger, WithoutComparedClocksNothingIsAppliedAndNothingForgotten) {
   rig.clock_known = false;
   const auto id = rig.issue(CommandType::kTrackFlag, 3.0);
   rig.run(seconds(1));
-  EXPECT_FALSE(fate(rig, *id));
+  EXPECT_FALSE(outcome(rig, *id));
   EXPECT_TRUE(rig.transmitter.progress(*id)->received) << "known to the car, not decided";
-  EXPECT_EQ(rig.stories[*id].applied, 0);
+  EXPECT_EQ(rig.histories[*id].applied, 0);
   rig.clock_known = true;
   rig.run(milliseconds(100));
-  EXPECT_EQ(fate(rig, *id), Outcome::kApplied);
+  EXPECT_EQ(outcome(rig, *id), Outcome::kApplied);
   rig.clock_known = false;
   const auto late = rig.issue(CommandType::kTrackFlag, 3.0);
   rig.run(seconds(3));
   rig.clock_known = true;
   rig.run(milliseconds(100));
-  EXPECT_EQ(fate(rig, *late), Outcome::kExpired);
+  EXPECT_EQ(outcome(rig, *late), Outcome::kExpired);
 }
 
 TEST(CommandLedger, AConsumerThatDoesNotAskInTimeGetsNothingLate) {
@@ -101,8 +101,8 @@ TEST(CommandLedger, AConsumerThatDoesNotAskInTimeGetsNothingLate) {
   rig.run(milliseconds(2'100));
   rig.consumer_asks = true;
   rig.run(milliseconds(100));
-  EXPECT_EQ(fate(rig, *id), Outcome::kExpired);
-  EXPECT_EQ(rig.stories[*id].applied, 0);
+  EXPECT_EQ(outcome(rig, *id), Outcome::kExpired);
+  EXPECT_EQ(rig.histories[*id].applied, 0);
 }
 
 TEST(CommandLedger, TheAgeIsLookedAtWhenTheConsumerAsksAndToTheNanosecond) {
@@ -120,7 +120,7 @@ TEST(CommandLedger, TheAgeIsLookedAtWhenTheConsumerAsksAndToTheNanosecond) {
   const Instant expires = sent - reported + row_of(CommandType::kSendParameters).time_to_live;
   for (const Duration past : {Duration{}, nanoseconds(1)}) {
     CommandLedger ledger(5);
-    ledger.meets(9);
+    ledger.set_peer_boot(9);
     ASSERT_TRUE(ledger.take({RecordType::kCommand, bytes}, received, {}));
     EXPECT_EQ(ledger.take_due(expires + past, {}).has_value(), past == Duration{});
   }
@@ -129,7 +129,7 @@ TEST(CommandLedger, TheAgeIsLookedAtWhenTheConsumerAsksAndToTheNanosecond) {
 // What memory no longer holds is not begun anew.
 TEST(CommandLedger, ANumberOlderThanMemoryIsNeverHandedOut) {
   CommandLedger ledger(5);
-  ledger.meets(9);
+  ledger.set_peer_boot(9);
   const Instant now{seconds(50).ns};
   Received received;
   received.at = now;
@@ -161,15 +161,15 @@ TEST(CommandLedger, ACommandForTheRunBeforeIsAnsweredByItsName) {
   rig.run(milliseconds(100));
   // The car begins anew; the base does not know it yet.
   rig.ledger = CommandLedger{TwoEnds::kCarBoot + 1};
-  rig.ledger.meets(TwoEnds::kBaseBoot);
+  rig.ledger.set_peer_boot(TwoEnds::kBaseBoot);
   rig.up.cut = false;
   rig.run(milliseconds(200));
-  EXPECT_EQ(fate(rig, *old), Outcome::kOtherRun);
-  EXPECT_EQ(rig.stories[*old].applied, 0);
-  rig.transmitter.meets(TwoEnds::kCarBoot + 1, rig.now);
+  EXPECT_EQ(outcome(rig, *old), Outcome::kOtherRun);
+  EXPECT_EQ(rig.histories[*old].applied, 0);
+  rig.transmitter.set_peer_boot(TwoEnds::kCarBoot + 1, rig.now);
   const auto fresh = rig.issue(CommandType::kArm, 1.0);
   rig.run(milliseconds(200));
-  EXPECT_EQ(fate(rig, *fresh), Outcome::kApplied);
+  EXPECT_EQ(outcome(rig, *fresh), Outcome::kApplied);
 }
 
 // Numbers begin again with the base; neither old records nor answers to old commands count for new.
@@ -182,27 +182,27 @@ TEST(CommandLedger, ABaseThatBeginsAgainIsNotMistakenForTheOneBefore) {
   const auto due = rig.ledger.take_due(rig.car_now(), rig.view);  // handed out, not yet answered
   ASSERT_TRUE(due);
   rig.transmitter = CommandTransmitter{TwoEnds::kBaseBoot + 1};
-  rig.transmitter.meets(TwoEnds::kCarBoot, rig.now);
+  rig.transmitter.set_peer_boot(TwoEnds::kCarBoot, rig.now);
   const auto before = rig.ledger.counters().other_base;
   ASSERT_EQ(rig.issue(CommandType::kSpeedLimit, 99.0), CommandId{1});
   rig.run(milliseconds(100));
   EXPECT_GT(rig.ledger.counters().other_base, before) << "before the sessions say so it is ignored";
-  rig.ledger.meets(TwoEnds::kBaseBoot + 1);
+  rig.ledger.set_peer_boot(TwoEnds::kBaseBoot + 1);
   rig.run(milliseconds(100));
   const auto now_due = rig.ledger.take_due(rig.car_now(), rig.view);  // both are in its hands
   ASSERT_TRUE(now_due);
   rig.ledger.decide(due->id, Outcome::kRefused, rig.car_now());
   rig.run(milliseconds(100));
-  EXPECT_FALSE(fate(rig, 1)) << "that answer was to another command";
+  EXPECT_FALSE(outcome(rig, 1)) << "that answer was to another command";
   rig.ledger.decide(now_due->id, Outcome::kApplied, rig.car_now());
   rig.run(milliseconds(100));
-  EXPECT_EQ(fate(rig, 1), Outcome::kApplied);
+  EXPECT_EQ(outcome(rig, 1), Outcome::kApplied);
   EXPECT_EQ(rig.transmitter.progress(1)->command.argument, 99.0);
 }
 
 TEST(CommandLedger, AnUnknownTypeIsAnsweredUnsupported) {
   CommandLedger ledger(5);
-  ledger.meets(9);
+  ledger.set_peer_boot(9);
   const auto bytes = to_bytes(CommandRecord{
       .number = 1, .base_run = short_boot(9), .car_boot = short_boot(5), .type = 200});
   Received received;
@@ -212,7 +212,7 @@ TEST(CommandLedger, AnUnknownTypeIsAnsweredUnsupported) {
 
 TEST(CommandLedger, MalformedRecordsHaveNoEffectAndAreCounted) {
   CommandLedger ledger(5);
-  ledger.meets(9);
+  ledger.set_peer_boot(9);
   const std::vector<std::uint8_t> bytes(300, 0xFF);
   for (std::size_t size = 0; size < bytes.size(); ++size) {
     const auto payload = std::span<const std::uint8_t>{bytes}.first(size);
@@ -240,7 +240,7 @@ TEST(CommandLedger, AnAnswerThatCallsALateCommandAppliedIsCorrected) {
   rig.ledger.decide(due->id, Outcome::kReceived, rig.car_now());  // no answer
   rig.ledger.decide(due->id, Outcome::kApplied, due->expires + nanoseconds(1));
   rig.run(milliseconds(100));
-  EXPECT_EQ(fate(rig, *id), Outcome::kExpired);
+  EXPECT_EQ(outcome(rig, *id), Outcome::kExpired);
 }
 
 // What is handed out may be applied until the authority itself ends, and not a moment longer.

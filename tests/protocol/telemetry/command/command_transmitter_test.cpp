@@ -15,10 +15,10 @@ TEST(CommandTransmitter, ABaseThatLearnsOfTheRestartDecidesWhatWasOpen) {
   rig.run(seconds(1));
   rig.up.cut = true;
   const auto old = rig.issue(CommandType::kArm, 1.0);
-  rig.transmitter.meets(TwoEnds::kCarBoot, rig.now);
-  EXPECT_FALSE(fate(rig, *old)) << "the same run of the car";
-  rig.transmitter.meets(TwoEnds::kCarBoot + 1, rig.now);
-  EXPECT_EQ(fate(rig, *old), Outcome::kOtherRun);
+  rig.transmitter.set_peer_boot(TwoEnds::kCarBoot, rig.now);
+  EXPECT_FALSE(outcome(rig, *old)) << "the same run of the car";
+  rig.transmitter.set_peer_boot(TwoEnds::kCarBoot + 1, rig.now);
+  EXPECT_EQ(outcome(rig, *old), Outcome::kOtherRun);
   EXPECT_EQ(rig.transmitter.open(), 0U);
 }
 
@@ -26,7 +26,7 @@ TEST(CommandTransmitter, IssuesOnlyWhatItCanKeepItsWordOn) {
   CommandTransmitter transmitter(1);
   const Instant now{};
   EXPECT_FALSE(transmitter.issue({CommandType::kArm, 1.0, 1}, now)) << "no car was met";
-  transmitter.meets(2, now);
+  transmitter.set_peer_boot(2, now);
   EXPECT_FALSE(transmitter.issue({CommandType::kSpeedLimit, 120.1, 1}, now));
   EXPECT_FALSE(transmitter.issue({CommandType::kSpeedLimit, -0.1, 1}, now));
   EXPECT_FALSE(transmitter.issue({CommandType::kSpeedLimit, kUnset, 1}, now));

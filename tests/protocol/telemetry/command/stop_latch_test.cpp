@@ -203,7 +203,7 @@ TEST(StopLatch, TwoStepsOverABadLinkReleaseIt) {
     rig.stands = true;
     rig.run(seconds(2));
     rig.stands = false;
-    ASSERT_EQ(rig.transmitter.progress(*id)->fate, Outcome::kApplied);
+    ASSERT_EQ(rig.transmitter.progress(*id)->outcome, Outcome::kApplied);
     rig.stop.released(*id);
     rig.run(seconds(1));
     ASSERT_EQ(rig.latch.level(), StopLevel::kNone);

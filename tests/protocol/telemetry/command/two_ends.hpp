@@ -37,7 +37,7 @@ struct Fading {
   double loss_between = 0.0;  // outside fades
 };
 
-struct AirParams {
+struct ChannelParams {
   Fading fading{};
   int radios = 1;
   Duration delay_min = milliseconds(20), delay_max = milliseconds(20);
@@ -85,7 +85,8 @@ struct Flight {
 // One direction with all its radios. The first copy of a packet to arrive counts.
 class Way {
  public:
-  Way(const AirParams& params, std::uint32_t salt) : params_(params), random_(params.seed + salt) {
+  Way(const ChannelParams& params, std::uint32_t salt)
+      : params_(params), random_(params.seed + salt) {
     for (int i = 0; i < params.radios; ++i) {
       radios_.emplace_back(params.fading, params.seed + salt + 101U * static_cast<unsigned>(i + 1));
     }
@@ -120,7 +121,7 @@ class Way {
   struct Later {
     bool operator()(const Flight& a, const Flight& b) const { return a.arrives > b.arrives; }
   };
-  AirParams params_;
+  ChannelParams params_;
   std::mt19937_64 random_;
   std::vector<Radio> radios_;
   std::priority_queue<Flight, std::vector<Flight>, Later> flying_;
@@ -129,7 +130,7 @@ class Way {
 };
 
 // Life of one command, as an outside observer sees it.
-struct Story {
+struct CommandHistory {
   Command command;
   Instant issued{};
   std::optional<Instant> known;  // first arrival at the car
@@ -139,17 +140,17 @@ struct Story {
 
 class TwoEnds {
  public:
-  explicit TwoEnds(const AirParams& params)
-      : air(params), up(params, 17), down(params, 29), random_(params.seed) {
+  explicit TwoEnds(const ChannelParams& params)
+      : channel(params), up(params, 17), down(params, 29), random_(params.seed) {
     authority.take(kOperator, now);
-    transmitter.meets(kCarBoot, now);
-    ledger.meets(kBaseBoot);
+    transmitter.set_peer_boot(kCarBoot, now);
+    ledger.set_peer_boot(kBaseBoot);
   }
 
   std::optional<CommandId> issue(CommandType type, double argument) {
     const Command command{type, argument, kOperator};
     const auto id = transmitter.issue(command, now);
-    if (id) stories[*id] = {command, now, {}, 0, {}};
+    if (id) histories[*id] = {command, now, {}, 0, {}};
     return id;
   }
 
@@ -160,15 +161,15 @@ class TwoEnds {
     if (now.ns % kAuthorityRenewal.ns == 0 && renews) authority.renew(kOperator, now);
     if (now.ns % kSlotTime.ns == 0) base_sends();
     if (now.ns % kSlotTime.ns == kSlotTime.ns / 2) car_sends();
-    up.arrive(now, once, [&](const Flight& flight) { car_hears(flight); });
-    down.arrive(now, once, [&](const Flight& flight) { base_hears(flight); });
+    up.arrive(now, once, [&](const Flight& flight) { car_receives(flight); });
+    down.arrive(now, once, [&](const Flight& flight) { base_receives(flight); });
     consume();
   }
 
   Instant car_now() const { return now + kCarAhead; }
 
   static constexpr std::uint64_t kBaseBoot = 0xB05E, kCarBoot = 0xCA5;
-  AirParams air;
+  ChannelParams channel;
   Way up, down;
   Instant now{};
   bool renews = true, once = true, clock_known = true, consumer_asks = true;
@@ -184,7 +185,7 @@ class TwoEnds {
   AuthorityView view;
   StopLatch latch;
   JoystickReceiver joystick;
-  std::map<CommandId, Story> stories;
+  std::map<CommandId, CommandHistory> histories;
   std::array<CommandId, kCommandTypes> newest_applied{};
   int out_of_order = 0;
 
@@ -213,14 +214,14 @@ class TwoEnds {
     ledger.fill(body, car_now());
     down.send(body.bytes(), now);
   }
-  void car_hears(const Flight& flight) {
+  void car_receives(const Flight& flight) {
     const auto body = parse_body(flight.bytes, Direction::kUp);
     if (!body) return;
     Received received;
     received.at = car_now();
     received.sequence = flight.sequence;
     if (clock_known) {
-      received.sent_earliest = flight.sent + kCarAhead - some_of(air.clock_bound, random_);
+      received.sent_earliest = flight.sent + kCarAhead - some_of(channel.clock_bound, random_);
     }
     view.receive(body->values, received);
     joystick.receive(body->values, received);
@@ -230,7 +231,7 @@ class TwoEnds {
       ledger.take(record, received, view);
     }
   }
-  void base_hears(const Flight& flight) {
+  void base_receives(const Flight& flight) {
     const auto body = parse_body(flight.bytes, Direction::kDown);
     if (!body) return;
     Received received;
@@ -240,14 +241,14 @@ class TwoEnds {
   void note_known(const Record& record) {
     const auto stated = parse_command(record.payload);
     if (record.type != RecordType::kCommand || !stated) return;
-    const auto story = stories.find(stated->number);
-    if (story != stories.end() && !story->second.known) story->second.known = now;
+    const auto history = histories.find(stated->number);
+    if (history != histories.end() && !history->second.known) history->second.known = now;
   }
   void consume() {
     while (const auto due = consumer_asks ? ledger.take_due(car_now(), view) : std::nullopt) {
-      Story& story = stories[due->number];
-      ++story.applied;
-      story.applied_at = now;
+      CommandHistory& history = histories[due->number];
+      ++history.applied;
+      history.applied_at = now;
       CommandId& newest = newest_applied[static_cast<std::size_t>(due->command.type)];
       if (due->number < newest) ++out_of_order;
       newest = std::max(newest, due->number);
@@ -265,9 +266,9 @@ class TwoEnds {
 };
 
 // Outcome of the command at the base; nullopt before there is one.
-inline std::optional<Outcome> fate(const TwoEnds& rig, CommandId id) {
+inline std::optional<Outcome> outcome(const TwoEnds& rig, CommandId id) {
   const CommandProgress* progress = rig.transmitter.progress(id);
-  return progress == nullptr ? std::nullopt : progress->fate;
+  return progress == nullptr ? std::nullopt : progress->outcome;
 }
 
 }  // namespace pitwall::telemetry::testing

@@ -58,7 +58,7 @@ TEST(CarEndpoint, AReleaseOpensTheLatchOnlyAtStandstillAndIsNoBusinessOfTheConsu
       pair.step();
       EXPECT_FALSE(pair.car->next_command(pair.now));
     }
-    EXPECT_EQ(pair.base->progress(*id)->fate, stands ? Outcome::kApplied : Outcome::kRefused);
+    EXPECT_EQ(pair.base->progress(*id)->outcome, stands ? Outcome::kApplied : Outcome::kRefused);
     const StopLevel level = pair.car->view(pair.now).stop;
     EXPECT_EQ(level, stands ? StopLevel::kNone : StopLevel::kEmergency);
   }

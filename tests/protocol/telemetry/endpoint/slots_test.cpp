@@ -23,8 +23,8 @@ TEST(Slots, OneOnTheSlotAndOneBetween) {
     const Turn turn = slots.turn(at_ms(ms));
     if (turn == Turn::kOnSlot) ++on_slot;
     if (turn == Turn::kBetween) ++between;
-    if (turn != Turn::kNobody) slots.done(turn, true, at_ms(ms));
-    ASSERT_NE(slots.turn(at_ms(ms)), turn == Turn::kNobody ? Turn::kOnSlot : turn);
+    if (turn != Turn::kNone) slots.done(turn, true, at_ms(ms));
+    ASSERT_NE(slots.turn(at_ms(ms)), turn == Turn::kNone ? Turn::kOnSlot : turn);
   }
   EXPECT_NEAR(on_slot, 500, 1);
   EXPECT_NEAR(between, 500, 1);
@@ -41,7 +41,7 @@ TEST(Slots, LatePollsMoveNothing) {
     const Instant now = at_us(10'000 * i + static_cast<std::int64_t>(random() % 6'000));
     const Turn turn = slots.turn(now);
     on_slot += turn == Turn::kOnSlot ? 1 : 0;
-    if (turn != Turn::kNobody) slots.done(turn, true, now);
+    if (turn != Turn::kNone) slots.done(turn, true, now);
   }
   EXPECT_NEAR(on_slot, 1'000, 1);
   EXPECT_EQ(slots.skipped(), 0U);
@@ -53,7 +53,7 @@ TEST(Slots, ASlotWithoutRoomIsAskedAgainThenSkipped) {
   for (std::int64_t ms = 0; ms < 18; ++ms) {
     const Turn turn = slots.turn(at_ms(ms));
     if (turn == Turn::kOnSlot) ++asked;
-    if (turn != Turn::kNobody) slots.done(turn, false, at_ms(ms));
+    if (turn != Turn::kNone) slots.done(turn, false, at_ms(ms));
   }
   EXPECT_GE(asked, 9);
   EXPECT_LE(asked, 11);
@@ -81,7 +81,7 @@ TEST(Slots, WhatCannotWaitGoesAtAnyTime) {
       EXPECT_LE(slots.due(at_ms(pressed), true), at_ms(pressed + 1));
     }
     slots.done(Turn::kAtOnce, true, at_ms(pressed));
-    EXPECT_EQ(slots.turn(at_ms(17)), Turn::kNobody) << "in the place of the one between";
+    EXPECT_EQ(slots.turn(at_ms(17)), Turn::kNone) << "in the place of the one between";
     EXPECT_EQ(slots.turn(at_ms(20), true), Turn::kOnSlot);
     EXPECT_EQ(slots.skipped(), 0U);
   }
@@ -93,12 +93,12 @@ TEST(Slots, NothingIsDueBeforeDue) {
   Instant now{};
   for (int i = 0; i < 5'000; ++i) {
     const Turn turn = slots.turn(now);
-    if (turn != Turn::kNobody) slots.done(turn, random() % 3 != 0, now);
+    if (turn != Turn::kNone) slots.done(turn, random() % 3 != 0, now);
     const Instant due = slots.due(now);
     ASSERT_GE(due, now);
     for (Instant t = now + microseconds(100); t + kSlotEarly < due; t += microseconds(500)) {
       Slots copy = slots;
-      ASSERT_EQ(copy.turn(t), Turn::kNobody);
+      ASSERT_EQ(copy.turn(t), Turn::kNone);
     }
     now = due + microseconds(static_cast<std::int64_t>(random() % 3'000));
   }

@@ -140,7 +140,7 @@ TEST(StationEndpoint, OneTruthAboutACommandAtBothEnds) {
   pair.base->authority().take(1, pair.now);
   const auto id = pair.base->issue({CommandType::kSpeedLimit, 30.0, 1}, pair.now);
   ASSERT_TRUE(id);
-  EXPECT_FALSE(pair.base->progress(*id)->fate);
+  EXPECT_FALSE(pair.base->progress(*id)->outcome);
   for (int ms = 0; ms < 100; ++ms) {
     pair.step();
     while (const auto due = pair.car->next_command(pair.now)) {
@@ -148,7 +148,7 @@ TEST(StationEndpoint, OneTruthAboutACommandAtBothEnds) {
       pair.car->decide(due->id, Outcome::kRefused, pair.now);
     }
   }
-  EXPECT_EQ(pair.base->progress(*id)->fate, Outcome::kRefused);
+  EXPECT_EQ(pair.base->progress(*id)->outcome, Outcome::kRefused);
 }
 
 }  // namespace

@@ -35,7 +35,7 @@ bool have_tshark() {
 
 // ---- Packets, sealed by the session itself
 
-Snapshot some_state(std::uint64_t seed) {
+Snapshot sample_state(std::uint64_t seed) {
   std::mt19937_64 random{seed};
   Snapshot snapshot;
   for (FieldIndex i = 0; i < kFieldCount; ++i) {
@@ -171,7 +171,7 @@ TEST_P(EachDirection, EveryFieldOfASignedPacketIsShownAsItWasRead) {
   std::vector<Body> bodies;
   for (std::uint64_t seed = 1; seed <= 5; ++seed) {
     Written written;
-    write(some_state(seed), GetParam(), written);
+    write(sample_state(seed), GetParam(), written);
     packets.push_back({signed_packet(written.bytes), GetParam()});
     const auto body = parse_body(written.bytes, GetParam());
     ASSERT_TRUE(body.has_value());
@@ -193,7 +193,7 @@ TEST_P(EachDirection, EveryFieldOfASignedPacketIsShownAsItWasRead) {
 TEST_P(EachDirection, HeadAcknowledgementAgesAndRecordsAreShown) {
   NEEDS_TSHARK();
   Written written;
-  write(some_state(9), GetParam(), written);
+  write(sample_state(9), GetParam(), written);
   const auto rows = fields_of_packets(
       {{signed_packet(written.bytes), GetParam()}},
       {"pitwall.version", "pitwall.kind", "pitwall.key_phase", "pitwall.receiver",
@@ -207,7 +207,7 @@ TEST_P(EachDirection, HeadAcknowledgementAgesAndRecordsAreShown) {
 TEST_P(EachDirection, TheAgeOfEveryGroupIsShown) {
   NEEDS_TSHARK();
   Written written;
-  write(some_state(9), GetParam(), written);
+  write(sample_state(9), GetParam(), written);
   const auto body = parse_body(written.bytes, GetParam());
   ASSERT_TRUE(body.has_value());
   std::vector<std::string> names;
@@ -243,7 +243,7 @@ TEST(Dissector, ALabelIsShownBesideItsNumber) {
 TEST(Dissector, OfASealedPacketOnlyTheClearPartIsShown) {
   NEEDS_TSHARK();
   Written written;
-  write(some_state(3), Direction::kDown, written);
+  write(sample_state(3), Direction::kDown, written);
   const auto rows =
       fields_of_packets({{signed_packet(written.bytes, Kind::kSealed), Direction::kDown}},
                         {"pitwall.kind", "pitwall.sequence", "pitwall.sealed", "pitwall.ego.x"});
@@ -301,7 +301,7 @@ TEST(Dissector, WhateverIsOnThePortDoesNotBreakIt) {
   std::mt19937 random{5};
   std::vector<Sent> packets;
   Written written;
-  write(some_state(4), Direction::kDown, written);
+  write(sample_state(4), Direction::kDown, written);
   const Packet good = signed_packet(written.bytes);
   for (int round = 0; round < 400; ++round) {
     Packet packet = good;

@@ -15,12 +15,12 @@
 namespace pitwall::telemetry {
 namespace {
 
-static_assert(std::is_trivially_copyable_v<ReceiptBook>);
-static_assert(std::is_trivially_copyable_v<SentBook>);
+static_assert(std::is_trivially_copyable_v<ReceivedPackets>);
+static_assert(std::is_trivially_copyable_v<SentPackets>);
 
-TEST(ReceiptBook, NamesExactlyWhatCameOfTheLast33) {
+TEST(ReceivedPackets, NamesExactlyWhatCameOfTheLast33) {
   std::mt19937_64 random(1);
-  ReceiptBook book;
+  ReceivedPackets book;
   EXPECT_FALSE(book.ack(at_ms(0)));
   std::set<std::uint64_t> came;
   const std::uint64_t start = (std::uint64_t{1} << 32) - 500;
@@ -39,30 +39,23 @@ TEST(ReceiptBook, NamesExactlyWhatCameOfTheLast33) {
   }
 }
 
-TEST(ReceiptBook, IsDueOnNewsAndEvery50Ms) {
-  ReceiptBook book;
-  EXPECT_FALSE(book.due(at_ms(1'000)));
-  book.received(5, at_ms(1'000));
-  EXPECT_TRUE(book.due(at_ms(1'000)));
-  EXPECT_EQ(book.ack(at_ms(1'007))->hold, milliseconds(7));
-  book.written(at_ms(1'007));
-  EXPECT_FALSE(book.due(at_ms(1'056)));
-  EXPECT_TRUE(book.due(at_ms(1'057)));
-  book.received(4, at_ms(1'010));  // late, but news
-  EXPECT_TRUE(book.due(at_ms(1'010)));
-  book.written(at_ms(1'010));
-  book.received(4, at_ms(1'011));  // nothing new to name is still said, at the latest in 50 ms
-  book.forget();
-  EXPECT_FALSE(book.ack(at_ms(1'100)));
+TEST(ReceivedPackets, TheHoldCountsFromTheNewestAndANewSessionHasNoAck) {
+  ReceivedPackets received;
+  received.received(5, at_ms(1'000));
+  EXPECT_EQ(received.ack(at_ms(1'007))->hold, milliseconds(7));
+  received.received(4, at_ms(1'010));  // late: the newest one is still 5
+  EXPECT_EQ(received.ack(at_ms(1'011))->hold, milliseconds(11));
+  received.forget();
+  EXPECT_FALSE(received.ack(at_ms(1'100)));
 }
 
 // A sender, a lossy way and a receiver; what the sender learns is compared with what came.
-TEST(SentBook, LearnsOnlyTheTruthAndEachPacketOnce) {
+TEST(SentPackets, LearnsOnlyTheTruthAndEachPacketOnce) {
   for (const std::uint64_t start :
        {std::uint64_t{1}, (std::uint64_t{1} << 16) - 700, (std::uint64_t{1} << 32) - 1'000}) {
     std::mt19937_64 random(start);
-    ReceiptBook receipts;
-    SentBook sent;
+    ReceivedPackets receipts;
+    SentPackets sent;
     std::set<std::uint64_t> came, reported;
     for (std::uint64_t i = 0; i < 3'000; ++i) {
       const std::uint64_t sequence = start + i;
@@ -73,7 +66,7 @@ TEST(SentBook, LearnsOnlyTheTruthAndEachPacketOnce) {
       }
       const auto ack = receipts.ack(at_ms(static_cast<std::int64_t>(20 * i + 9)));
       if (!ack || random() % 10 < 3) continue;
-      const SentBook::News news = sent.take(*ack);
+      const SentPackets::News news = sent.take(*ack);
       for (const Delivery& d : news.delivered) {
         ASSERT_TRUE(came.contains(d.sequence));
         ASSERT_TRUE(reported.insert(d.sequence).second) << "told twice";
@@ -88,8 +81,8 @@ TEST(SentBook, LearnsOnlyTheTruthAndEachPacketOnce) {
   }
 }
 
-TEST(SentBook, CountsNonsenseAndIgnoresIt) {
-  SentBook book;
+TEST(SentPackets, CountsNonsenseAndIgnoresIt) {
+  SentPackets book;
   EXPECT_EQ(book.take({.newest_low = 3}).delivered.size(), 0U);
   EXPECT_EQ(book.nonsense(), 1U);
   for (std::uint64_t s = 1; s <= 10; ++s) book.sent(s, at_ms(0), 50);
@@ -105,9 +98,9 @@ TEST(SentBook, CountsNonsenseAndIgnoresIt) {
   EXPECT_FALSE(book.take({.newest_low = 5}).newest);
 }
 
-TEST(SentBook, RandomAcksNeverTellOfWhatWasNotSent) {
+TEST(SentPackets, RandomAcksNeverTellOfWhatWasNotSent) {
   std::mt19937_64 random(3);
-  SentBook book;
+  SentPackets book;
   std::set<std::uint64_t> reported;
   std::uint64_t sequence = (std::uint64_t{1} << 32) - 300;
   const std::uint64_t first = sequence;
@@ -123,10 +116,10 @@ TEST(SentBook, RandomAcksNeverTellOfWhatWasNotSent) {
   EXPECT_GT(book.nonsense(), 0U);
 }
 
-TEST(SentBook, AnUnknownHoldIsNoTime) {
-  SentBook book;
+TEST(SentPackets, AnUnknownHoldIsNoTime) {
+  SentPackets book;
   book.sent(1, at_ms(0), 50);
-  const SentBook::News news = book.take({.newest_low = 1, .hold = microseconds(100) * 0xFFFF});
+  const SentPackets::News news = book.take({.newest_low = 1, .hold = microseconds(100) * 0xFFFF});
   EXPECT_EQ(news.delivered.size(), 1U);
   EXPECT_FALSE(news.newest);
 }

@@ -206,26 +206,6 @@ TEST(PathBudget, SafetyBorrowsFromTheRest) {
   EXPECT_EQ(budget.room_beside(0, Instant{}), budget.room_for_all(Instant{}));
 }
 
-TEST(PathBudget, IsDueWhenItSays) {
-  std::mt19937_64 random(7);
-  PathBudget budget = made({});
-  const std::size_t most = budget.room_for_all(Instant{});
-  Instant now{};
-  for (int i = 0; i < 5'000; ++i) {
-    now += microseconds(static_cast<std::int64_t>(random() % 20'000));
-    if (random() % 10 == 0) budget.scale(0.2 + 0.1 * static_cast<double>(random() % 9), now);
-    const std::size_t payload = 1 + random() % most;
-    const Instant due = budget.due(payload, now);
-    ASSERT_GE(budget.room_for_all(due), payload);
-    if (due > now) {
-      ASSERT_LT(budget.room_for_all(due - microseconds(1)), payload);
-    }
-    const std::size_t room = budget.room_beside(40, now);
-    if (room >= 40) budget.spend(40 + random() % (room - 39), 40, now);
-  }
-  EXPECT_EQ(budget.due(most + 1, now), Instant::max());
-}
-
 TEST(PathBudget, KeyExchangeAlwaysFitsBesideTheShare) {
   for (const double kbit_per_s : {64.0, 128.0, 256.0, 1'024.0}) {
     PathBudget budget = made({.bytes_per_s = kbit_per_s * 125});

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "tests/support/allocation_guard.hpp"
-#include "tests/support/body_again.hpp"
+#include "tests/support/reencode_body.hpp"
 #include "tests/support/reference_body.hpp"
 
 namespace pitwall::telemetry {
@@ -83,7 +83,7 @@ bool agrees(const Bytes& bytes, Direction direction) {
   const auto reference = testing::read_reference(bytes, direction);
   EXPECT_EQ(body.has_value(), reference.has_value());
   if (!body || !reference) return false;
-  EXPECT_EQ(testing::body_again(*body, direction), bytes);
+  EXPECT_EQ(testing::reencode_body(*body, direction), bytes);
   EXPECT_EQ(body->tx_time_100us, reference->time);
   EXPECT_EQ(body->paths_mask, reference->paths);
   EXPECT_EQ(body->ack.has_value(), reference->has_ack);

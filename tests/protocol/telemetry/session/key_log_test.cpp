@@ -30,8 +30,8 @@ TEST(KeyLog, HasALineForEachPhaseThatAnEndMayMeet) {
   Key key;
   key.bytes.fill(7);
   const auto lines = lines_of(key_log_lines(0x0B0A, key));
-  ASSERT_EQ(lines.size(), std::size_t{kMaxPhasesUnheard} + 1);
-  for (int phase = 0; phase <= kMaxPhasesUnheard; ++phase) {
+  ASSERT_EQ(lines.size(), std::size_t{kMaxSilentPhases} + 1);
+  for (int phase = 0; phase <= kMaxSilentPhases; ++phase) {
     const Line& line = lines[static_cast<std::size_t>(phase)];
     EXPECT_EQ(line.cipher, "CHACHA20_POLY1305");
     EXPECT_EQ(line.receiver, "0b0a");
@@ -77,7 +77,7 @@ TEST_P(KeysReported, OnlyWithKeysOfTheBench) {
   ASSERT_TRUE(answer);
   EXPECT_FALSE(car.feed(answer->bytes, 0, kBaseAddress, now, plain));
   ASSERT_TRUE(car.ready());
-  EXPECT_EQ(reported.size(), logged ? 2 * (std::size_t{kMaxPhasesUnheard} + 1) : 0);
+  EXPECT_EQ(reported.size(), logged ? 2 * (std::size_t{kMaxSilentPhases} + 1) : 0);
   for (const auto& [line, ends] : reported) EXPECT_EQ(ends, 2) << line;
 }
 

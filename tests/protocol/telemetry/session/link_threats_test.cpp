@@ -146,8 +146,7 @@ TEST_F(Threats, PacketsOfTheSessionBeforeAreExpectedAfterARestartOnly) {
 }
 
 TEST_F(Threats, AFloodIsSeenAtOnceWhateverTheSession) {
-  for (const Refusal why : {Refusal::kNoSession, Refusal::kOldExchange, Refusal::kTooManyKnocks,
-                            Refusal::kForeignBoot}) {
+  for (const Refusal why : {Refusal::kNoSession, Refusal::kOldExchange, Refusal::kForeignBoot}) {
     const Duration seen = seen_after(Threat::kRefusedAtRate, at_rate(refused(why), 50'000.0));
     EXPECT_GT(seen, Duration{}) << text_of(why);
     EXPECT_LE(seen, milliseconds(200)) << text_of(why);

@@ -102,7 +102,7 @@ TEST(Traffic, PhasesFollowEachOtherAndTheOldKeyOpensForTwoSecondsMore) {
 }
 
 TEST(Traffic, APeerThatWasUnheardForHoursIsFoundInItsPhase) {
-  for (int phases = 1; phases < kMaxPhasesUnheard; ++phases) {
+  for (int phases = 1; phases < kMaxSilentPhases; ++phases) {
     Line line;
     ASSERT_EQ(line.open(line.seal(kStart), kStart), Verdict::kNew);
     Instant now = kStart;

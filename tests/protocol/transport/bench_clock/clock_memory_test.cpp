@@ -47,11 +47,11 @@ TEST(ClockMemory, ALockEndsWithItsProcess) {
     EXPECT_TRUE(memory->is_locked());
     EXPECT_FALSE(memory->lock());
     memory->page().horizon_ns = 500;
-    memory->let_go_on(Instant{2'000});
+    memory->resume(Instant{2'000});
     EXPECT_EQ(memory->page().horizon_ns.load(), 500) << "its bench lives";
   }
   EXPECT_FALSE(memory->is_locked());
-  memory->let_go_on(Instant{2'000});
+  memory->resume(Instant{2'000});
   EXPECT_EQ(memory->page().horizon_ns.load(), INT64_MAX);
   EXPECT_EQ(memory->page().lost_ns.load(), 1'500) << "from where it stood";
   EXPECT_TRUE(memory->lock());

@@ -51,16 +51,16 @@ TEST_F(UnixBusBench, AConnectionKnowsWhetherItsHubIsThere) {
   const auto address = unix_bus_address(bus_);
   ASSERT_TRUE(address);
   EXPECT_TRUE(hub_serves(*address));
-  const RawClient hearing(bus_), deaf(bus_, Hearing::kNothing);
-  ASSERT_TRUE(hearing.connected() && deaf.connected());
+  const RawClient receiver(bus_), send_only(bus_, ReceiveMode::kNothing);
+  ASSERT_TRUE(receiver.connected() && send_only.connected());
   for (const bool served : {false, true}) {
     if (served) serve();
-    EXPECT_TRUE(hub_is_there(hearing.fd()));
-    EXPECT_TRUE(hub_is_there(deaf.fd()));
+    EXPECT_TRUE(hub_is_there(receiver.fd()));
+    EXPECT_TRUE(hub_is_there(send_only.fd()));
   }
   hub_.reset();
-  EXPECT_FALSE(hub_is_there(hearing.fd()));
-  EXPECT_FALSE(hub_is_there(deaf.fd()));
+  EXPECT_FALSE(hub_is_there(receiver.fd()));
+  EXPECT_FALSE(hub_is_there(send_only.fd()));
   EXPECT_FALSE(hub_is_there(-1));
   EXPECT_FALSE(hub_serves(*address));
 }

@@ -222,13 +222,13 @@ TEST_F(UnixCanHubOnBench, ADescriptorThatAClientPassesIsNotTakenIn) {
   EXPECT_TRUE(reader.read().empty());
 }
 
-TEST_F(UnixCanHubOnBench, ADeafClientIsSentNothingAndKeepsNobodyBusy) {
-  RawClient deaf(bus_, Hearing::kNothing), reader(bus_), sender(bus_);
+TEST_F(UnixCanHubOnBench, AClientThatOnlySendsIsSentNothingAndKeepsNobodyBusy) {
+  RawClient send_only(bus_, ReceiveMode::kNothing), reader(bus_), sender(bus_);
   for (std::uint32_t i = 0; i < 1'000; ++i) {
     ASSERT_TRUE(sender.send(numbered(1, i)));
     hub_->serve(Instant{});
   }
-  ASSERT_TRUE(deaf.send(numbered(2, 0)));
+  ASSERT_TRUE(send_only.send(numbered(2, 0)));
   serve();
   EXPECT_EQ(reader.read().size(), 1'001u);
   EXPECT_EQ(sender.read().size(), 1u);

@@ -119,12 +119,12 @@ TEST(StreamLink, AConnectionThatSaysNothingIsGivenUp) {
   Stream s{StreamLink{listener.address()}};
   ASSERT_TRUE(s.read_until([&] { return s.link.is_open(); }));
   const FileDescriptor other = listener.accept();
-  s.now += StreamLink::kPatience;
+  s.now += StreamLink::kTimeout;
   s.read();
   EXPECT_TRUE(s.link.is_open());
   say(other, "here");
   ASSERT_TRUE(s.read_until([&] { return s.received == "here"; }));
-  s.now += StreamLink::kPatience;
+  s.now += StreamLink::kTimeout;
   s.read();
   EXPECT_TRUE(s.link.is_open()) << "it spoke since";
   s.now += nanoseconds(1);
@@ -144,7 +144,7 @@ TEST(StreamLink, ASerialDeviceGivesEveryByteAsItIs) {
   pty.say(every);
   EXPECT_TRUE(s.read_until([&] { return s.received.size() >= every.size(); }));
   EXPECT_EQ(s.received, every);
-  s.now += StreamLink::kPatience * 10;
+  s.now += StreamLink::kTimeout * 10;
   s.read();
   EXPECT_TRUE(s.link.is_open()) << "a silent device is not opened again: that would not wake it";
 }

@@ -16,7 +16,7 @@ Result<Identity, Refused> admit(const AccessRules& rules, const Visitor& visitor
 }
 
 AccessRules rules() {
-  return {.tokens = std::make_shared<TokenBook>(*Tokens::parse(kFile, "tokens")),
+  return {.tokens = std::make_shared<TokenStore>(*Tokens::parse(kFile, "tokens")),
           .default_role = Role::kViewer,
           .names = {"pit.local"}};
 }

@@ -12,9 +12,9 @@ namespace {
 TEST(RoomLeft, TheBoundThatIsNearIsNamed) {
   const std::vector<MemoryUse> uses{{"RLIMIT_DATA", 50'000'000, 100'000'000},
                                     {"memory.max", 95'000'000, 100'000'000}};
-  EXPECT_EQ(short_of_memory(uses, kRoomToCome), "memory: 95 of 100 MB used (memory.max)");
-  EXPECT_EQ(short_of_memory(uses, kRoomToStay), "");
-  EXPECT_EQ(short_of_memory({}, kRoomToCome), "");
+  EXPECT_EQ(short_of_memory(uses, kMemoryToAccept), "memory: 95 of 100 MB used (memory.max)");
+  EXPECT_EQ(short_of_memory(uses, kMemoryToKeep), "");
+  EXPECT_EQ(short_of_memory({}, kMemoryToAccept), "");
 }
 
 TEST(RoomLeft, ALimitThatIsSetLaterIsSeen) {
