@@ -41,8 +41,8 @@ void PathDeviation::plan(const plant::Truth& truth, Instant now) {
                      now);
   planner_ = out.next;
   planned_at_ = now;
-  off_m_ = std::abs(out.line_offset_m -
-                    planning::offset_at(planner_.stop, planner_.stop.gone_m).n_m);
+  off_m_ =
+      std::abs(out.line_offset_m - planning::offset_at(planner_.stop, planner_.stop.gone_m).n_m);
 }
 
 double PathDeviation::off_path_m(const plant::Truth& truth, double cross_track_m, double mode,

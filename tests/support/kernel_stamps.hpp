@@ -9,24 +9,23 @@
 #include <gtest/gtest.h>
 
 #include <array>
-#include <chrono>
-#include <thread>
 
+#include "protocol/transport/clock.hpp"
 #include "protocol/transport/udp_socket.hpp"
 
 namespace pitwall::testing {
 
 inline transport::UdpSocket kernel_that_stamps() {
   constexpr int kTries = 1'000;
-  constexpr std::chrono::milliseconds kUnread{5};
+  constexpr Duration kUnread = milliseconds(5);
   auto socket = *transport::UdpSocket::bind({});
   for (int i = 0; i < kTries; ++i) {
     const Instant before = transport::monotonic_now();
     EXPECT_TRUE(socket.send_to(socket.local(), std::array<std::uint8_t, 1>{}));
-    std::this_thread::sleep_for(kUnread);
+    transport::sleep_until(before + kUnread);
     std::array<transport::UdpDatagram, 1> datagram;
     const bool read = socket.receive(datagram) == 1;
-    if (read && datagram[0].at - before < milliseconds(kUnread.count() / 2)) return socket;
+    if (read && datagram[0].at - before < kUnread / 2) return socket;
   }
   ADD_FAILURE() << "the kernel stamps no datagram on arrival";
   return socket;
