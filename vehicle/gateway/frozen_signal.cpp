@@ -14,16 +14,24 @@ constexpr Duration kFresh = milliseconds(50);  // of a speed that bears witness
 // In the order of Watched: rad at the road wheel, kPa, share, m/s, m/s.
 constexpr std::array<double, kWatched> kLimits{0.0015, 300.0, 0.1, 0.3, 1.0};
 
-// What was told kActuatorLag ago.
+// Mean of the commands around kActuatorLag ago, because an actuator smooths the noise of its
+// command; unset without any.
 world::ActuatorCommand reported_then(const FrozenState& state, Instant now) {
-  world::ActuatorCommand command;
-  Instant newest{};
+  world::ActuatorCommand mean{.road_wheel_rad = 0.0, .throttle_fraction = 0.0, .brake_kpa = 0.0};
+  double count = 0.0;
   for (std::size_t i = 0; i < FrozenState::kCommands; ++i) {
-    if (state.reported_at[i] > now - kActuatorLag || state.reported_at[i] <= newest) continue;
-    newest = state.reported_at[i];
-    command = state.commands[i];
+    const Duration age = now - state.reported_at[i];
+    if (age < kActuatorLag / 2 || age > kActuatorLag + kActuatorLag / 2) continue;
+    mean.road_wheel_rad += state.commands[i].road_wheel_rad;
+    mean.throttle_fraction += state.commands[i].throttle_fraction;
+    mean.brake_kpa += state.commands[i].brake_kpa;
+    count += 1.0;
   }
-  return command;
+  if (count == 0.0) return {};
+  mean.road_wheel_rad /= count;
+  mean.throttle_fraction /= count;
+  mean.brake_kpa /= count;
+  return mean;
 }
 
 // The mean of the middle two: one wheel that lies must not bear witness against the powertrain.

@@ -11,8 +11,8 @@
 //          and not used while it jumps, because at constant speed the powertrain reports the same
 //          value for seconds
 //   limits command: 1.7 deg of the steering motor, 300 kPa, a tenth of the pedal, each compared
-//          with the command 0.1 s before (delay and lag of the actuators); speed: 0.3 m/s for the
-//          wheels, 1 m/s for the powertrain, whose witness is noisy
+//          with the mean command of 0.05 to 0.15 s before (delay and lag of the actuators); speed:
+//          0.3 m/s for the wheels, 1 m/s for the powertrain, whose witness is noisy
 //   cost   no allocation
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
