@@ -1,7 +1,7 @@
 // Alarm evaluator: derived fields, alarms and notices of one car. The caller gives the time and
 // each change; the evaluator has no clock of its own.
 //   in     the vehicle state, figures of link and base, expectations, operator actions
-//   out    views of every field with a evaluation, the list of alarms, drafts for race control
+//   out    views of every field with an evaluation, the list of alarms, drafts for race control
 //   invariants
 //          advance(t) makes a step at every multiple of kGrid up to t, with what was known until
 //          then. So the same changes at the same times give the same alarms, however often

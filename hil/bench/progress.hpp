@@ -9,7 +9,7 @@
 //           the lines of a lockstep run are the same for the same scenario, build and seed, except
 //           for the wall time in the result. An unknown value is null
 //   bound   kEventsMax events; the line after them gives the number of omitted ones
-//   units   as the names print; times in seconds of scenario time
+//   units   as in the names; times in seconds of scenario time
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

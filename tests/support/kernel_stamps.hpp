@@ -15,7 +15,7 @@
 
 namespace pitwall::testing {
 
-inline transport::UdpSocket kernel_that_stamps() {
+inline transport::UdpSocket await_kernel_stamps() {
   constexpr int kTries = 1'000;
   constexpr Duration kUnread = milliseconds(5);
   auto socket = *transport::UdpSocket::bind({});

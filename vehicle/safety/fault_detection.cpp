@@ -238,9 +238,9 @@ void turning(Finder& f, FaultState& state, Instant now) {
   const double excess_rad =
       std::abs(f.in.innovation_rad) - f.in.innovation_sigma_rad - p.unexplained_max_rad;
   const bool follows = state.steering.within == now;
-  if (!follows || !(excess_rad > 0.0)) state.explained = now;  // not a number is explained
+  if (!follows || !(excess_rad > 0.0)) state.last_explained = now;  // not a number is explained
   f.out.steering_biased =
-      now - state.explained >= p.steering.persist && !f.is_off(Monitor::kSteeringFollows);
+      now - state.last_explained >= p.steering.persist && !f.is_off(Monitor::kSteeringFollows);
   f.add(Monitor::kSteeringFollows, Cause::kSteeringStrays, f.out.steering_biased,
         excess_rad * f.in.steering_ratio);
 }
@@ -251,7 +251,7 @@ void actuators(Finder& f, FaultState& state, Instant now) {
   const world::ActuatorCommand& reported = f.in.reported;
   if (!follows_commands(f)) {
     state.steering = state.brake_front = state.brake_rear = state.throttle = {};
-    state.explained = now;
+    state.last_explained = now;
     return;
   }
   const auto judge = [&](Monitor monitor, Cause cause, const FollowLimits& limits,

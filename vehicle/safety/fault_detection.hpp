@@ -123,7 +123,7 @@ struct FaultState {
   bool bus_dead = false;
   Instant bus_dead_since{};  // time of detection
   FollowState steering, brake_front, brake_rear, throttle;
-  Instant explained{};  // last time that the car turned as its steering sensor reports
+  Instant last_explained{};  // last time that the car turned as its steering sensor reports
   OversteerState oversteer;
   ClockState clock;
   ComputerState computer;

@@ -48,7 +48,7 @@ SafeStopState begin(const SafeStopParams& params, const SafeStopInputs& in,
   s.begun = s.last = now;
   const double last_good_rad = finite_or(in.last_good.road_wheel_rad, 0.0);
   s.brake_kpa = std::max(0.0, finite_or(in.last_good.brake_kpa, 0.0));
-  s.brake_share = followed.brake_share;
+  s.following.lock_share = followed.lock_share;
   s.steer_offset_rad = last_good_rad;
   s.speed_mps = std::max(0.0, finite_or(in.speed_mps, 0.0));
   if (in.stop.points.empty()) return s;
@@ -84,13 +84,14 @@ bool has_pose(const world::EgoState& ego) {
 }
 
 void start_following(const SafeStopInputs& in, SafeStopState& s) {
+  const double lock_share = s.following.lock_share;
   s.following = {};
+  s.following.lock_share = lock_share;
   s.following.command = in.last_good;
   s.following.command.road_wheel_rad = finite_or(in.last_good.road_wheel_rad, 0.0);
   s.following.command.brake_kpa = s.brake_kpa;
   s.following.command.throttle_fraction = finite_or(in.last_good.throttle_fraction, 0.0);
   s.following.learned = in.learned;
-  s.following.brake_share = s.brake_share;
 }
 
 ActuatorCommand with_feedback(const FollowingParams& params, SafeStopState& s,
@@ -106,7 +107,6 @@ ActuatorCommand with_feedback(const FollowingParams& params, SafeStopState& s,
                       .front_slip = in.front_slip};
   ActuatorCommand command = follow_stop(params, s.following, in.stop, pose, in.kind, now);
   s.brake_kpa = command.brake_kpa;
-  s.brake_share = s.following.brake_share;
   s.travelled_m = s.following.s_m;
   command.gear = in.last_good.gear;
   return command;
@@ -123,8 +123,8 @@ ActuatorCommand open_loop(const SafeStopParams& params, SafeStopState& state,
                : 0.0) +
       state.steer_offset_rad * settled;
   Grip grip = grip_at(params, state.speed_mps, w.curvature_per_m, w.bank_rad, in.tyre_c);
-  state.brake_share = share_after(params, state.brake_share, in.front_slip, dt_s);
-  grip.share = state.brake_share;
+  double& lock_share = state.following.lock_share;
+  grip.share = lock_share = next_lock_share(params, lock_share, in.front_slip, dt_s);
   if (state.speed_mps < params.standstill_mps)
     state.brake_kpa = hold_towards(params, in.kind, state.brake_kpa, dt_s);
   else

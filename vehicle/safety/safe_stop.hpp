@@ -34,10 +34,10 @@ struct SafeStopState {
   double speed_mps = 0.0;         // measured or dead reckoned
   double steer_offset_rad = 0.0;  // at the start: last good angle minus feed-forward
   double learned_rad = 0.0;       // trim and observer of the feedback when it ended
-  double brake_kpa = 0.0, brake_share = 1.0;
+  double brake_kpa = 0.0;
   Instant begun{};
   bool located = false;      // position known in the last tick
-  FollowingState following;  // while located
+  FollowingState following;  // while located; its lock_share always
 };
 static_assert(std::is_trivially_copyable_v<SafeStopState>);
 

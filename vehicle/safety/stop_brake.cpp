@@ -62,7 +62,7 @@ double front_slip(const world::VehicleSignals& signals, Instant now) {
   return fastest > kMoves_mps ? 1.0 - std::min(front_left, front_right) / fastest : 0.0;
 }
 
-double share_after(const SafeStopParams& params, double share, double front_slip, double dt_s) {
+double next_lock_share(const SafeStopParams& params, double share, double front_slip, double dt_s) {
   const bool locks = front_slip > params.lock_slip;
   const double rate_per_s = locks ? -params.lock_release_per_s : params.lock_recover_per_s;
   return std::clamp(share + rate_per_s * dt_s, params.lock_share_least, 1.0);

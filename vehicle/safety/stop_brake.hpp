@@ -112,8 +112,9 @@ double brake_towards(const SafeStopParams& params, StopKind kind, const BrakeDem
 inline constexpr Duration kSlipAgeMax = milliseconds(50);
 double front_slip(const world::VehicleSignals& signals, Instant now);
 
-// Next share of the brake force. An unknown slip lets it recover.
-double share_after(const SafeStopParams& params, double share, double front_slip, double dt_s);
+// Next share of the brake pressure that front wheels without lock-up allow. It recovers while the
+// slip is unknown.
+double next_lock_share(const SafeStopParams& params, double share, double front_slip, double dt_s);
 
 // Next pressure towards the one that holds the car at standstill, within the ramp.
 double hold_towards(const SafeStopParams& params, StopKind kind, double last_kpa, double dt_s);

@@ -37,7 +37,7 @@ double next_brake_kpa(const SafeStopParams& p, const FollowingState& s, const Pa
   const bool ends = here.speed_mps < kPlannedStill_mps && speed_mps < kStill_mps;
   if (ends || speed_mps < p.standstill_mps) return hold_towards(p, kind, last_kpa, dt_s);
   Grip grip = grip_at(p, speed_mps, here.curvature_per_m, here.bank_rad, s.tyre_c);
-  grip.share = s.brake_share;
+  grip.share = s.lock_share;
   if (kind == StopKind::kEmergency)
     return brake_towards(p, kind, {p.emergency_decel_mps2, grip, last_kpa, dt_s});
   // Where the plan stands the car is to stand, whatever pushes it.
@@ -135,7 +135,7 @@ world::ActuatorCommand follow_stop(const FollowingParams& params, FollowingState
   const PathPoint braked = path_at(path, state.segment, state.s_m + v_mps * p.brake_preview_s);
   if (begins && kind == StopKind::kControlled)
     command.brake_kpa = begin_within_gate_kpa(params, command.brake_kpa, v_mps);
-  state.brake_share = share_after(p, state.brake_share, pose.front_slip, dt_s);
+  state.lock_share = next_lock_share(p, state.lock_share, pose.front_slip, dt_s);
   command.brake_kpa = next_brake_kpa(p, state, here, braked, v_mps, kind, dt_s);
   command.throttle_fraction = next_throttle(p, command.throttle_fraction, command.brake_kpa, dt_s);
   command.at = now;

@@ -60,7 +60,7 @@ struct FollowingState {
   double curvature_per_m = 0.0, bank_rad = 0.0;         // of the path at the car
   double speed_mps = kUnset;                            // planned speed at the car
   double tyre_c = kUnset;                               // coldest tyre; unset counts as cold
-  double brake_share = 1.0;                             // after front wheels that locked
+  double lock_share = 1.0;                              // next_lock_share() of stop_brake.hpp
   double steered_rad = kUnset;  // measured angle if the motor does not follow; else unset
   steering::Learned learned;    // as learned before the stop
   steering::State steering;

@@ -15,7 +15,7 @@
 namespace pitwall::bench {
 namespace {
 
-// Every figure of it is another one than in a IoCounters without measurements.
+// Every figure of it is another one than in an IoCounters without measurements.
 pipeline::IoCounters other_measurements() {
   pipeline::IoCounters io;
   io.frames_sent = io.tx_drops = io.steps = io.missed_deadlines = 1;

@@ -17,7 +17,7 @@ transport::UdpSocket sender_to(const ReceiverPorts& ports, std::size_t receiver)
 }
 
 TEST(ReceiverPorts, KeepWhatCameForEachReceiverInTheOrderInWhichItWasSent) {
-  const transport::UdpSocket stamps = testing::kernel_that_stamps();
+  const transport::UdpSocket stamps = testing::await_kernel_stamps();
   auto ports = ReceiverPorts::open(transport::realtime_minus_monotonic());
   ASSERT_TRUE(ports) << to_string(ports.error());
   ASSERT_NE(ports->address(0), ports->address(1));

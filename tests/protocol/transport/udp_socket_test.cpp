@@ -65,7 +65,7 @@ TEST(UdpSocket, DatagramsArriveWholeInOrderWithSenderAndTime) {
 
 TEST(UdpSocket, WithOneOffsetTheTimesOfTwoSocketsHaveTheOrderOfSending) {
   // GIVEN two sockets with an offset that is 3 ms too large: it is theirs, and no other is read
-  const UdpSocket stamps = pitwall::testing::kernel_that_stamps();
+  const UdpSocket stamps = pitwall::testing::await_kernel_stamps();
   const Duration offset = realtime_minus_monotonic() + milliseconds(3);
   auto from = UdpSocket::bind({});
   auto even = UdpSocket::bind({}, {.clock_offset = offset});

@@ -77,14 +77,15 @@ TEST(StopBrake, AFrontWheelThatLocksTakesPressureBackAndNeverMoreThanItsShare) {
   const SafeStopParams p;
   for (const double dt_s : {0.005, 0.01, 0.02}) {
     double share = 1.0;
-    for (double t_s = 0.0; t_s < 0.2 - 1e-9; t_s += dt_s) share = share_after(p, share, 0.3, dt_s);
+    for (double t_s = 0.0; t_s < 0.2 - 1e-9; t_s += dt_s)
+      share = next_lock_share(p, share, 0.3, dt_s);
     EXPECT_NEAR(share, 1.0 - 0.2 * p.lock_release_per_s, 1e-9);
     for (double t_s = 0.0; t_s < 1.0 - 1e-9; t_s += dt_s)
-      share = share_after(p, share, p.lock_slip, dt_s);
+      share = next_lock_share(p, share, p.lock_slip, dt_s);
     EXPECT_NEAR(share, 1.0 - 0.2 * p.lock_release_per_s + p.lock_recover_per_s, 1e-9);
-    for (int i = 0; i < 10'000; ++i) share = share_after(p, share, 1.0, dt_s);
+    for (int i = 0; i < 10'000; ++i) share = next_lock_share(p, share, 1.0, dt_s);
     EXPECT_EQ(share, p.lock_share_least);
-    for (int i = 0; i < 10'000; ++i) share = share_after(p, share, kUnset, dt_s);
+    for (int i = 0; i < 10'000; ++i) share = next_lock_share(p, share, kUnset, dt_s);
     EXPECT_EQ(share, 1.0);
   }
 }
