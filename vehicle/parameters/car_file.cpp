@@ -43,6 +43,11 @@ CarFile read_root(yaml::StrictMap& map) {
   stop.steering = car.params.control.steering = steering;
   stop.tyres = car.params.planning.line.friction.tyres;
   car.params.planning.stop_friction = stop.friction;
+  static_assert(envelope::kGears == control::kGears);
+  envelope::Engine& engine = car.params.planning.line.friction.engine;
+  engine.mass_kg = car.params.control.bicycle.mass_kg;
+  engine.up_above_mps = car.params.control.gear.up_above_mps;
+  engine.down_below_mps = car.params.control.gear.down_below_mps;
   car.params.supervisor.faults.oversteer.bicycle = steering.bicycle;
   car.params.localization.bicycle = steering.bicycle;
   car.params.localization.steering_ratio = car.params.outbound.steering_ratio;

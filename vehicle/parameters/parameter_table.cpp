@@ -49,7 +49,8 @@ std::string autonomy_lines() {
          lines_of("localization.checks", localization::kCheckRanges) +
          lines_of("localization", localization::kRanges) +
          lines_of("planning.line", planning::kLineRanges) +
-         lines_of("planning.line.friction", planning::kFrictionRanges) +
+         lines_of("planning.line.friction", envelope::kFrictionRanges) +
+         lines_of("planning.line.friction.engine", envelope::kEngineRanges) +
          lines_of("planning", planning::kRanges) +
          lines_of("planning.stop", planning::kStopPathRanges) +
          lines_of("control.bicycle", control::kBicycleRanges) +

@@ -2,6 +2,7 @@
 #include "vehicle/parameters/stop_section.hpp"
 
 #include <algorithm>
+#include <array>
 #include <string>
 
 #include "vehicle/parameters/range_reader.hpp"
@@ -20,12 +21,30 @@ world::TyreGrip read_tyres(yaml::StrictMap map) {
   return tyres;
 }
 
+template <std::size_t N>
+void read_row(yaml::StrictMap& map, const char* key, world::Range range,
+              std::array<double, N>& row) {
+  const auto values = map.numbers(key, N, N, range.least, range.most);
+  std::copy(values.begin(), values.end(), row.begin());
+}
+
+envelope::Engine read_engine(yaml::StrictMap map) {
+  envelope::Engine engine;
+  read_row(map, "rpm", envelope::kEngineSpeed_rpm, engine.rpm);
+  read_row(map, "torque_nm", envelope::kEngineTorque_nm, engine.torque_nm);
+  read_row(map, "ratio", envelope::kGearRatio, engine.ratio);
+  read_ranges(map, envelope::kEngineRanges, engine);
+  if (!envelope::is_legal(engine)) map.fail("rpm", "engine speeds must rise and ratios fall");
+  return engine;
+}
+
 }  // namespace
 
-planning::FrictionParams read_friction(yaml::StrictMap map) {
-  planning::FrictionParams f;
-  read_ranges(map, planning::kFrictionRanges, f);
+envelope::FrictionParams read_friction(yaml::StrictMap map) {
+  envelope::FrictionParams f;
+  read_ranges(map, envelope::kFrictionRanges, f);
   f.tyres = read_tyres(map.map("tyres"));
+  if (auto engine = map.optional_map("engine")) f.engine = read_engine(*engine);
   return f;
 }
 

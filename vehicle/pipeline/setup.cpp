@@ -45,6 +45,8 @@ std::optional<Problem> refused_by_gate(const CarParams& p) {
                  p.outbound.steering_ratio}});
 }
 
+}  // namespace
+
 steering::AngleLimits angles_of(const CarParams& p) {
   static_assert(steering::kAngleRows == safety::kSteerRows);
   steering::AngleLimits out;
@@ -53,8 +55,6 @@ steering::AngleLimits angles_of(const CarParams& p) {
               from_deg(p.gate.steer[i].motor_deg) / p.outbound.steering_ratio};
   return out;
 }
-
-}  // namespace
 
 Result<Setup, Problem> prepare(const CarParams& params, const world::TrackDescription& track) {
   if (auto problem = illegal_rates(params)) return Unexpected{*problem};

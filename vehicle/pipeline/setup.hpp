@@ -75,6 +75,9 @@ struct Setup {
   steering::AngleLimits angles{};  // limits of the frame gate, at the road wheel
 };
 
+// The frame gate's steering table at the road wheel.
+steering::AngleLimits angles_of(const CarParams& params);
+
 Result<Setup, Problem> prepare(const CarParams& params, const world::TrackDescription& track);
 
 }  // namespace pitwall::pipeline

@@ -74,7 +74,7 @@ Result<RacelineBank, Problem> build_bank(const world::TrackDescription& descript
   if (auto problem = builder.add_minimum_curvature()) return Unexpected{*std::move(problem)};
   if (track.pit())
     if (auto problem = builder.add_pit()) return Unexpected{*std::move(problem)};
-  return RacelineBank{track.name(), fingerprint_of(description), builder.take()};
+  return RacelineBank{track.name(), fingerprint_of(description), builder.take(), 1.0};
 }
 
 }  // namespace pitwall::raceline

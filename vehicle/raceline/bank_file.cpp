@@ -13,18 +13,32 @@ namespace pitwall::raceline {
 namespace {
 
 constexpr const char* kKind = "pitwall raceline bank";
-constexpr int kVersion = 1;
-constexpr std::size_t kNumbersInPoint = 5;
+constexpr int kVersion = 2;
+constexpr std::size_t kNumbersOfPlace = 5, kNumbersWithLap = 9;
+constexpr double kTyreShareLeast = 0.05;  // as in a car file
 constexpr std::size_t kDigitsShown = 12;  // of a fingerprint
+
+std::string lap_text(const LapPoint& p) {
+  return formatted(", %.6f, %.6f, %u, %.6f", p.speed_mps, p.accel_mps2, unsigned{p.gear}, p.time_s);
+}
+
+// What is no gear is none that a car has.
+std::uint8_t gear_of(double number) {
+  return number >= 0.0 && number <= 255.0 ? static_cast<std::uint8_t>(number) : 255;
+}
 
 std::string line_text(const Raceline& line) {
   std::string out = "  {\"name\": " + json::quoted(line.name) +
                     ", \"region\": " + json::quoted(text_of(line.region)) +
-                    formatted(", \"length_m\": %.7f, \"points\": [\n", line.length_m);
+                    formatted(", \"length_m\": %.7f", line.length_m);
+  if (!line.lap.empty()) out += formatted(", \"lap_s\": %.6f", line.lap_s);
+  out += ", \"points\": [\n";
   for (std::size_t i = 0; i < line.points.size(); ++i) {
     const RacelinePoint& p = line.points[i];
-    out += formatted("    [%.7f, %.7f, %.9f, %.9f, %.9f]%s\n", p.x_m, p.y_m, p.yaw_rad,
-                     p.curvature_per_m, p.bank_rad, i + 1 < line.points.size() ? "," : "");
+    out += formatted("    [%.7f, %.7f, %.9f, %.9f, %.9f", p.x_m, p.y_m, p.yaw_rad,
+                     p.curvature_per_m, p.bank_rad);
+    if (!line.lap.empty()) out += lap_text(line.lap[i]);
+    out += i + 1 < line.points.size() ? "],\n" : "]\n";
   }
   return out + "  ]}";
 }
@@ -40,14 +54,22 @@ Result<Raceline, Problem> read_line(const json::JsonValue& value, const std::str
                                                      value.text("region").c_str()));
   line.region = *region;
   line.length_m = value.number("length_m");
+  const bool has_lap = value.find("lap_s") != nullptr;
+  if (has_lap) line.lap_s = value.number("lap_s");
+  const std::size_t expected = has_lap ? kNumbersWithLap : kNumbersOfPlace;
   for (const json::JsonValue& row : value.items("points")) {
     const auto& numbers = row.items();
-    if (numbers.size() != kNumbersInPoint)
+    if (numbers.size() != expected)
       return refuse(name + ": " + line.name,
                     formatted("point %zu has %zu numbers, expected %zu", line.points.size() + 1,
-                              numbers.size(), kNumbersInPoint));
+                              numbers.size(), expected));
     line.points.push_back({numbers[0].number(), numbers[1].number(), numbers[2].number(),
                            numbers[3].number(), numbers[4].number()});
+    if (has_lap)
+      line.lap.push_back({.speed_mps = numbers[5].number(),
+                          .accel_mps2 = numbers[6].number(),
+                          .time_s = numbers[8].number(),
+                          .gear = gear_of(numbers[7].number())});
   }
   return line;
 }
@@ -76,7 +98,7 @@ std::string to_json(const RacelineBank& bank) {
   std::string out = "{\"kind\": " + json::quoted(kKind) + formatted(", \"version\": %d", kVersion) +
                     ", \"track\": " + json::quoted(bank.track) +
                     ",\n\"track_fingerprint\": " + json::quoted(bank.track_fingerprint) +
-                    ",\n\"lines\": [\n";
+                    formatted(",\n\"tyre_share\": %.6f,\n\"lines\": [\n", bank.tyre_share);
   for (std::size_t i = 0; i < bank.lines.size(); ++i)
     out += line_text(bank.lines[i]) + (i + 1 < bank.lines.size() ? ",\n" : "\n");
   return out + "]}\n";
@@ -87,7 +109,7 @@ Result<RacelineBank, Problem> read_bank(std::string_view text, const std::string
                                         const world::TrackMap& track, const CarLimits& car) {
   const auto root = json::JsonValue::parse(text, name);
   if (!root) return Unexpected{root.error()};
-  RacelineBank bank{track.name(), fingerprint_of(description), {}};
+  RacelineBank bank{track.name(), fingerprint_of(description), {}, root->number("tyre_share")};
   if (auto problem = fault_of_head(*root, name, bank.track, bank.track_fingerprint))
     return Unexpected{*std::move(problem)};
   const Lanes lanes{track};
@@ -103,6 +125,9 @@ Result<RacelineBank, Problem> read_bank(std::string_view text, const std::string
     bank.lines.push_back(*std::move(line));
   }
   if (bank.lines.empty()) return refuse(name, "has no line");
+  if (!(bank.tyre_share >= kTyreShareLeast && bank.tyre_share <= 1.0))
+    return refuse(name, "tyre_share is " + shortest(bank.tyre_share) + ", allowed " +
+                            shortest(kTyreShareLeast) + " to 1");
   return bank;
 }
 

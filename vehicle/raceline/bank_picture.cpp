@@ -14,14 +14,14 @@ namespace pitwall::raceline {
 namespace {
 
 constexpr double kWidth_px = 1600.0, kMargin_px = 60.0, kMap_px = 800.0, kPanel_px = 260.0;
-constexpr double kHead_px = 40.0, kGap_px = 50.0, kLetter_px = 8.0;
+constexpr double kHead_px = 40.0, kGap_px = 50.0, kLetter_px = 8.0, kTime_px = 80.0;
 constexpr double kStep_m = 3.0;  // between drawn points
 constexpr std::array kColours{"#c0392b", "#e67e22", "#b7950b", "#1e8449", "#117a65",
                               "#2471a3", "#6c3483", "#d81b60", "#000000", "#5d4037"};
 
-// What is drawn of a line: where it is on the map, beside the track, and how it bends.
+// What is drawn of a line: where it is on the map, beside the track, how it bends, how fast it is.
 struct Drawn {
-  double x_m, y_m, station_m, offset_m, curvature_per_m;
+  double x_m, y_m, station_m, offset_m, curvature_per_m, speed_mps;
 };
 
 struct Panel {
@@ -51,7 +51,8 @@ class Picture {
   }
 
   std::string draw() {
-    const double height_px = curvature_.top_px + curvature_.height_px + kMargin_px;
+    const Panel& last = has_speeds_ ? speed_ : curvature_;
+    const double height_px = last.top_px + last.height_px + kMargin_px;
     out_ = formatted(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"%.0f\" height=\"%.0f\" "
         "font-family=\"DejaVu Sans, sans-serif\" font-size=\"13\">\n"
@@ -61,6 +62,7 @@ class Picture {
     map();
     unrolled();
     bends();
+    if (has_speeds_) speeds();
     legend();
     return out_ + "</svg>\n";
   }
@@ -75,7 +77,8 @@ class Picture {
       const RacelinePoint& p = line.points[i];
       const world::Curvilinear place = track_.project(p.x_m, p.y_m, station_m);
       station_m = place.s_m;
-      row.push_back({p.x_m, p.y_m, place.s_m, place.n_m, p.curvature_per_m});
+      row.push_back({p.x_m, p.y_m, place.s_m, place.n_m, p.curvature_per_m,
+                     line.lap.empty() ? kUnset : line.lap[i].speed_mps});
     }
     return row;
   }
@@ -83,7 +86,7 @@ class Picture {
   // What the panels and the map span.
   void measure() {
     double low_x = 1e300, high_x = -1e300, low_y = 1e300, high_y = -1e300;
-    double low_n = 0.0, high_n = 0.0, low_bend = 0.0, high_bend = 0.0;
+    double low_n = 0.0, high_n = 0.0, low_bend = 0.0, high_bend = 0.0, high_speed = 0.0;
     const auto place = [&](double x_m, double y_m) {
       low_x = std::min(low_x, x_m), high_x = std::max(high_x, x_m);
       low_y = std::min(low_y, y_m), high_y = std::max(high_y, y_m);
@@ -106,6 +109,9 @@ class Picture {
         low_n = std::min(low_n, d.offset_m), high_n = std::max(high_n, d.offset_m);
         low_bend = std::min(low_bend, d.curvature_per_m);
         high_bend = std::max(high_bend, d.curvature_per_m);
+        if (std::isnan(d.speed_mps)) continue;
+        high_speed = std::max(high_speed, d.speed_mps);
+        has_speeds_ = true;
       }
     const double across_px = kWidth_px - 2.0 * kMargin_px;
     px_per_m_ = std::min(across_px / (high_x - low_x), kMap_px / (high_y - low_y));
@@ -115,6 +121,7 @@ class Picture {
     road_ = {map_px + kGap_px, kPanel_px, low_n - 1.0, high_n + 1.0};
     curvature_ = {road_.top_px + kPanel_px + kGap_px, kPanel_px, 1.1 * low_bend - 1e-4,
                   1.1 * high_bend + 1e-4};
+    speed_ = {curvature_.top_px + kPanel_px + kGap_px, kPanel_px, 0.0, 1.05 * high_speed};
   }
 
   double station_px(double s_m) const {
@@ -233,6 +240,15 @@ class Picture {
     rows([&](const Drawn& d) { return curvature_.y_px(d.curvature_per_m); });
   }
 
+  void speeds() {
+    frame(speed_, "speed, m/s; lap times, s:", 0, 1.0);
+    double x_px = kMargin_px + 200.0;
+    for (std::size_t i = 0; i < bank_.lines.size(); ++i, x_px += kTime_px)
+      text(x_px, speed_.top_px - 8.0, formatted("%.3f", bank_.lines[i].lap_s),
+           formatted("fill=\"%s\"", kColours[i % kColours.size()]).c_str());
+    rows([&](const Drawn& d) { return speed_.y_px(std::isnan(d.speed_mps) ? 0.0 : d.speed_mps); });
+  }
+
   void legend() {
     double x_px = kMargin_px + 190.0;
     for (std::size_t i = 0; i < bank_.lines.size(); ++i) {
@@ -246,7 +262,8 @@ class Picture {
   const world::TrackMap& track_;
   Lanes lanes_;
   std::vector<std::vector<Drawn>> drawn_;
-  Panel road_{}, curvature_{};
+  Panel road_{}, curvature_{}, speed_{};
+  bool has_speeds_ = false;
   double px_per_m_ = 1.0, left_m_ = 0.0, top_m_ = 0.0;
   std::string out_;
 };

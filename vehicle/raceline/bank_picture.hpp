@@ -1,5 +1,6 @@
 // Picture of a bank of racelines, as SVG: the track from above, the road unrolled along its
-// reference line with the lines in their lanes, and their curvature.
+// reference line with the lines in their lanes, their curvature, and their speed where they have
+// a profile, with the lap times.
 //   in     a bank that was made for the track
 //   out    one SVG document without scripts; north is up
 // SPDX-License-Identifier: Apache-2.0

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "protocol/vocabulary/text.hpp"
+#include "vehicle/raceline/profile/lap_road.hpp"
 #include "vehicle/raceline/self_crossing.hpp"
 
 namespace pitwall::raceline {
@@ -26,8 +27,8 @@ class Check {
   Result<LineFigures, Problem> run() {
     figures_.name = line_.name, figures_.length_m = line_.length_m, figures_.points = n_;
     using Step = std::optional<Problem> (Check::*)();
-    for (const Step step :
-         {&Check::points, &Check::geometry, &Check::crossing, &Check::places, &Check::steering}) {
+    for (const Step step : {&Check::points, &Check::geometry, &Check::crossing, &Check::places,
+                            &Check::steering, &Check::lap}) {
       if (auto problem = (this->*step)()) return Unexpected{*std::move(problem)};
     }
     return figures_;
@@ -57,6 +58,13 @@ class Check {
     for (std::size_t i = 0; i < n_; ++i)
       for (const double value :
            {at(i).x_m, at(i).y_m, at(i).yaw_rad, at(i).curvature_per_m, at(i).bank_rad})
+        if (!std::isfinite(value)) return problem(i, "a value is missing or not a number");
+    if (line_.lap.empty()) return std::nullopt;
+    if (line_.lap.size() != n_ || !std::isfinite(line_.lap_s))
+      return Problem{line_.name, "the time of the lap, or a part of its speeds, is missing"};
+    for (std::size_t i = 0; i < n_; ++i)
+      for (const double value :
+           {line_.lap[i].speed_mps, line_.lap[i].accel_mps2, line_.lap[i].time_s})
         if (!std::isfinite(value)) return problem(i, "a value is missing or not a number");
     return std::nullopt;
   }
@@ -146,6 +154,14 @@ class Check {
                                     a.curvature_per_m, b.curvature_per_m, speed_mps, rate,
                                     car_.steer_rate_max_rad_per_s));
     }
+    return std::nullopt;
+  }
+
+  std::optional<Problem> lap() {
+    if (car_.envelope == nullptr || line_.lap.empty()) return std::nullopt;
+    const auto lap = check_lap(line_, road_of(line_, lanes_), *car_.envelope);
+    if (!lap) return lap.error();
+    figures_.lap = *lap;
     return std::nullopt;
   }
 

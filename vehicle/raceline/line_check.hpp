@@ -6,7 +6,8 @@
 //          not that of its points (a kink); that does not go once around the track; that crosses
 //          itself; on which half the width of the car reaches over a side of its region; that needs
 //          more steering than the car has; whose curvature jumps: the wheels would have to turn
-//          faster than they can at the speed of the corner
+//          faster than they can at the speed of the corner; whose speed profile, where it has one,
+//          is refused by profile/lap_check.hpp
 //   units  m, rad, s; arc lengths in m
 //   errors Problem with the name of the line and the arc length; the value and what is allowed
 //   cost   O(points), without crossing O(points^2 / 1024)
@@ -14,11 +15,13 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 
 #include "protocol/vocabulary/result.hpp"
 #include "vehicle/raceline/lanes/lanes.hpp"
 #include "vehicle/raceline/lanes/raceline.hpp"
+#include "vehicle/raceline/profile/lap_check.hpp"
 
 namespace pitwall::raceline {
 
@@ -29,10 +32,8 @@ struct CarLimits {
   double steer_rate_max_rad_per_s = kUnset;  // likewise
   // What the tyres carry, m/s.
   std::function<double(double curvature_per_m, double bank_rad)> corner_speed_mps;
-};
-
-struct Extreme {
-  double value = kUnset, s_m = kUnset;  // arc length of the line
+  // Against which speed profiles are checked; without it they are not.
+  const envelope::EnvelopeTable* envelope = nullptr;
 };
 
 struct LineFigures {
@@ -44,6 +45,7 @@ struct LineFigures {
   Extreme steer_rate_most{};  // of the road wheels at the speed of the corner, rad/s
   Extreme speed_least{};      // that the tyres carry, m/s
   Extreme mismatch_most{};    // between the curvature and the turn of the points, 1/m
+  std::optional<LapFigures> lap;
 };
 
 Result<LineFigures, Problem> check_raceline(const Raceline& line, const Lanes& lanes,

@@ -2,6 +2,7 @@
 // Wires files to the builder, the checks, the report and the picture.
 // SPDX-License-Identifier: Apache-2.0
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <optional>
@@ -9,7 +10,7 @@
 #include <vector>
 
 #include "protocol/transport/file.hpp"
-#include "vehicle/autonomy/planning/friction.hpp"
+#include "vehicle/envelope/envelope_table.hpp"
 #include "vehicle/parameters/car_file.hpp"
 #include "vehicle/parameters/track_file.hpp"
 #include "vehicle/raceline/apex_file.hpp"
@@ -18,6 +19,7 @@
 #include "vehicle/raceline/bank_picture.hpp"
 #include "vehicle/raceline/bank_report.hpp"
 #include "vehicle/raceline/line_check.hpp"
+#include "vehicle/raceline/profile/lap_road.hpp"
 
 namespace pitwall {
 namespace {
@@ -25,7 +27,9 @@ namespace {
 constexpr int kExitDone = 0, kExitRefused = 2;
 
 struct Arguments {
-  std::string track_file, car_file, out_file, check_file, apex_file, picture_file, report_file;
+  std::string track_file, car_file, out_file, check_file, apex_file, picture_file, report_file,
+      envelope_file;
+  std::optional<double> tyre_c;  // of all tyres; warm where nothing is given
   raceline::BankParams bank;
 };
 
@@ -43,6 +47,9 @@ void add_options(CLI::App& app, Arguments& args) {
   app.add_option("--apexes", args.apex_file, "apexes chosen by a person (.yaml)")->excludes(check);
   app.add_option("--picture", args.picture_file, "write a picture here (.svg)");
   app.add_option("--report", args.report_file, "write the figures of the checks here (.json)");
+  app.add_option("--envelope", args.envelope_file, "write the car's envelope here (.csv)");
+  app.add_option("--tyre-c", args.tyre_c, "temperature of the tyres, C; warm if not given")
+      ->check(CLI::Range(-50.0, 200.0));
   app.add_option("--car-width", args.bank.car_width_m, "over the wheels, m")
       ->check(CLI::Range(0.5, 3.0))
       ->capture_default_str();
@@ -52,20 +59,38 @@ void add_options(CLI::App& app, Arguments& args) {
       ->capture_default_str();
 }
 
-raceline::CarLimits limits_of(const pipeline::CarParams& car, double width_m) {
+double tyre_share(const pipeline::CarParams& car, std::optional<double> tyre_c) {
+  return tyre_c ? world::share_at(car.planning.line.friction.tyres, *tyre_c) : 1.0;
+}
+
+envelope::EnvelopeParams envelope_of(const pipeline::CarParams& car, std::optional<double> tyre_c,
+                                     const world::TrackMap& map) {
   const planning::LineParams& line = car.planning.line;
+  double bank_rad = 0.0;
+  for (std::size_t i = 0; i < map.size(); ++i)
+    bank_rad = std::max(bank_rad, std::abs(map.point(i).bank_rad));
+  return {.friction = tyre_c ? envelope::on_tyres(line.friction, *tyre_c) : line.friction,
+          .grip_share = line.grip_share,
+          .speed_max_mps = line.speed_max_mps,
+          .bank_most_rad = bank_rad,
+          .steering = envelope::SteeringLimit{.limits = pipeline::angles_of(car),
+                                              .car = car.control.steering.bicycle,
+                                              .share = car.planning.steer_share}};
+}
+
+raceline::CarLimits limits_of(const pipeline::CarParams& car, double width_m,
+                              const envelope::EnvelopeTable& table) {
   const double ratio = car.outbound.steering_ratio;
   constexpr double kStanding_mps = 0.0;  // where the steering reaches furthest
   return {.width_m = width_m,
           .wheelbase_m = car.control.steering.bicycle.wheelbase_m,
           .steer_max_rad = from_deg(safety::steer_limit_deg(car.gate, kStanding_mps)) / ratio,
           .steer_rate_max_rad_per_s = from_deg(car.gate.steer_slew_deg_per_s) / ratio,
-          .corner_speed_mps = [line](double curvature_per_m, double bank_rad) {
-            const double speed_mps = planning::corner_speed_mps(
-                line.friction, {.curvature_per_m = curvature_per_m, .bank_rad = bank_rad},
-                line.grip_share);
-            return std::min(speed_mps, line.speed_max_mps);
-          }};
+          .corner_speed_mps =
+              [&table](double curvature_per_m, double bank_rad) {
+                return table.corner_speed_mps(table.place(curvature_per_m, bank_rad));
+              },
+          .envelope = &table};
 }
 
 Result<raceline::RacelineBank, Problem> make(const Arguments& args,
@@ -110,11 +135,14 @@ int run(const Arguments& args) {
   if (!car_text) return refuse(car_text.error());
   const auto car = parameters::read_car(*car_text, args.car_file);
   if (!car) return refuse(car.error());
-  const raceline::CarLimits limits = limits_of(car->params, args.bank.car_width_m);
-  const auto bank = args.check_file.empty() ? make(args, *description, *map)
-                                            : load(args, *description, *map, limits);
+  const envelope::EnvelopeTable table{envelope_of(car->params, args.tyre_c, *map)};
+  const raceline::CarLimits limits = limits_of(car->params, args.bank.car_width_m, table);
+  auto bank = args.check_file.empty() ? make(args, *description, *map)
+                                      : load(args, *description, *map, limits);
   if (!bank) return refuse(bank.error());
+  if (args.check_file.empty()) bank->tyre_share = tyre_share(car->params, args.tyre_c);
   const raceline::Lanes lanes{*map};
+  if (const auto problem = raceline::add_laps(*bank, lanes, table)) return refuse(*problem);
   std::vector<raceline::LineFigures> figures;
   for (const raceline::Raceline& line : bank->lines) {
     const auto checked = raceline::check_raceline(line, lanes, limits);
@@ -123,6 +151,7 @@ int run(const Arguments& args) {
   }
   std::printf("%s", raceline::report_text(*bank, figures).c_str());
   if (const auto problem = write(args.out_file, raceline::to_json(*bank))) return refuse(*problem);
+  if (const auto problem = write(args.envelope_file, table.csv())) return refuse(*problem);
   if (const auto problem = write(args.picture_file, raceline::picture_of(*bank, *map)))
     return refuse(*problem);
   if (const auto problem = write(args.report_file, raceline::report_json(*bank, figures)))

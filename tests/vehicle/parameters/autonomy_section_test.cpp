@@ -61,8 +61,21 @@ Reported localization(const CarParams& p) {
   return reported;
 }
 
+Reported engine(const envelope::Engine& e) {
+  const std::string section = "planning.line.friction.engine.";
+  Reported reported;
+  for (const auto& r : envelope::kEngineRanges) reported[section + r.name] = e.*r.value;
+  for (std::size_t i = 0; i < e.rpm.size(); ++i) {
+    reported[section + "rpm[" + std::to_string(i) + "]"] = e.rpm[i];
+    reported[section + "torque_nm[" + std::to_string(i) + "]"] = e.torque_nm[i];
+  }
+  for (std::size_t i = 0; i < e.ratio.size(); ++i)
+    reported[section + "ratio[" + std::to_string(i) + "]"] = e.ratio[i];
+  return reported;
+}
+
 Reported planning(const CarParams& p) {
-  return {
+  Reported reported{
       {"planning.line.offset_m", p.planning.line.offset_m},
       {"planning.line.wall_clearance_m", p.planning.line.wall_clearance_m},
       {"planning.line.spacing_m", p.planning.line.spacing_m},
@@ -111,6 +124,8 @@ Reported planning(const CarParams& p) {
       {"planning.merge_time_s", p.planning.merge_time_s},
       {"planning.merge_least_m", p.planning.merge_least_m},
   };
+  reported.merge(engine(p.planning.line.friction.engine));
+  return reported;
 }
 
 Reported control(const CarParams& p) {

@@ -61,6 +61,40 @@ TEST(BankFile, ReadsBackWhatWasWritten) {
   }
 }
 
+// With speed profiles: of one speed, since the file does not judge them without an envelope.
+TEST(BankFile, ReadsSpeedProfilesBack) {
+  const Course course;
+  RacelineBank bank = course.bank;
+  bank.tyre_share = 0.75;
+  Raceline& line = bank.lines[1];
+  for (std::size_t i = 0; i < line.points.size(); ++i)
+    line.lap.push_back({.speed_mps = 40.0 + 0.001 * static_cast<double>(i),
+                        .accel_mps2 = -0.25,
+                        .time_s = 0.025 * static_cast<double>(i),
+                        .gear = static_cast<std::uint8_t>(1 + i % 6)});
+  line.lap_s = 61.25;
+  const RacelineBank read =
+      valid(read_bank(to_json(bank), "bank.json", course.description, course.map, car_limits()));
+  EXPECT_EQ(read.tyre_share, 0.75);
+  EXPECT_TRUE(read.lines[0].lap.empty());
+  EXPECT_EQ(read.lines[1].lap_s, 61.25);
+  ASSERT_EQ(read.lines[1].lap.size(), line.lap.size());
+  for (std::size_t i = 0; i < line.lap.size(); ++i) {
+    EXPECT_NEAR(read.lines[1].lap[i].speed_mps, line.lap[i].speed_mps, 1e-6);
+    EXPECT_NEAR(read.lines[1].lap[i].accel_mps2, line.lap[i].accel_mps2, 1e-6);
+    EXPECT_NEAR(read.lines[1].lap[i].time_s, line.lap[i].time_s, 1e-6);
+    EXPECT_EQ(read.lines[1].lap[i].gear, line.lap[i].gear);
+  }
+  const std::string text = to_json(bank);
+  expect_refusal(course.refusal_of(with(text, "\"lap_s\": 61.250000, ", "")),
+                 "inner/centre: error: point 1 has 9 numbers, expected 5");
+  bank.lines[1].lap[9].time_s = kUnset;
+  expect_refusal(course.refusal_of(with(to_json(bank), "nan", "null")),
+                 "inner/centre: s = 9.0 m: error: a value is missing or not a number");
+  expect_refusal(course.refusal_of(with(text, "\"tyre_share\": 0.75", "\"tyre_share\": 1.75")),
+                 "tyre_share is 1.75, allowed 0.05 to 1");
+}
+
 TEST(BankFile, RefusesABankOfAnotherTrack) {
   const Course course;
   const world::TrackDescription other = ring();
@@ -88,8 +122,8 @@ TEST(BankFile, RefusesWhatIsNoBank) {
   const std::string text = to_json(course.bank);
   expect_refusal(course.refusal_of(text.substr(0, text.size() / 2)), "");
   expect_refusal(course.refusal_of("{}"), "is not a bank of racelines");
-  expect_refusal(course.refusal_of(with(text, "\"version\": 1", "\"version\": 2")),
-                 "is of version 2, expected 1");
+  expect_refusal(course.refusal_of(with(text, "\"version\": 2", "\"version\": 1")),
+                 "is of version 1, expected 2");
   expect_refusal(course.refusal_of(with(text, "\"region\": \"inner\"", "\"region\": \"apron\"")),
                  "inner/inside: error: the region is \"apron\"");
   expect_refusal(course.refusal_of(with(text, "\"name\": \"inner/inside\"", "\"name\": \"\"")),

@@ -36,6 +36,18 @@ TEST(BankPicture, ShowsEachLineThreeTimes) {
   EXPECT_EQ(svg.find("nan"), std::string::npos);
 }
 
+TEST(BankPicture, ShowsSpeedsAndLapTimes) {
+  Drawing drawing;
+  for (Raceline& line : drawing.bank.lines) {
+    line.lap.assign(line.points.size(),
+                    LapPoint{.speed_mps = 50.0, .accel_mps2 = 0.0, .time_s = 0.0, .gear = 3});
+    line.lap_s = 61.25;
+  }
+  const std::string svg = picture_of(drawing.bank, drawing.map);
+  EXPECT_EQ(count_of(svg, "stroke-width=\"1.3\""), 4 * drawing.bank.lines.size());
+  EXPECT_EQ(count_of(svg, ">61.250<"), drawing.bank.lines.size());
+}
+
 // Every coordinate of the picture lies on it: the first of each pair within the width.
 TEST(BankPicture, LiesWithinItsSheet) {
   const Drawing drawing;

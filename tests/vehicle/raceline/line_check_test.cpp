@@ -13,7 +13,7 @@ namespace {
 
 // On the ring of 200 m: a circle around its middle, or around another place.
 Raceline circle(double radius_m, double middle_x_m = 0.0) {
-  Raceline line{"circle", Region::kInnerLane, 2.0 * std::numbers::pi * radius_m, {}};
+  Raceline line{"circle", Region::kInnerLane, 2.0 * std::numbers::pi * radius_m, {}, {}, kUnset};
   const auto count = static_cast<std::size_t>(std::ceil(line.length_m));
   for (std::size_t i = 0; i < count; ++i) {
     const double angle_rad =

@@ -71,11 +71,11 @@ void place_points(const world::TrackMap& track, const LineParams& params, Line& 
   }
 }
 
-RoadLoad load(const LinePoint& p) { return {p.speed_mps, p.curvature_per_m, p.bank_rad}; }
+steering::RoadLoad load(const LinePoint& p) { return {p.speed_mps, p.curvature_per_m, p.bank_rad}; }
 
 // Forward and backward over the closed line: no point is faster than its corner, than the engine
 // gets there from the point before, or than the brakes allow before the point after.
-void limit_speeds(const LineParams& params, const FrictionParams& friction, Line& line) {
+void limit_speeds(const LineParams& params, const envelope::FrictionParams& friction, Line& line) {
   auto& p = line.points;
   const std::size_t n = p.size();
   for (LinePoint& point : p) {

@@ -12,7 +12,7 @@
 
 #include "protocol/vocabulary/result.hpp"
 #include "protocol/vocabulary/units.hpp"
-#include "vehicle/autonomy/planning/friction.hpp"
+#include "vehicle/envelope/friction.hpp"
 #include "vehicle/world/legal_range.hpp"
 #include "vehicle/world/track_map.hpp"
 
@@ -24,7 +24,7 @@ struct LineParams {
   double spacing_m = kUnset;
   double speed_max_mps = kUnset;
   double grip_share = kUnset;  // usable share of the friction ellipse
-  FrictionParams friction;
+  envelope::FrictionParams friction;
 };
 
 inline constexpr auto kLineRanges = std::to_array<world::NamedRange<LineParams>>({

@@ -22,7 +22,7 @@ constexpr double kCoastLeast_mps2 = 1.0;  // with the engine's own drag
 
 std::optional<Problem> illegal_line(const LineParams& p) {
   if (auto problem = world::first_illegal(kLineRanges, p, "line.")) return problem;
-  return world::first_illegal(kFrictionRanges, p.friction, "line.friction.");
+  return world::first_illegal(envelope::kFrictionRanges, p.friction, "line.friction.");
 }
 
 std::optional<Problem> illegal_tyres(const world::TyreGrip& tyres) {
@@ -99,8 +99,8 @@ double warmth_of(const world::TyreGrip& tyres, double tyre_c) {
 }
 
 Limits limits_of(const Params& p, const Inputs& in, double demand_mps, double speed_mps) {
-  const FrictionParams friction = on_tyres(p.line.friction, in.tyre_c);
-  FrictionParams stopping = friction;
+  const envelope::FrictionParams friction = on_tyres(p.line.friction, in.tyre_c);
+  envelope::FrictionParams stopping = friction;
   stopping.friction *= std::min(p.stop_friction / p.line.friction.friction, 1.0);
   const bool coasts = in.followed == Followed::kCoast;
   const double coast_mps2 = std::max(coasting_mps2(friction, speed_mps), kCoastLeast_mps2);

@@ -119,7 +119,7 @@ const RoadSample& RoadAhead::sample(double distance_m) const {
   return at[std::min(static_cast<std::size_t>(index), kRoadPoints - 1)];
 }
 
-double coasting_mps2(const FrictionParams& car, double speed_mps) {
+double coasting_mps2(const envelope::FrictionParams& car, double speed_mps) {
   return kCoast_mps2 + car.drag_per_m * speed_mps * speed_mps;
 }
 
@@ -128,7 +128,7 @@ double stop_decel_mps2(const RoadAhead& road, double distance_m, double speed_mp
   double brake = l.decel_max_mps2;
   for (const double ahead_s : kStopAhead_s) {
     const RoadSample& p = road.sample(distance_m + ahead_s * speed_mps);
-    const RoadLoad load{speed_mps, p.curvature_per_m, p.bank_rad, p.cos_bank, p.sin_bank};
+    const steering::RoadLoad load{speed_mps, p.curvature_per_m, p.bank_rad, p.cos_bank, p.sin_bank};
     brake = std::min(brake, brake_available_mps2(l.friction, load, l.grip_share));
   }
   const double coast = coasting_mps2(l.friction, speed_mps);

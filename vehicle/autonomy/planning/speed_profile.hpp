@@ -14,8 +14,8 @@
 #include <cstddef>
 
 #include "protocol/vocabulary/units.hpp"
-#include "vehicle/autonomy/planning/friction.hpp"
 #include "vehicle/autonomy/planning/line.hpp"
+#include "vehicle/envelope/friction.hpp"
 #include "vehicle/steering/angle_limits.hpp"
 #include "vehicle/world/trajectory.hpp"
 
@@ -75,12 +75,12 @@ struct RoadAhead {
 };
 
 struct StopLimits {
-  FrictionParams friction;  // for the present tyre temperature
+  envelope::FrictionParams friction;  // for the present tyre temperature
   double grip_share = kUnset, decel_max_mps2 = kUnset, jerk_max_mps3 = kUnset;
 };
 
 // Deceleration with neither throttle nor brake: air drag and rolling resistance.
-double coasting_mps2(const FrictionParams& car, double speed_mps);
+double coasting_mps2(const envelope::FrictionParams& car, double speed_mps);
 // Largest deceleration of a stop at a distance along its path; at least that of coasting.
 double stop_decel_mps2(const RoadAhead& road, double distance_m, double speed_mps,
                        const StopLimits& limits);

@@ -88,7 +88,8 @@ bool is_carried(const StopLimits& limits, const LinePoint& p, const Offset& with
                 const Offset& with, double speed2) {
   if (std::abs(with.bend_per_m) * speed2 > kChangeMost_mps2) return false;
   const auto load = [&](const Offset& o) {
-    return RoadLoad{std::sqrt(speed2), curvature_beside(p.curvature_per_m, o), p.bank_rad};
+    return steering::RoadLoad{std::sqrt(speed2), curvature_beside(p.curvature_per_m, o),
+                              p.bank_rad};
   };
   const double demand = std::abs(lateral_demand_mps2(load(with)));
   const double share = kChangeGripShare * limits.grip_share;

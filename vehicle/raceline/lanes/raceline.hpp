@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -20,11 +21,25 @@ struct RacelinePoint {
   double curvature_per_m = kUnset, bank_rad = kUnset;
 };
 
+struct Extreme {
+  double value = kUnset, s_m = kUnset;  // arc length of the line
+};
+
+// Of the speed profile, at a point.
+struct LapPoint {
+  double speed_mps = kUnset;
+  double accel_mps2 = kUnset;  // as far as the next point
+  double time_s = kUnset;      // since the first point
+  std::uint8_t gear = 0;       // 0: the car's file has no engine
+};
+
 struct Raceline {
   std::string name;
   Region region = Region::kInnerLane;  // where the whole car stays
   double length_m = kUnset;
   std::vector<RacelinePoint> points;  // the last one is a step before the first
+  std::vector<LapPoint> lap;          // of each point; empty without a profile
+  double lap_s = kUnset;
 
   double spacing_m() const { return length_m / static_cast<double>(points.size()); }
 };
@@ -33,6 +48,7 @@ struct RacelineBank {
   std::string track;              // its name, for messages
   std::string track_fingerprint;  // what binds the bank to its track
   std::vector<Raceline> lines;
+  double tyre_share = 1.0;  // of the friction of warm tyres, that the speed profiles are made for
 };
 
 // The spline at steps of at most `step_m`, from the place beside the track's station 0.

@@ -82,7 +82,7 @@ TEST(Line, SpeedsCanBeDriven) {
   for (std::size_t i = 0; i < line->points.size(); ++i) {
     const LinePoint& a = line->points[i];
     const LinePoint& b = line->points[(i + 1) % line->points.size()];
-    const RoadLoad at{a.speed_mps, a.curvature_per_m, a.bank_rad};
+    const steering::RoadLoad at{a.speed_mps, a.curvature_per_m, a.bank_rad};
     EXPECT_LE(a.speed_mps, p.speed_max_mps);
     EXPECT_LE(a.speed_mps, corner_speed_mps(p.friction, at, p.grip_share) + 1e-9);
     const double accel =

@@ -110,7 +110,7 @@ TEST(SpeedProfile, StopStandsWithinTheEllipseFromEveryPlaceAndSpeed) {
         EXPECT_LE(p.at[i].speed_mps, last.speed_mps + 1e-9);
         last = p.at[i];
         const LinePoint at = line.at(s + static_cast<double>(i) * p.spacing_m);
-        const RoadLoad load{last.speed_mps, at.curvature_per_m, at.bank_rad};
+        const steering::RoadLoad load{last.speed_mps, at.curvature_per_m, at.bank_rad};
         const double tyres =
             -last.accel_mps2 - car.drag_per_m * last.speed_mps * last.speed_mps - 0.3;
         const double used =

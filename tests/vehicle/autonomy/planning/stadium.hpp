@@ -5,6 +5,7 @@
 
 #include <numbers>
 
+#include "tests/vehicle/envelope/car.hpp"
 #include "vehicle/autonomy/planning/planning.hpp"
 
 namespace pitwall::planning::testing {
@@ -39,17 +40,7 @@ inline Params recommended() {
             .spacing_m = 2.0,
             .speed_max_mps = 68.0,
             .grip_share = 0.8,
-            .friction = {.friction = 1.3,
-                         .downforce_per_m = 0.0013,
-                         .drag_per_m = 0.00061,
-                         .accel_max_mps2 = 6.0,
-                         .power_w_per_kg = 320.0,
-                         .brake_max_mps2 = 9.0,
-                         .brake_front = 0.615,
-                         .load_front = 0.40,
-                         .load_shift = 0.094,
-                         .long_friction = 0.8,
-                         .tyres = {}}};
+            .friction = envelope::testing::av21()};
   p.green_speed_mps = 40.0, p.caution_speed_mps = 22.0;
   p.accel_max_mps2 = 2.5, p.decel_max_mps2 = 3.0, p.jerk_max_mps3 = 5.0;
   p.speed_band_mps = 4.0;

@@ -49,7 +49,7 @@ RoadAhead random_road(Random& random) {
 
 // What the tyres are asked for, as a share of their ellipse, written anew: the corner and the front
 // axle, which brakes with brake_front of the force on load_front of the load and what shifts to it.
-double used(const FrictionParams& car, const RoadSample& p, double v, double brake) {
+double used(const envelope::FrictionParams& car, const RoadSample& p, double v, double brake) {
   const double g = 9.80665, c = std::cos(p.bank_rad), s = std::sin(p.bank_rad);
   const double n = g * c + v * v * p.curvature_per_m * s + car.downforce_per_m * v * v;
   const double lateral = std::abs(v * v * p.curvature_per_m * c - g * s) / (car.friction * n);
@@ -91,7 +91,7 @@ TEST(StopPlan, DemandStaysInsideItsShareOfTheEllipseOnEveryRoadAtEveryTemperatur
 }
 
 TEST(StopPlan, ColdTyresNeverBrakeHarderAndNoTemperatureIsCold) {
-  const RoadLoad at{50.0, 0.004, 0.3};
+  const steering::RoadLoad at{50.0, 0.004, 0.3};
   double last = 0.0;
   for (double tyre_c = -20.0; tyre_c < 120.0; tyre_c += 5.0) {
     const double brake = brake_available_mps2(limits_on(tyre_c).friction, at, 0.7);

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "vehicle/autonomy/planning/friction.hpp"
+#include "vehicle/envelope/friction.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-namespace pitwall::planning {
+namespace pitwall::envelope {
 namespace {
 
 constexpr double kSpeedCeiling_mps = 150.0;  // of the search; no car here reaches it
@@ -24,6 +24,12 @@ double braked_axles_mps2(const FrictionParams& car, double load_mps2, double lef
       m * (1.0 - car.load_front) * load_mps2 / (1.0 - car.brake_front + m * car.load_shift);
   // A front axle that gains load faster than the brakes need it never limits.
   return car.brake_front > m * car.load_shift ? std::min(front, rear) : rear;
+}
+
+// The largest acceleration that the rear axle carries when `left` of the friction is its own.
+double driven_axle_mps2(const FrictionParams& car, double load_mps2, double left) {
+  const double m = left * car.long_friction;
+  return m * (1.0 - car.load_front) * load_mps2 / (1.0 - m * car.load_shift);
 }
 
 }  // namespace
@@ -47,9 +53,14 @@ double brake_available_mps2(const FrictionParams& car, const RoadLoad& at, doubl
 }
 
 double drive_available_mps2(const FrictionParams& car, const RoadLoad& at, double share) {
-  const double rest = left_over(share * grip_mps2(car, at), lateral_demand_mps2(at));
+  const double grip = grip_mps2(car, at);
+  const double rest = left_over(share * grip, lateral_demand_mps2(at));
   const double power = car.power_w_per_kg / std::max(at.speed_mps, kSpeedFloor_mps);
-  return std::min({rest, power, car.accel_max_mps2}) - car.drag_per_m * at.speed_mps * at.speed_mps;
+  double drive = std::min({rest, power, car.accel_max_mps2});
+  if (has_gears(car.engine) && rest > 0.0)
+    drive = std::min({drive, drive_mps2(car.engine, at.speed_mps),
+                      driven_axle_mps2(car, grip / car.friction, rest / (grip / car.friction))});
+  return drive - car.drag_per_m * at.speed_mps * at.speed_mps;
 }
 
 double corner_speed_mps(const FrictionParams& car, const RoadLoad& at, double share) {
@@ -71,4 +82,4 @@ double corner_speed_mps(const FrictionParams& car, const RoadLoad& at, double sh
   return good;
 }
 
-}  // namespace pitwall::planning
+}  // namespace pitwall::envelope

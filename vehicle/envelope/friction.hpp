@@ -1,4 +1,4 @@
-// Limits of tyres and engine on a banked road: the g-g diagram of the speed profiles.
+// Limits of tyres and engine on a banked road: the g-g diagram of the car at a speed.
 //   frames accelerations in the plane of the road; lateral positive left
 //   invariants
 //          normal load n and lateral demand a of steering/road_load.hpp
@@ -8,6 +8,9 @@
 //                                share b and load l n + h d of the front axle,
 //                                  b d <= m r (l n + h d),  (1 - b) d <= m r ((1 - l) n - h d),
 //                                m = longitudinal / lateral friction; and d <= r n
+//          driving               accel_max, power / speed and r n; where the engine is known also
+//                                its force in the gear of the speed, and the rear axle, which
+//                                drives:  d <= m r ((1 - l) n + h d)
 //          cold tyres            friction times the share of world/tyre_grip.hpp
 //   source load transfer as in Rajamani, Vehicle Dynamics and Control, 2nd ed., sec. 4.1
 // SPDX-License-Identifier: Apache-2.0
@@ -16,24 +19,26 @@
 #include <array>
 
 #include "protocol/vocabulary/units.hpp"
+#include "vehicle/envelope/engine.hpp"
 #include "vehicle/steering/road_load.hpp"
 #include "vehicle/world/legal_range.hpp"
 #include "vehicle/world/tyre_grip.hpp"
 
-namespace pitwall::planning {
+namespace pitwall::envelope {
 
 struct FrictionParams {
   double friction = kUnset;         // tyre friction coefficient, warm
   double downforce_per_m = kUnset;  // downforce / (mass v^2)
   double drag_per_m = kUnset;       // drag / (mass v^2)
-  double accel_max_mps2 = kUnset;   // limit of traction and gearing
-  double power_w_per_kg = kUnset;   // at the wheels
+  double accel_max_mps2 = kUnset;   // whatever tyres and engine could do
+  double power_w_per_kg = kUnset;   // at the wheels, without regard to gears
   double brake_max_mps2 = kUnset;   // limit of the brakes
   double brake_front = kUnset;      // brake share of the front axle
   double load_front = kUnset;       // load share of the front axle
   double load_shift = kUnset;       // height of the centre of gravity / wheelbase
   double long_friction = kUnset;    // longitudinal / lateral friction
   world::TyreGrip tyres;            // grip by temperature
+  Engine engine;                    // force by gear; without one power and accel_max alone hold
 };
 
 inline constexpr auto kFrictionRanges = std::to_array<world::NamedRange<FrictionParams>>({
@@ -63,4 +68,4 @@ double drive_available_mps2(const FrictionParams& car, const RoadLoad& at, doubl
 // Highest speed at which the corner needs at most this share of the grip, up to a ceiling.
 double corner_speed_mps(const FrictionParams& car, const RoadLoad& at, double share);
 
-}  // namespace pitwall::planning
+}  // namespace pitwall::envelope

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "vehicle/autonomy/planning/friction.hpp"
+#include "vehicle/envelope/friction.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "tests/vehicle/autonomy/planning/stadium.hpp"
+#include "tests/vehicle/envelope/car.hpp"
 
-namespace pitwall::planning {
+namespace pitwall::envelope {
 namespace {
 
-const FrictionParams kCar = testing::recommended().line.friction;
+const FrictionParams kCar = testing::av21();
 
 TEST(Friction, FlatRoadWithoutWingHasTheTextbookSpeed) {
   FrictionParams car = kCar;
@@ -63,4 +63,4 @@ TEST(Friction, EllipseIsNeverLeft) {
 }
 
 }  // namespace
-}  // namespace pitwall::planning
+}  // namespace pitwall::envelope

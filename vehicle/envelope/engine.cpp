@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "vehicle/envelope/engine.hpp"
+
+#include <algorithm>
+
+namespace pitwall::envelope {
+namespace {
+
+double torque_nm(const Engine& engine, double rpm) {
+  if (rpm <= engine.rpm[0]) return engine.torque_nm[0];
+  for (std::size_t i = 1; i < kTorqueRows; ++i) {
+    if (rpm > engine.rpm[i]) continue;
+    const double t = (rpm - engine.rpm[i - 1]) / (engine.rpm[i] - engine.rpm[i - 1]);
+    return engine.torque_nm[i - 1] + t * (engine.torque_nm[i] - engine.torque_nm[i - 1]);
+  }
+  return 0.0;
+}
+
+double ratio_of(const Engine& engine, std::size_t gear) {
+  return engine.ratio[gear - 1] * engine.final_drive;
+}
+
+}  // namespace
+
+bool is_legal(const Engine& engine) {
+  for (std::size_t i = 1; i < kTorqueRows; ++i)
+    if (!(engine.rpm[i] > engine.rpm[i - 1])) return false;
+  for (std::size_t i = 1; i < kGears; ++i)
+    if (!(engine.ratio[i] < engine.ratio[i - 1])) return false;
+  return true;
+}
+
+std::size_t gear_at(const Engine& engine, double speed_mps) {
+  std::size_t gear = 1;
+  while (gear < kGears && speed_mps > engine.up_above_mps[gear - 1]) ++gear;
+  return gear;
+}
+
+double engine_rpm(const Engine& engine, std::size_t gear, double speed_mps) {
+  return to_rpm(speed_mps / engine.wheel_radius_m * ratio_of(engine, gear));
+}
+
+double drive_mps2(const Engine& engine, double speed_mps) {
+  const std::size_t gear = gear_at(engine, speed_mps);
+  const double torque = torque_nm(engine, engine_rpm(engine, gear, speed_mps));
+  return torque * ratio_of(engine, gear) * engine.efficiency /
+         (engine.wheel_radius_m * engine.mass_kg);
+}
+
+}  // namespace pitwall::envelope
