@@ -8,6 +8,7 @@
 
 #include "vehicle/raceline/lanes/apexes.hpp"
 #include "vehicle/raceline/optimum/minimum_curvature.hpp"
+#include "vehicle/raceline/optimum/minimum_time.hpp"
 #include "vehicle/raceline/track_fingerprint.hpp"
 
 namespace pitwall::raceline {
@@ -41,6 +42,10 @@ class BankBuilder {
     return add(Region::kTrack, "minimum_curvature", minimum_curvature(lanes_, margin_m_));
   }
 
+  std::optional<Problem> add_minimum_time(const envelope::EnvelopeTable& table) {
+    return add(Region::kTrack, "minimum_time", minimum_time(lanes_, margin_m_, table));
+  }
+
   std::vector<Raceline> take() { return std::move(lines_); }
 
  private:
@@ -72,6 +77,9 @@ Result<RacelineBank, Problem> build_bank(const world::TrackDescription& descript
   if (auto problem = builder.add_lane(Region::kOuterLane, chosen.outer))
     return Unexpected{*std::move(problem)};
   if (auto problem = builder.add_minimum_curvature()) return Unexpected{*std::move(problem)};
+  if (params.fastest_for != nullptr)
+    if (auto problem = builder.add_minimum_time(*params.fastest_for))
+      return Unexpected{*std::move(problem)};
   if (track.pit())
     if (auto problem = builder.add_pit()) return Unexpected{*std::move(problem)};
   return RacelineBank{track.name(), fingerprint_of(description), builder.take(), 1.0};

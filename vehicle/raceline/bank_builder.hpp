@@ -3,17 +3,19 @@
 // the walls; a line through the pit lane.
 //   in     a track file and the map that is built of it; the car's width and its clearance; apexes
 //          that a person has chosen, for each lane
-//   out    lines named "inner/centre", "outer/apex", ..., "track/minimum_curvature", "pit/centre"
+//   out    lines named "inner/centre", "outer/apex", ..., "track/minimum_curvature", "pit/centre";
+//          with a car "track/minimum_time", after the line of minimum curvature
 //   invariants
 //          each line keeps the clearance to the sides of its region, beside half of the car's width
 //   errors a lane that is too narrow, or a spline that cannot be kept within it, with the station
-//   cost   about 0.1 s of a processor for an oval
+//   cost   about 0.1 s of a processor for an oval; the line of minimum time takes some seconds more
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <vector>
 
 #include "protocol/vocabulary/result.hpp"
+#include "vehicle/envelope/envelope_table.hpp"
 #include "vehicle/raceline/lanes/lanes.hpp"
 #include "vehicle/raceline/lanes/raceline.hpp"
 #include "vehicle/raceline/lanes/waypoints.hpp"
@@ -24,6 +26,8 @@ struct BankParams {
   double car_width_m = 1.93;  // over the wheels of an AV-21
   double clearance_m = 0.3;   // beside the car, to each side of its lane
   double step_m = 1.0;        // between the points of a line, at most
+  // The car whose line of minimum time is to be found; null: none, since it takes seconds.
+  const envelope::EnvelopeTable* fastest_for = nullptr;
 };
 
 // Waypoints at apexes, in place of those that are found; a lane without any finds its own.

@@ -29,6 +29,7 @@ constexpr int kExitDone = 0, kExitRefused = 2;
 struct Arguments {
   std::string track_file, car_file, out_file, check_file, apex_file, picture_file, report_file,
       envelope_file;
+  bool minimum_time = false;
   std::optional<double> tyre_c;  // of all tyres; warm where nothing is given
   raceline::BankParams bank;
 };
@@ -50,6 +51,8 @@ void add_options(CLI::App& app, Arguments& args) {
   app.add_option("--envelope", args.envelope_file, "write the car's envelope here (.csv)");
   app.add_option("--tyre-c", args.tyre_c, "temperature of the tyres, C; warm if not given")
       ->check(CLI::Range(-50.0, 200.0));
+  app.add_flag("--minimum-time", args.minimum_time, "find the line of minimum time, too")
+      ->excludes(check);
   app.add_option("--car-width", args.bank.car_width_m, "over the wheels, m")
       ->check(CLI::Range(0.5, 3.0))
       ->capture_default_str();
@@ -95,7 +98,8 @@ raceline::CarLimits limits_of(const pipeline::CarParams& car, double width_m,
 
 Result<raceline::RacelineBank, Problem> make(const Arguments& args,
                                              const world::TrackDescription& description,
-                                             const world::TrackMap& map) {
+                                             const world::TrackMap& map,
+                                             const envelope::EnvelopeTable& table) {
   raceline::ChosenApexes chosen;
   if (!args.apex_file.empty()) {
     const auto text = transport::read_file(args.apex_file);
@@ -104,7 +108,9 @@ Result<raceline::RacelineBank, Problem> make(const Arguments& args,
     if (!apexes) return Unexpected{apexes.error()};
     chosen = *std::move(apexes);
   }
-  return raceline::build_bank(description, map, args.bank, chosen);
+  raceline::BankParams bank = args.bank;
+  if (args.minimum_time) bank.fastest_for = &table;
+  return raceline::build_bank(description, map, bank, chosen);
 }
 
 Result<raceline::RacelineBank, Problem> load(const Arguments& args,
@@ -137,7 +143,7 @@ int run(const Arguments& args) {
   if (!car) return refuse(car.error());
   const envelope::EnvelopeTable table{envelope_of(car->params, args.tyre_c, *map)};
   const raceline::CarLimits limits = limits_of(car->params, args.bank.car_width_m, table);
-  auto bank = args.check_file.empty() ? make(args, *description, *map)
+  auto bank = args.check_file.empty() ? make(args, *description, *map, table)
                                       : load(args, *description, *map, limits);
   if (!bank) return refuse(bank.error());
   if (args.check_file.empty()) bank->tyre_share = tyre_share(car->params, args.tyre_c);

@@ -6,7 +6,10 @@ between knots; corners have ramps.
 # SPDX-License-Identifier: Apache-2.0
 import math
 
+import numpy as np
+
 RAMP_M = 30.0
+FINE = 400  # steps of integration between two points of the reference line
 LEFT_M, RIGHT_M = 6.0, 5.0  # from the reference line to the walls
 # Straight before the corner, m; turn, degrees, positive left; radius, m.
 HALF = [(350.0, 150.0, 35.0), (150.0, -60.0, 60.0), (120.0, 90.0, 45.0)]
@@ -23,6 +26,24 @@ def knots():
             rows.append((s, here))
     length = rows.pop()[0]
     return [(0.0, 0.0)] + rows, length
+
+
+def reference_line(step):
+    """Points and headings at even stations, about a step apart; the last is before the first."""
+    rows, length = knots()
+    count = round(length / step)
+    s = np.linspace(0.0, length, count * FINE + 1)
+    stations, curvatures = zip(*rows, (length, 0.0))
+    curvature = np.interp(s, stations, curvatures)
+    ds = s[1] - s[0]
+    turn = 0.5 * ds * (curvature[1:] + curvature[:-1])
+    yaw = np.concatenate([[0.0], np.cumsum(turn)])
+    middle = 0.5 * (yaw[1:] + yaw[:-1])
+    x = np.concatenate([[0.0], np.cumsum(ds * np.cos(middle))])
+    y = np.concatenate([[0.0], np.cumsum(ds * np.sin(middle))])
+    if np.hypot(x[-1], y[-1]) > 0.01:
+        raise ValueError(f"the circuit does not close: {x[-1]}, {y[-1]}")
+    return x[:-1:FINE], y[:-1:FINE], yaw[:-1:FINE]
 
 
 def yaml_text():

@@ -19,7 +19,6 @@ import circuit
 
 PROGRAM, TREE = sys.argv[1], Path(sys.argv[2])
 STEP_M = 4.0            # between normals, about
-FINE = 400              # steps of integration between them
 CAR_WIDTH_M, CLEARANCE_M = 2.0, 0.3
 ROUNDS_MAX = 60
 SHARE = 0.01            # that the sums may differ by
@@ -29,23 +28,6 @@ BOUND_OFF_M = 0.05      # that the line may come closer to a wall than its clear
 def expect(condition, what):
     if not condition:
         sys.exit(f"FAILED: {what}")
-
-
-def reference_line():
-    """Points and headings at even stations; the last is one step before the first."""
-    rows, length = circuit.knots()
-    count = round(length / STEP_M)
-    s = np.linspace(0.0, length, count * FINE + 1)
-    stations, curvatures = zip(*rows, (length, 0.0))
-    curvature = np.interp(s, stations, curvatures)
-    ds = s[1] - s[0]
-    turn = 0.5 * ds * (curvature[1:] + curvature[:-1])
-    yaw = np.concatenate([[0.0], np.cumsum(turn)])
-    middle = 0.5 * (yaw[1:] + yaw[:-1])
-    x = np.concatenate([[0.0], np.cumsum(ds * np.cos(middle))])
-    y = np.concatenate([[0.0], np.cumsum(ds * np.sin(middle))])
-    expect(np.hypot(x[-1], y[-1]) < 0.01, f"the circuit does not close: {x[-1]}, {y[-1]}")
-    return x[:-1:FINE], y[:-1:FINE], yaw[:-1:FINE]
 
 
 def bends(x, y):
@@ -125,7 +107,7 @@ def main():
                                str(CLEARANCE_M)], capture_output=True, text=True, timeout=60)
         expect(done.returncode == 0, done.stderr)
         lines = {line["name"]: line for line in json.loads(bank.read_text())["lines"]}
-    x, y, yaw = reference_line()
+    x, y, yaw = circuit.reference_line(STEP_M)
     margin = 0.5 * CAR_WIDTH_M + CLEARANCE_M
     low, high = margin - circuit.RIGHT_M, circuit.LEFT_M - margin
     best = optimum(x, y, yaw, low, high)

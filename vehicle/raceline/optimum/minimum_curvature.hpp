@@ -19,8 +19,13 @@
 #include "protocol/vocabulary/result.hpp"
 #include "vehicle/raceline/lanes/lanes.hpp"
 #include "vehicle/raceline/lanes/waypoints.hpp"
+#include "vehicle/raceline/optimum/offset_line.hpp"
 
 namespace pitwall::raceline {
+
+// The line by its offsets, at stations of which the waypoints are every third.
+Result<OffsetLine, Problem> minimum_curvature_offsets(const Lanes& lanes, double margin_m);
+std::vector<Waypoint> waypoints_of(const OffsetLine& line);
 
 Result<std::vector<Waypoint>, Problem> minimum_curvature(const Lanes& lanes, double margin_m);
 

@@ -57,20 +57,20 @@ std::size_t LapProfile::limit(std::span<const RoadStep> road) {
 }
 
 // Backward, once around: braking never leads below the slowest of all limits.
-void LapProfile::brake(std::size_t from) {
+void LapProfile::brake(std::span<const RoadStep> road, std::size_t from) {
   const std::size_t n = limit_mps_.size();
   std::size_t after = from;
   for (std::size_t k = 1; k < n; ++k) {
     const std::size_t i = after > 0 ? after - 1 : n - 1;
     const double v = limit_mps_[after];
     const double brake = table_->longitudinal(places_[after], v).brake_mps2;
-    limit_mps_[i] = std::min(limit_mps_[i], std::sqrt(v * v + 2.0 * step_m_ * brake));
+    limit_mps_[i] = std::min(limit_mps_[i], std::sqrt(v * v + 2.0 * road[i].step_m * brake));
     after = i;
   }
 }
 
 // Forward, and again where the lap does not end as fast as it begins.
-void LapProfile::drive(std::size_t from, std::span<LapPoint> out) {
+void LapProfile::drive(std::span<const RoadStep> road, std::size_t from, std::span<LapPoint> out) {
   const std::size_t n = limit_mps_.size();
   speed_mps_.resize(n);
   speed_mps_[from] = limit_mps_[from];
@@ -84,9 +84,9 @@ void LapProfile::drive(std::size_t from, std::span<LapPoint> out) {
       const double v = speed_mps_[i];
       out[i].gear = static_cast<std::uint8_t>(shifts.gear());
       const double accel = table_->longitudinal(places_[i], v).accel_mps2;
-      const double cut = shifts.cut(step_m_ / v);
+      const double cut = shifts.cut(road[i].step_m / v);
       const double net = accel - cut * (accel + table_->coasting_mps2(v));
-      const double reached2 = v * v + 2.0 * step_m_ * net;
+      const double reached2 = v * v + 2.0 * road[i].step_m * net;
       speed_mps_[next] = std::min(limit_mps_[next], std::sqrt(std::max(reached2, kSpeedLeast_mps)));
       shifts.pass(speed_mps_[next]);
       i = next;
@@ -95,21 +95,19 @@ void LapProfile::drive(std::size_t from, std::span<LapPoint> out) {
   }
 }
 
-LapOutcome LapProfile::solve(std::span<const RoadStep> road, double step_m,
-                             std::span<LapPoint> out) {
-  CHECK(!road.empty() && road.size() == out.size() && step_m > 0.0);
-  step_m_ = step_m;
+LapOutcome LapProfile::solve(std::span<const RoadStep> road, std::span<LapPoint> out) {
+  CHECK(!road.empty() && road.size() == out.size());
   const std::size_t slowest = limit(road), n = road.size();
   if (!(limit_mps_[slowest] >= kSpeedLeast_mps)) return {kUnset, slowest};
-  brake(slowest);
-  drive(slowest, out);
+  brake(road, slowest);
+  drive(road, slowest, out);
   double time_s = 0.0;
   for (std::size_t i = 0; i < n; ++i) {
     const double v = speed_mps_[i], next = speed_mps_[i + 1 < n ? i + 1 : 0];
     out[i].speed_mps = v;
-    out[i].accel_mps2 = (next * next - v * v) / (2.0 * step_m);
+    out[i].accel_mps2 = (next * next - v * v) / (2.0 * road[i].step_m);
     out[i].time_s = time_s;
-    time_s += 2.0 * step_m / (v + next);
+    time_s += 2.0 * road[i].step_m / (v + next);
   }
   return {time_s, std::nullopt};
 }

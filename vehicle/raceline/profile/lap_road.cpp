@@ -10,7 +10,8 @@ std::vector<RoadStep> road_of(const Raceline& line, const Lanes& lanes) {
   road.reserve(line.points.size());
   double station_m = 0.0;
   for (const RacelinePoint& p : line.points) {
-    RoadStep step{.curvature_per_m = p.curvature_per_m, .bank_rad = p.bank_rad};
+    RoadStep step{
+        .curvature_per_m = p.curvature_per_m, .bank_rad = p.bank_rad, .step_m = line.spacing_m()};
     if (line.region == Region::kPitLane) {
       station_m = lanes.track().project(p.x_m, p.y_m, station_m).s_m;
       if (lanes.along_pit(station_m)) step.cap_mps = lanes.track().pit()->speed_limit_mps;
@@ -27,7 +28,7 @@ std::optional<Problem> add_laps(RacelineBank& bank, const Lanes& lanes,
     if (!line.lap.empty()) continue;
     const std::vector<RoadStep> road = road_of(line, lanes);
     line.lap.resize(road.size());
-    const LapOutcome outcome = profile.solve(road, line.spacing_m(), line.lap);
+    const LapOutcome outcome = profile.solve(road, line.lap);
     if (outcome.stuck) {
       const double s_m = line.spacing_m() * static_cast<double>(*outcome.stuck);
       return Problem{

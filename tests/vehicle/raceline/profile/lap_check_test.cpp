@@ -20,7 +20,7 @@ struct Course {
                std::vector<RacelinePoint>(road.size()),
                std::vector<LapPoint>(road.size()),
                kUnset};
-    l.lap_s = LapProfile{table}.solve(road, 1.0, l.lap).lap_s;
+    l.lap_s = LapProfile{table}.solve(road, l.lap).lap_s;
     return l;
   }();
 

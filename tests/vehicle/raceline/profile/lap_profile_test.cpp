@@ -20,11 +20,10 @@ struct Lap {
   std::vector<LapPoint> points;
 };
 
-Lap solved(const envelope::EnvelopeParams& car, const std::vector<RoadStep>& road,
-           double step_m = 1.0) {
+Lap solved(const envelope::EnvelopeParams& car, const std::vector<RoadStep>& road) {
   const EnvelopeTable table{car};
   Lap lap{{}, std::vector<LapPoint>(road.size())};
-  lap.outcome = LapProfile{table}.solve(road, step_m, lap.points);
+  lap.outcome = LapProfile{table}.solve(road, lap.points);
   return lap;
 }
 
@@ -48,7 +47,7 @@ TEST(LapProfile, IsTheClosedFormOfConstantAccelerations) {
 }
 
 TEST(LapProfile, ACircleIsDrivenAtTheSpeedOfItsTyres) {
-  std::vector<RoadStep> road(600, RoadStep{1.0 / 50.0, 0.0, kNoCap_mps});
+  std::vector<RoadStep> road(600, RoadStep{1.0 / 50.0, 0.0, kNoCap_mps, 1.0});
   const Lap lap = solved(testing::block(), road);
   const double speed = std::sqrt(2.5 * kGravity_mps2 * 50.0);
   EXPECT_NEAR(lap.outcome.lap_s, 600.0 / speed, 1e-6);
@@ -85,7 +84,8 @@ TEST(LapProfile, DoesNotDependOnItsStart) {
 TEST(LapProfile, DoesNotDependOnTheHand) {
   std::vector<RoadStep> road = testing::lap();
   const Lap lap = solved(testing::av21(), road);
-  for (RoadStep& step : road) step = {-step.curvature_per_m, -step.bank_rad, step.cap_mps};
+  for (RoadStep& step : road)
+    step.curvature_per_m = -step.curvature_per_m, step.bank_rad = -step.bank_rad;
   EXPECT_NEAR(solved(testing::av21(), road).outcome.lap_s, lap.outcome.lap_s, 1e-9);
 }
 
@@ -119,7 +119,7 @@ TEST(LapProfile, ShiftsCutTheDrive) {
 
 TEST(LapProfile, TellsWhereNoSpeedCarries) {
   std::vector<RoadStep> road = testing::lap();
-  road[1234] = {0.0, from_deg(40.0), kNoCap_mps};
+  road[1234] = {0.0, from_deg(40.0), kNoCap_mps, 1.0};
   envelope::EnvelopeParams car = testing::av21();
   car.friction.friction = 0.8, car.friction.downforce_per_m = 0.0;  // tan(40 deg) is 0.84
   car.bank_most_rad = from_deg(40.0);
@@ -133,12 +133,11 @@ TEST(LapProfile, TakesNoMemoryAndTwoMilliseconds) {
   const EnvelopeTable table{testing::av21()};
   LapProfile profile{table};
   std::vector<LapPoint> points(road.size());
-  profile.solve(road, 1.0, points);
+  profile.solve(road, points);
   double best_ms = 1e9;
   for (int i = 0; i < 5; ++i) {
     const std::clock_t begin = std::clock();
-    const auto allocations =
-        pitwall::testing::allocations_of([&] { profile.solve(road, 1.0, points); });
+    const auto allocations = pitwall::testing::allocations_of([&] { profile.solve(road, points); });
     best_ms = std::min(best_ms, 1e3 * static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC);
     if (pitwall::testing::kAllocationsCounted) {
       EXPECT_EQ(allocations, 0U);

@@ -35,7 +35,7 @@ inline envelope::EnvelopeParams av21() {
 }
 
 inline std::vector<RoadStep> straight(std::size_t points) {
-  return std::vector<RoadStep>(points, RoadStep{0.0, 0.0, kNoCap_mps});
+  return std::vector<RoadStep>(points, RoadStep{0.0, 0.0, kNoCap_mps, 1.0});
 }
 
 // A lap of 2400 m with four corners of 30 to 120 m to both sides, one of them banked.
@@ -45,7 +45,7 @@ inline std::vector<RoadStep> lap() {
     for (std::size_t i = from; i < to; ++i) {
       const double t = static_cast<double>(i - from) / static_cast<double>(to - from);
       const double ramp = std::min(1.0, 4.0 * std::min(t, 1.0 - t));
-      road[i] = {curvature * ramp, bank * ramp, kNoCap_mps};
+      road[i] = {curvature * ramp, bank * ramp, kNoCap_mps, 1.0};
     }
   };
   corner(400, 520, 1.0 / 30.0, 0.0), corner(800, 1000, 1.0 / 60.0, from_deg(15.0));
