@@ -38,7 +38,10 @@ CarFile read_root(yaml::StrictMap& map) {
   read_safety(map.map("safety"), car.params);
   read_radio(map.map("radio"), car.params);
   // Written once in the file, known to modules that must not include each other.
-  const steering::Params steering = read_steering(map.map("steering"));
+  steering::Params steering = read_steering(map.map("steering"));
+  const auto& filter = car.params.localization.filter.spatial;
+  steering.bicycle.cg_to_rear_m = filter.cg_to_rear_m;
+  steering.bicycle.rear_slip_rad_per_mps2 = filter.rear_slip_rad_per_mps2;
   safety::SafeStopParams& stop = car.params.supervisor.safe_stop;
   stop.steering = car.params.control.steering = steering;
   stop.tyres = car.params.planning.line.friction.tyres;

@@ -120,8 +120,8 @@ void drive(const Setup& setup, Car& car, const Inputs& in, Outputs& out) {
     follow_command(p.learning, car.learned, car.supervisor.last.road_wheel_rad, in.dt);
   if (car.follow == Follow::kStop) return;
   if (car.follow == Follow::kDrive && control::is_usable(ego))
-    learn(p.learning, p.bicycle, car.learned, {ego.vx_mps, ego.yaw_rate_rad_per_s, car.bank_rad},
-          in.dt);
+    learn(p.learning, p.bicycle, car.learned,
+          {ego.vx_mps, ego.yaw_rate_rad_per_s, car.bank_rad, ego.vy_mps}, in.dt);
   out.steered = control::step(setup.params.control, setup.gains, car.control,
                               {.ego = ego,
                                .trajectory = car.plan.output.drive,

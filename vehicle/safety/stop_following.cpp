@@ -116,12 +116,14 @@ world::ActuatorCommand follow_stop(const FollowingParams& params, FollowingState
   const bool strays = std::isfinite(state.steered_rad);
   steering::follow_command(p.steering.learning, state.learned,
                            strays ? state.steered_rad : command.road_wheel_rad, from_seconds(dt_s));
-  const PathPoint turn =
-      path_at(path, state.segment, state.s_m + v_mps * preview_s(p.steering, state.learned));
+  const auto road_at = [&](double ahead_m) -> steering::RoadPoint {
+    const PathPoint point = path_at(path, state.segment, state.s_m + ahead_m);
+    return {point.curvature_per_m, point.bank_rad};
+  };
   const double wanted_rad = steering::steer(
       p.steering, state.learned, state.steering,
       {.deviation = {state.lateral_m, state.course_rad, state.curvature_per_m, state.bank_rad},
-       .ahead = {turn.curvature_per_m, turn.bank_rad},
+       .ahead = path_ahead(p.steering, state.learned, v_mps, road_at),
        .speed_mps = v_mps,
        .yaw_rate_rad_per_s = pose.yaw_rate_rad_per_s,
        .last_angle_rad = command.road_wheel_rad,
