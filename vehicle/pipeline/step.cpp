@@ -169,8 +169,8 @@ void apply_guardian(Car& car, const GuardianView& guardian, Instant now) {
       static_cast<std::uint8_t>((guardian.counters.report + 1) % gateway::kReportCounterEnd);
 }
 
-// What the operator wants, before anything is decided; the ladder's limit is that of the tick
-// before: the watchdog judges after planning.
+// Inputs of the operator, before anything is decided. The limit of the link-loss policy is that of
+// the tick before: the watchdog judges after planning.
 void apply_operator(Car& car, const Inputs& in, Outputs& out) {
   out.requests = execute(car.orders,
                          {.switches = in.requests,
@@ -243,8 +243,9 @@ Outputs step(const Setup& setup, Car& car, const Inputs& in) {
                                 .radio_at = in.radio_at,
                                 .use = car.orders.use},
                                in.now);
-  out.radio = safety::descend(p.radio.ladder, car.link_loss, out.watchdog[safety::Stream::kRadio],
-                              in.operator_inputs.joystick, in.now);
+  out.radio = safety::apply_link_loss_policy(p.radio.link_loss, car.link_loss,
+                                             out.watchdog[safety::Stream::kRadio],
+                                             in.operator_inputs.joystick, in.now);
   const bool resettable = car.bus_guard.failed || in.guardian.stopped;
   out.bus_guard =
       safety::guard(p.bus_guard, car.bus_guard, out.received.bus.link, out.requests.reset, in.now);

@@ -27,8 +27,8 @@
 
 namespace pitwall::pipeline {
 
-// View of the guardian (made from its Status in guarding.hpp). While the guardian drives, the car
-// sends nothing; afterwards it continues from the guardian's last frames.
+// View of the guardian (made from its Status in guardian_interface.hpp). While the guardian drives,
+// the car sends nothing; afterwards it continues from the guardian's last frames.
 struct GuardianView {
   bool drives = false;                  // drives now, with a fresh status
   bool stopped = false;                 // it stopped this run: no driving until a reset

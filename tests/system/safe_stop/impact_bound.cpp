@@ -90,7 +90,7 @@ class LostCar {
   double reacts_after_s() const {
     switch (of_.loss) {
       case Loss::kSteering:
-        return deadline_s(safety::Cause::kSteeringStrays);
+        return deadline_s(safety::Cause::kSteeringDeviates);
       case Loss::kReference:
         return deadline_s(safety::Cause::kImuLost);
       case Loss::kComputer:

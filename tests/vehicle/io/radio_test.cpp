@@ -145,7 +145,7 @@ Ticked tick_until(Radio& radio, Base& base, const std::function<bool()>& conditi
   return out;
 }
 
-TEST_F(CarRadio, SpeaksAndHearsOverOnePathAndOverTwo) {
+TEST_F(CarRadio, SendsAndReceivesOverOnePathAndOverTwo) {
   for (const std::size_t paths : {1U, 2U}) {
     Base base(base_keys_, paths);
     auto radio = Radio::open({base.addresses(), keys()}, {}, true);
