@@ -11,7 +11,7 @@
 #include <array>
 
 #include "basestation/link/age_histogram.hpp"
-#include "protocol/telemetry/registry/snapshot.hpp"
+#include "protocol/telemetry/registry/registry.hpp"
 #include "protocol/vocabulary/time.hpp"
 
 namespace pitwall::link {

@@ -18,7 +18,7 @@
 #include <optional>
 
 #include "protocol/telemetry/packet/received.hpp"
-#include "protocol/telemetry/registry/snapshot.hpp"
+#include "protocol/telemetry/registry/registry.hpp"
 #include "protocol/vocabulary/time.hpp"
 #include "protocol/vocabulary/units.hpp"
 

@@ -22,7 +22,7 @@
 #include "protocol/telemetry/delivery/events.hpp"
 #include "protocol/telemetry/endpoint/link_endpoint.hpp"
 #include "protocol/telemetry/endpoint/link_report.hpp"
-#include "protocol/telemetry/registry/snapshot.hpp"
+#include "protocol/telemetry/registry/registry.hpp"
 
 namespace pitwall::telemetry {
 

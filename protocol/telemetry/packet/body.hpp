@@ -22,7 +22,7 @@
 #include "protocol/telemetry/packet/header.hpp"
 #include "protocol/telemetry/packet/layout.hpp"
 #include "protocol/telemetry/registry/group_row.hpp"
-#include "protocol/telemetry/registry/snapshot.hpp"
+#include "protocol/telemetry/registry/registry.hpp"
 #include "protocol/vocabulary/fixed_vector.hpp"
 #include "protocol/vocabulary/result.hpp"
 #include "protocol/vocabulary/time.hpp"

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "protocol/telemetry/registry/group_row.hpp"
-#include "protocol/telemetry/registry/snapshot.hpp"
+#include "protocol/telemetry/registry/registry.hpp"
 #include "protocol/vocabulary/quantile.hpp"
 #include "protocol/vocabulary/time.hpp"
 
