@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-#include "protocol/telemetry/registry/field_row.hpp"
+#include "protocol/telemetry/registry/rows.hpp"
 
 namespace pitwall::state {
 

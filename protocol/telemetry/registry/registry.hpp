@@ -12,7 +12,7 @@
 #include <string_view>
 #include <tuple>
 
-#include "protocol/telemetry/registry/field_row.hpp"
+#include "protocol/telemetry/registry/rows.hpp"
 #include "protocol/telemetry/registry/rows_autonomy.hpp"
 #include "protocol/telemetry/registry/rows_chassis.hpp"
 #include "protocol/telemetry/registry/rows_health.hpp"
