@@ -20,14 +20,30 @@
 
 #include "protocol/telemetry/packet/group_codec.hpp"
 #include "protocol/telemetry/packet/header.hpp"
-#include "protocol/telemetry/packet/layout.hpp"
 #include "protocol/telemetry/registry/registry.hpp"
-#include "protocol/telemetry/registry/rows.hpp"
 #include "protocol/vocabulary/fixed_vector.hpp"
 #include "protocol/vocabulary/result.hpp"
 #include "protocol/vocabulary/time.hpp"
 
 namespace pitwall::telemetry {
+
+// Layout of a sender's packets: the groups of its direction in the order of the bits of their set,
+// as its registry defines them. Place k is bit k of the set; a place with a group of our registry
+// has that group's size. Two ends whose registries differ read each other's packets by the sender's
+// layout and skip unknown groups.
+struct GroupPlace {
+  std::optional<Group> own;  // empty: our registry does not have the group, or defines it otherwise
+  std::uint16_t bits = 0;    // size of its values
+};
+
+inline constexpr std::size_t kMaxPlaces = 64;
+using Layout = FixedVector<GroupPlace, kMaxPlaces>;
+
+// Size of the set in bytes.
+constexpr std::size_t set_size(const Layout& layout) { return (layout.size() + 7) / 8; }
+
+// Layout of our own registry.
+const Layout& own_layout(Direction direction);
 
 inline constexpr std::size_t kPaths = 2;
 using PathId = std::uint8_t;  // 0 .. kPaths - 1
