@@ -16,7 +16,7 @@
 #include <string_view>
 #include <vector>
 
-#include "basestation/command/person.hpp"
+#include "basestation/command/audit.hpp"
 #include "basestation/publishers/console/requests.hpp"
 #include "basestation/publishers/console/snapshots.hpp"
 #include "basestation/publishers/web/client.hpp"
