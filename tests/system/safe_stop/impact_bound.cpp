@@ -6,8 +6,8 @@
 #include <cmath>
 
 #include "hil/nodes/raptor.hpp"
-#include "hil/plant/family/grip_limit.hpp"
-#include "hil/plant/family/steady_turn.hpp"
+#include "tests/hil/plant/family/grip_limit.hpp"
+#include "tests/hil/plant/family/steady_turn.hpp"
 #include "vehicle/safety/causes.hpp"
 #include "vehicle/safety/stop_brake.hpp"
 
