@@ -33,7 +33,7 @@ int refuse(const Problem& problem) {
 }
 
 struct Counts {
-  std::uint64_t ticks = 0, missed = 0, received = 0, sent = 0, not_sent = 0, refused = 0;
+  std::uint64_t ticks = 0, missed = 0, received = 0, sent = 0, refused = 0;
   std::int64_t longest_ns = 0;
 };
 

@@ -97,7 +97,7 @@ void VirtualStation::start_base() {
   base_ = std::make_unique<service::CarService>(service::ServiceConfig{}, config(base_keys_),
                                                 randomness_);
   operator_ = inputs::TextOperator{inputs::kScriptPerson};
-  issued_ = events_received_ = paths_reported_ = 0;
+  issued_ = events_received_ = 0;
   advanced_ = {};
 }
 
@@ -175,9 +175,6 @@ void VirtualStation::collect_news() {
   const auto fresh = static_cast<std::ptrdiff_t>(radio.events_received() - events_received_);
   events_.insert(events_.end(), radio.events().end() - fresh, radio.events().end());
   events_received_ = radio.events_received();
-  const std::uint64_t paths =
-      radio.bulk()[static_cast<std::size_t>(telemetry::BulkKind::kPath)].objects;
-  paths_received_ += paths - std::exchange(paths_reported_, paths);
 }
 
 void VirtualStation::receive(pipeline::Inputs& in) {

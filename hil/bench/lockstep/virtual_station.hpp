@@ -71,8 +71,6 @@ class VirtualStation {
   const std::vector<std::string>& refusals() const { return refusals_; }
   const std::vector<telemetry::CommandId>& commands() const { return commands_; }
   const std::vector<telemetry::Event>& events() const { return events_; }  // received by the base
-  // planned paths of the car that the base received
-  std::uint64_t paths_received() const { return paths_received_; }
 
  private:
   static constexpr Duration kBaseAhead = seconds(12'345);
@@ -103,7 +101,7 @@ class VirtualStation {
   std::optional<telemetry::CarEndpoint> car_;
   std::unique_ptr<service::CarService> base_;
   inputs::TextOperator operator_{inputs::kScriptPerson};
-  std::uint64_t issued_ = 0, events_received_ = 0, paths_reported_ = 0;  // of the present base
+  std::uint64_t issued_ = 0, events_received_ = 0;  // of the present base
   std::optional<pipeline::RadioAdapter> adapter_;
   pipeline::TickLog log_;
   std::deque<Waiting> to_car_, to_base_;
@@ -115,7 +113,6 @@ class VirtualStation {
   std::vector<std::string> refusals_;
   std::vector<telemetry::CommandId> commands_;
   std::vector<telemetry::Event> events_;
-  std::uint64_t paths_received_ = 0;
 };
 
 }  // namespace pitwall::bench
