@@ -9,8 +9,6 @@
 namespace pitwall::io {
 namespace {
 
-using transport::UdpAddress;
-
 constexpr std::size_t kAddressesPerPathMax = 1 + telemetry::kSpares;
 constexpr unsigned kFirstByte = 24;
 constexpr std::uint32_t kLoopbackNet = 127;  // 127.0.0.0/8, RFC 1122 3.2.1.3

@@ -10,7 +10,6 @@ namespace pitwall::bench {
 namespace {
 
 using faults::BenchFaultKind;
-using telemetry::Address;
 using telemetry::PathId;
 
 constexpr std::uint32_t kHere = 0x7F000001;
@@ -21,7 +20,7 @@ std::uint8_t paths_of(const scenario::Scenario& scenario) {
   return static_cast<std::uint8_t>(std::max<std::size_t>(1, scenario.radio.size()));
 }
 
-Address on_path(std::uint16_t port, PathId path) {
+UdpAddress on_path(std::uint16_t port, PathId path) {
   return {kHere, static_cast<std::uint16_t>(port + path)};
 }
 
@@ -107,7 +106,7 @@ void VirtualStation::stop_base() {
   to_base_.clear();
 }
 
-Address VirtualStation::base_address(PathId path, Instant at) const {
+UdpAddress VirtualStation::base_address(PathId path, Instant at) const {
   if (spare_) return on_path(kSparePort, path);
   return on_path(active(BenchFaultKind::kBaseMoved, at) ? kMovedPort : kBasePort, path);
 }

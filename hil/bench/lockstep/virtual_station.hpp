@@ -86,7 +86,7 @@ class VirtualStation {
   telemetry::LinkEndpointConfig config(const telemetry::KeyFile& keys) const;
   void start_base();
   void stop_base();
-  telemetry::Address base_address(telemetry::PathId path, Instant at) const;
+  UdpAddress base_address(telemetry::PathId path, Instant at) const;
   void collect(Way way, std::deque<Waiting>& queue, Instant at);
   void serve_base(Instant at);
   void run_text_commands(Instant at);

@@ -45,7 +45,7 @@ class CarEndpoint {
   CarEndpoint(CarEndpoint&&) noexcept;
   CarEndpoint& operator=(CarEndpoint&&) noexcept;
 
-  void feed(std::span<const std::uint8_t> datagram, PathId path, Address from, Instant at);
+  void feed(std::span<const std::uint8_t> datagram, PathId path, UdpAddress from, Instant at);
   // The next datagram that is due; call until it is empty. The snapshot is read when a packet is
   // made.
   std::optional<Outgoing> poll(const Snapshot& snapshot, Instant now);

@@ -74,8 +74,7 @@ class Base {
     std::vector<transport::UdpDatagram> inbox(UdpSocket::kBatch);
     for (std::size_t path = 0; path < sockets_.size(); ++path)
       for (const auto& d : std::span(inbox).first(sockets_[path].receive(inbox))) {
-        endpoint_->feed(d.payload(), static_cast<telemetry::PathId>(path),
-                        {.ip = d.from.ip, .port = d.from.port}, d.at);
+        endpoint_->feed(d.payload(), static_cast<telemetry::PathId>(path), d.from, d.at);
         answer();
       }
     answer();
@@ -85,7 +84,7 @@ class Base {
  private:
   void answer() {
     while (const auto out = endpoint_->poll(transport::monotonic_now()))
-      sockets_[out->path].send_to({.ip = out->to.ip, .port = out->to.port}, out->bytes);
+      sockets_[out->path].send_to(out->to, out->bytes);
   }
 
   telemetry::SystemRandomness randomness_;
