@@ -1,4 +1,4 @@
-// Text of a field's value: a label, or a number, with the decimals of its resolution or with a unit.
+// Text of a field's value: a label, or a number with the decimals of its resolution or with a unit.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

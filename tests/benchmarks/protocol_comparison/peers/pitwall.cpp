@@ -63,16 +63,13 @@ transport::UdpSocket open_socket(UdpAddress here) {
   std::exit(1);
 }
 
-void send(transport::UdpSocket& socket, const Outgoing& out) {
-  socket.send_to(out.to, out.bytes);
-}
+void send(transport::UdpSocket& socket, const Outgoing& out) { socket.send_to(out.to, out.bytes); }
 
 template <class End>
 void feed_all(End&& feed, transport::UdpSocket& socket,
               std::vector<transport::UdpDatagram>& batch) {
   while (const std::size_t count = socket.receive(batch))
-    for (std::size_t i = 0; i < count; ++i)
-      feed(batch[i].payload(), batch[i].from, batch[i].at);
+    for (std::size_t i = 0; i < count; ++i) feed(batch[i].payload(), batch[i].from, batch[i].at);
 }
 
 void sample(Snapshot& snapshot, Instant at) {
