@@ -19,7 +19,7 @@
 #include <optional>
 
 #include "protocol/telemetry/command/command_table.hpp"
-#include "protocol/telemetry/packet/received.hpp"
+#include "protocol/telemetry/packet/body.hpp"
 #include "protocol/telemetry/registry/registry.hpp"
 #include "protocol/vocabulary/time.hpp"
 

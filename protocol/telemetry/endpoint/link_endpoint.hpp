@@ -31,7 +31,6 @@
 #include "protocol/telemetry/flow/clock_sync.hpp"
 #include "protocol/telemetry/flow/link_stats.hpp"
 #include "protocol/telemetry/packet/body.hpp"
-#include "protocol/telemetry/packet/received.hpp"
 #include "protocol/telemetry/session/association.hpp"
 #include "protocol/telemetry/session/link_threats.hpp"
 #include "protocol/vocabulary/fixed_vector.hpp"

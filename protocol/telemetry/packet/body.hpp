@@ -142,4 +142,15 @@ inline Result<Body, BodyError> parse_body(std::span<const std::uint8_t> bytes,
   return parse_body(bytes, own_layout(direction));
 }
 
+// Times and path of the packet that carried a record, for the modules that take records. On the own
+// clock; `sent_earliest` is the sender's time of sending minus the bound of the clock comparison:
+// never too late. Empty while the clocks have not been compared.
+struct Received {
+  Instant at{};
+  std::optional<Instant> sent_earliest;
+  std::uint32_t tx_time_100us = 0;  // of the packet; times in its records are relative to it
+  std::uint64_t sequence = 0;
+  PathId path = 0;
+};
+
 }  // namespace pitwall::telemetry

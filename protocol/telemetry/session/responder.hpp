@@ -24,7 +24,7 @@
 #include <optional>
 #include <span>
 
-#include "protocol/telemetry/packet/received.hpp"
+#include "protocol/telemetry/packet/body.hpp"
 #include "protocol/telemetry/session/exchange.hpp"
 #include "protocol/telemetry/session/refusal.hpp"
 #include "protocol/telemetry/session/reply_limiter.hpp"

@@ -6,7 +6,7 @@
 #include <type_traits>
 
 #include "vehicle/autonomy/localization/filter/ekf_3d_errors.hpp"
-#include "vehicle/autonomy/localization/filter/integration_step.hpp"
+#include "vehicle/autonomy/localization/filter/measurement.hpp"
 #include "vehicle/autonomy/localization/filter/rotation.hpp"
 
 namespace pitwall::localization {
