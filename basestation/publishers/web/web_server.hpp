@@ -27,7 +27,7 @@
 #include <string>
 #include <vector>
 
-#include "basestation/publishers/web/client.hpp"
+#include "basestation/publishers/web/admission/client.hpp"
 #include "basestation/publishers/web/client_queue.hpp"
 #include "basestation/publishers/web/http_responder.hpp"
 #include "protocol/transport/udp_socket.hpp"
