@@ -249,7 +249,7 @@ class Drive {
   io::FrameTotals frames_;
   io::LossTally losses_;
   world::BusHealth bus_;
-  safety::Arming arming_ = safety::Arming::kNotAsked;
+  safety::Arming arming_ = safety::Arming::kNotRequested;
   bool schema_reported_ = false, silence_reported_ = false;
   std::optional<Instant> first_tick_;
   Instant schema_looked_at_;

@@ -73,7 +73,7 @@ CarIdentity CarService::identity() const {
 }
 
 bool CarService::receive(std::span<const std::uint8_t> datagram, telemetry::PathId path,
-                         telemetry::Address from, Instant at) {
+                         UdpAddress from, Instant at) {
   if (!station_.take(datagram, path, from, at)) return false;
   const telemetry::Snapshot& state = station_.endpoint().state();
   const telemetry::Arrival& arrival = *station_.arrival();

@@ -61,8 +61,8 @@ class CarService {
   CarService& operator=(const CarService&) = delete;
 
   // Returns true for a new authentic packet of the car, which is then at link().arrival().
-  bool receive(std::span<const std::uint8_t> datagram, telemetry::PathId path,
-               telemetry::Address from, Instant at);
+  bool receive(std::span<const std::uint8_t> datagram, telemetry::PathId path, UdpAddress from,
+               Instant at);
   std::optional<telemetry::Outgoing> poll(Instant now) { return station_.poll(now); }
   // Brings all up to `now`; once per turn of the loop, after requests and before publishers.
   void advance(Instant now);

@@ -20,7 +20,7 @@
 #include <vector>
 
 #include "basestation/state/vehicle_state.hpp"
-#include "protocol/telemetry/registry/snapshot.hpp"
+#include "protocol/telemetry/registry/registry.hpp"
 #include "protocol/vocabulary/time.hpp"
 
 namespace pitwall::state {

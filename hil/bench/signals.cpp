@@ -82,7 +82,8 @@ grading::Kind kind_of(scenario::ExpectKind kind) {
 Duration radio_limit_of(const pipeline::CarParams& params) {
   safety::WatchdogParams watchdog = params.watchdog;
   const Duration stop = watchdog[safety::Stream::kRadio].bad;
-  return params.radio.ladder.no_comm_drives ? stop : std::min(stop, params.radio.ladder.no_comm);
+  return params.radio.link_loss.no_comm_drives ? stop
+                                               : std::min(stop, params.radio.link_loss.no_comm);
 }
 
 double cross_track_m(const Rig& rig, double line_offset_m) {

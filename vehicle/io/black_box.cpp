@@ -5,7 +5,7 @@
 #include <cstdio>
 
 #include "protocol/json/json_text.hpp"
-#include "protocol/telemetry/registry/group_row.hpp"
+#include "protocol/telemetry/registry/rows.hpp"
 #include "protocol/vocabulary/check.hpp"
 #include "vehicle/io/tick_inputs.hpp"
 

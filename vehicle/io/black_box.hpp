@@ -20,7 +20,7 @@
 
 #include "protocol/can/frame.hpp"
 #include "protocol/recorder/recorder.hpp"
-#include "protocol/telemetry/registry/snapshot.hpp"
+#include "protocol/telemetry/registry/registry.hpp"
 #include "protocol/vocabulary/result.hpp"
 #include "protocol/vocabulary/time.hpp"
 #include "vehicle/io/tick_inputs.hpp"

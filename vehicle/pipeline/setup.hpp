@@ -46,7 +46,7 @@ inline constexpr std::size_t kRadioPathsMax = 2;
 struct RadioParams {
   FixedVector<RadioPathParams, kRadioPathsMax> paths;  // empty: defaults for each path
   bool signed_only = false;  // for venues that forbid encryption; both ends must agree
-  safety::LinkLossParams ladder;
+  safety::LinkLossParams link_loss;
 };
 
 struct CarParams {

@@ -23,13 +23,13 @@ constexpr bool causes_are_labelled_as_in_safety() {
 }
 static_assert(causes_are_labelled_as_in_safety(), "telemetry labels of causes are out of date");
 static_assert(telemetry::label_at(telemetry::kArmings,
-                                  static_cast<std::size_t>(safety::Arming::kSpent))
+                                  static_cast<std::size_t>(safety::Arming::kUsed))
                   .starts_with("SPENT"));
 static_assert(telemetry::label_at(telemetry::kBaseStates,
                                   static_cast<std::size_t>(safety::Health::kBad)) == "LOST");
 
-static_assert(telemetry::label_at(telemetry::kLadderRungs,
-                                  static_cast<std::size_t>(safety::RadioRung::kStop)) ==
+static_assert(telemetry::label_at(telemetry::kLinkLossLevels,
+                                  static_cast<std::size_t>(safety::LinkLossLevel::kStop)) ==
               "controlled stop");
 static_assert(telemetry::label_at(telemetry::kSpeedReasons,
                                   static_cast<std::size_t>(planning::Reason::kLineLimit)) ==

@@ -14,7 +14,7 @@
 #include <array>
 #include <cstdint>
 
-#include "protocol/telemetry/registry/snapshot.hpp"
+#include "protocol/telemetry/registry/registry.hpp"
 #include "protocol/vocabulary/time.hpp"
 #include "vehicle/pipeline/step.hpp"
 #include "vehicle/pipeline/tick_log.hpp"

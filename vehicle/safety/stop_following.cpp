@@ -113,9 +113,10 @@ world::ActuatorCommand follow_stop(const FollowingParams& params, FollowingState
   const double dt_s = std::clamp((now - state.last).seconds(), 0.0, kTickMax_s);
   state.last = now;
   world::ActuatorCommand& command = state.command;
-  const bool strays = std::isfinite(state.steered_rad);
+  const bool deviates = std::isfinite(state.steered_rad);
   steering::follow_command(p.steering.learning, state.learned,
-                           strays ? state.steered_rad : command.road_wheel_rad, from_seconds(dt_s));
+                           deviates ? state.steered_rad : command.road_wheel_rad,
+                           from_seconds(dt_s));
   const auto road_at = [&](double ahead_m) -> steering::RoadPoint {
     const PathPoint point = path_at(path, state.segment, state.s_m + ahead_m);
     return {point.curvature_per_m, point.bank_rad};
@@ -128,7 +129,7 @@ world::ActuatorCommand follow_stop(const FollowingParams& params, FollowingState
        .yaw_rate_rad_per_s = pose.yaw_rate_rad_per_s,
        .last_angle_rad = command.road_wheel_rad,
        .angle_max_rad = stop_angle_max_rad(params.gate, params.steering_ratio, v_mps),
-       .bandwidth_share = strays ? p.strayed_bandwidth_share : 1.0},
+       .bandwidth_share = deviates ? p.strayed_bandwidth_share : 1.0},
       from_seconds(dt_s));
   const double slew_rad = params.slew_rad_per_s * dt_s;
   command.road_wheel_rad =

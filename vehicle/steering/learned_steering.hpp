@@ -61,7 +61,7 @@ struct Learned {
   double offset_rad = 0.0, understeer_rad_per_mps2 = 0.0, bend_rad_s6_per_m3 = 0.0, lag_s = 0.0;
   double rear_slip_rad_per_mps2 = 0.0;  // in addition to the model
   double rear_slip_variance = kUnset;
-  // Covariance of the first four, the upper triangle row by row; unset before the first measurement.
+  // Covariance of the first four, upper triangle by rows; unset before the first measurement.
   std::array<double, kLearnedNumbers*(kLearnedNumbers + 1) / 2> covariance{kUnset};
   // Innovation of this tick's update (the residual before it), and its standard deviation by the
   // covariance and the noise; unset where nothing is learned.

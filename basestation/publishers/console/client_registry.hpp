@@ -16,10 +16,10 @@
 #include <string_view>
 #include <vector>
 
-#include "basestation/command/person.hpp"
+#include "basestation/command/audit.hpp"
 #include "basestation/publishers/console/requests.hpp"
 #include "basestation/publishers/console/snapshots.hpp"
-#include "basestation/publishers/web/client.hpp"
+#include "basestation/publishers/web/admission/client.hpp"
 #include "basestation/publishers/web/client_queue.hpp"
 #include "basestation/service/messages/message_log.hpp"
 #include "basestation/service/messages/message_text.hpp"

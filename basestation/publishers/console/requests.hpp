@@ -14,7 +14,7 @@
 
 #include "basestation/command/request.hpp"
 #include "basestation/publishers/bench/bench_link.hpp"
-#include "basestation/publishers/web/client.hpp"
+#include "basestation/publishers/web/admission/client.hpp"
 #include "protocol/vocabulary/result.hpp"
 
 namespace pitwall::publishers::console {

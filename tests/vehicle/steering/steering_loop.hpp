@@ -24,7 +24,7 @@
 namespace pitwall::steering::testing {
 
 constexpr double kComputerAndBus_s = 0.02;
-constexpr double kRelaxation_m = 0.5;      // the longest relaxation length of hil/plant/family
+constexpr double kRelaxation_m = 0.5;      // longest relaxation length of tests/hil/plant/family
 constexpr double kFrictionOfSlopes = 1.3;  // where the rear slope is kRearSlope_n_per_rad
 
 struct LoopCase {

@@ -11,7 +11,7 @@ namespace pitwall::publishers::console {
 namespace {
 
 std::unique_ptr<web::WebServer> server() {
-  auto started = web::WebServer::start({.ip = transport::kLoopbackIp, .port = 0}, {});
+  auto started = web::WebServer::start({.ip = kLoopbackIp, .port = 0}, {});
   EXPECT_TRUE(started);
   return *std::move(started);
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "hil/plant/family/grip_limit.hpp"
+#include "tests/hil/plant/family/grip_limit.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -21,7 +21,7 @@ namespace pitwall::pipeline {
 guardian::Params guardian_params(const CarParams& params);
 
 // The record for the guardian, kept between the ticks.
-struct Reported {
+struct GuardianRecord {
   guardian::CarRecord record;
   guardian::StopVerdict verdict = guardian::StopVerdict::kEmpty;  // of the newest plan
   Instant judged{};                                               // time of that plan
@@ -36,7 +36,7 @@ struct Run {
 
 // Updates the record to this tick and counts refused plans.
 void publish(const Setup& setup, const Car& car, const Outputs& out, const Run& run, Instant now,
-             Reported& reported);
+             GuardianRecord& reported);
 
 // View of a status of any age: only a fresh status of this run takes effect.
 GuardianView view_of(const guardian::Status& status, std::uint64_t run, Instant now);
@@ -45,6 +45,6 @@ GuardianView view_of(const guardian::Status& status, std::uint64_t run, Instant 
 // and no operator has intervened since: a restart alone must not arm the car again.
 bool ended_armed(const guardian::CarRecord& record);
 // Marks the record of a process that ends normally: whether the car stands and may be left.
-void finish(Reported& reported);
+void finish(GuardianRecord& reported);
 
 }  // namespace pitwall::pipeline

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "vehicle/pipeline/guarding.hpp"
+#include "vehicle/pipeline/guardian_interface.hpp"
 
 namespace pitwall::pipeline {
 
@@ -24,14 +24,14 @@ guardian::Params guardian_params(const CarParams& params) {
 }
 
 void publish(const Setup& setup, const Car& car, const Outputs& out, const Run& run, Instant now,
-             Reported& reported) {
+             GuardianRecord& reported) {
   guardian::CarRecord& record = reported.record;
   record.run = run.id;
   ++record.sequence;
   record.at = now;
   record.mode = out.chosen.mode;
   record.armed = out.chosen.actuate;
-  record.speaks = !out.quiet;
+  record.sends = !out.quiet;
   record.reset = run.reset;
   record.barred = run.barred;
   record.finished = false;
@@ -52,8 +52,8 @@ void publish(const Setup& setup, const Car& car, const Outputs& out, const Run& 
 
 GuardianView view_of(const guardian::Status& status, std::uint64_t run, Instant now) {
   GuardianView view;
-  const bool lives = now - status.at <= guardian::kStatusAgeMax;
-  view.drives = lives && guardian::drives(status.mode);
+  const bool alive = now - status.at <= guardian::kStatusAgeMax;
+  view.drives = alive && guardian::drives(status.mode);
   view.stopped = status.latched && status.run == run;
   view.drove_from = status.drove_from;
   view.drove_until = status.drove_until;
@@ -66,7 +66,7 @@ bool ended_armed(const guardian::CarRecord& record) {
   return record.run != 0 && ((record.armed && !record.finished) || record.barred);
 }
 
-void finish(Reported& reported) {
+void finish(GuardianRecord& reported) {
   const world::Mode mode = reported.record.mode;
   ++reported.record.sequence;
   reported.record.finished = mode == world::Mode::kDisarmed || mode == world::Mode::kStandby ||

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "hil/plant/family/car_family.hpp"
+#include "tests/hil/plant/family/car_family.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 
-#include "hil/plant/family/grip_limit.hpp"
-#include "hil/plant/family/steady_turn.hpp"
 #include "protocol/vocabulary/check.hpp"
 #include "protocol/vocabulary/random.hpp"
 #include "protocol/vocabulary/units.hpp"
+#include "tests/hil/plant/family/grip_limit.hpp"
+#include "tests/hil/plant/family/steady_turn.hpp"
 
 namespace pitwall::plant {
 namespace {

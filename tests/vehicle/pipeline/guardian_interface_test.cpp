@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "vehicle/pipeline/guarding.hpp"
+#include "vehicle/pipeline/guardian_interface.hpp"
 
 #include <gtest/gtest.h>
 
@@ -13,7 +13,7 @@ namespace {
 using guardian::Mode;
 using guardian::Status;
 
-TEST(Guarding, TheGuardianHasTheCarsOwnParameters) {
+TEST(GuardianInterface, TheGuardianHasTheCarsOwnParameters) {
   const CarParams& car = av21_file().params;
   const guardian::Params p = guardian_params(car);
   EXPECT_EQ(p.reckoning.steering_ratio, car.outbound.steering_ratio);
@@ -28,7 +28,7 @@ TEST(Guarding, TheGuardianHasTheCarsOwnParameters) {
 struct Teller {
   std::unique_ptr<Car> car = std::make_unique<Car>();
   Outputs out;
-  Reported reported;
+  GuardianRecord reported;
   Instant now = kStart;
 
   // A car on the reference line, with the plan that planning makes there.
@@ -55,7 +55,7 @@ struct Teller {
   }
 };
 
-TEST(Guarding, PublishesTheStopThatPlanningKeepsReady) {
+TEST(GuardianInterface, PublishesTheStopThatPlanningKeepsReady) {
   Teller t;
   t.now += kTick;
   t.plan(300.0);
@@ -66,14 +66,14 @@ TEST(Guarding, PublishesTheStopThatPlanningKeepsReady) {
   EXPECT_EQ(t.reported.record.stop.points.size(), world::kTrajectoryPoints);
   EXPECT_EQ(t.reported.record.stop.points.back().speed_mps, 0.0) << "it reaches standstill";
   EXPECT_TRUE(t.reported.record.armed);
-  EXPECT_TRUE(t.reported.record.speaks);
+  EXPECT_TRUE(t.reported.record.sends);
   EXPECT_EQ(t.reported.record.run, 9u);
   EXPECT_EQ(t.reported.record.sequence, 1u);
   EXPECT_EQ(t.reported.record.at, t.now);
   EXPECT_EQ(t.reported.record.datum.latitude_deg, setup().track.datum_latitude_deg());
 }
 
-TEST(Guarding, AStopThatFailsItsCheckIsNotPublishedAndTheOneBeforeStays) {
+TEST(GuardianInterface, AStopThatFailsItsCheckIsNotPublishedAndTheOneBeforeStays) {
   Teller t;
   t.now += kTick;
   t.plan(300.0);
@@ -89,15 +89,15 @@ TEST(Guarding, AStopThatFailsItsCheckIsNotPublishedAndTheOneBeforeStays) {
   EXPECT_EQ(t.reported.refused, 1u) << "one plan is judged once";
 }
 
-TEST(Guarding, AQuietCarSaysThatItDoesNotSpeak) {
+TEST(GuardianInterface, AQuietCarReportsThatItDoesNotSend) {
   Teller t;
   t.out.quiet = true;
   t.tick(true);
-  EXPECT_FALSE(t.reported.record.speaks);
+  EXPECT_FALSE(t.reported.record.sends);
   EXPECT_TRUE(t.reported.record.reset);
 }
 
-TEST(Guarding, ADeadGuardianDoesNotDriveButWhatItDidCounts) {
+TEST(GuardianInterface, ADeadGuardianDoesNotDriveButWhatItDidCounts) {
   Status status;
   status.run = 9;
   status.mode = Mode::kDriving;
@@ -109,14 +109,14 @@ TEST(Guarding, ADeadGuardianDoesNotDriveButWhatItDidCounts) {
     EXPECT_TRUE(view.stopped) << "until a reset";
   }
   EXPECT_FALSE(view_of(status, 10, kStart).stopped) << "that was another run";
-  EXPECT_TRUE(view_of(status, 10, kStart).drives) << "but it speaks, whosever run it was";
+  EXPECT_TRUE(view_of(status, 10, kStart).drives) << "but it drives, whosever run it was";
   for (const Mode mode : {Mode::kIdle, Mode::kWatching, Mode::kHandedBack, Mode::kNothingToDrive}) {
     status.mode = mode;
     EXPECT_FALSE(view_of(status, 9, kStart).drives);
   }
 }
 
-TEST(Guarding, ARunEndedArmedUnlessItSaysOtherwise) {
+TEST(GuardianInterface, ARunEndedArmedUnlessItSaysOtherwise) {
   guardian::CarRecord record;
   EXPECT_FALSE(ended_armed(record)) << "there was none";
   record.run = 1;
@@ -129,11 +129,11 @@ TEST(Guarding, ARunEndedArmedUnlessItSaysOtherwise) {
   EXPECT_TRUE(ended_armed(record)) << "nobody has looked since";
 }
 
-TEST(Guarding, OnlyACarThatStandsIsLeftInOrder) {
+TEST(GuardianInterface, OnlyACarThatStandsIsLeftInOrder) {
   for (const auto mode :
        {world::Mode::kDisarmed, world::Mode::kStandby, world::Mode::kDriving,
         world::Mode::kControlledStop, world::Mode::kEmergencyStop, world::Mode::kHalted}) {
-    Reported reported;
+    GuardianRecord reported;
     reported.record.run = 1;
     reported.record.armed = true;
     reported.record.mode = mode;
@@ -143,8 +143,8 @@ TEST(Guarding, OnlyACarThatStandsIsLeftInOrder) {
   }
 }
 
-// While the guardian drives the car says nothing, and its command follows the guardian's.
-TEST(Guarding, AStepIsQuietWhileTheGuardianDrives) {
+// While the guardian drives the car sends nothing, and its command follows the guardian's.
+TEST(GuardianInterface, AStepIsQuietWhileTheGuardianDrives) {
   const auto car = std::make_unique<Car>();
   car->supervisor.mode = world::Mode::kDriving;
   GuardianView view;
@@ -172,7 +172,7 @@ TEST(Guarding, AStepIsQuietWhileTheGuardianDrives) {
 }
 
 // The guardian's frames bear the car's ids.
-TEST(Guarding, FramesOfTheGuardianAreNoForeignNode) {
+TEST(GuardianInterface, FramesOfTheGuardianAreNoForeignNode) {
   for (const bool drove : {true, false}) {
     const auto car = std::make_unique<Car>();
     can::ReceivedFrame frame;

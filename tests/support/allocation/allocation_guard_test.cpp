@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "protocol/transport/allocation_count.hpp"
+#include "tests/support/allocation_guard.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <thread>
 #include <vector>
 
-namespace pitwall::transport {
+namespace pitwall::testing {
 namespace {
 
 // Kept where the compiler cannot see that nobody reads it.
@@ -54,4 +54,4 @@ TEST_F(AllocationCount, WhatAnotherThreadTakesIsItsOwn) {
 }
 
 }  // namespace
-}  // namespace pitwall::transport
+}  // namespace pitwall::testing

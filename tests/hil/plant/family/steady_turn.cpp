@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "hil/plant/family/steady_turn.hpp"
+#include "tests/hil/plant/family/steady_turn.hpp"
 
 #include "hil/plant/plant.hpp"
 
