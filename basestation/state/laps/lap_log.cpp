@@ -32,17 +32,21 @@ LapLog::LapLog(double length_m)
       progress_(length_m) {}
 
 void LapLog::note(const telemetry::Snapshot& state, telemetry::GroupSet groups) {
+  constexpr telemetry::Group kTrack = telemetry::Group::kTrack;
+  bool news = false;
   for (const auto& [column, index] : kSources) {
     const telemetry::Group group = telemetry::kFields[index].group;
     if (!groups.has(group) || !state.ever(group)) continue;
     samples_[index_of(column)].note(state.at(group), state.values[index]);
+    news = true;
   }
-  constexpr telemetry::Group kTrack = telemetry::Group::kTrack;
   if (groups.has(kTrack) && state.ever(kTrack)) {
     follow(progress_.take(state.at(kTrack), state.values[field("track.station")]));
     const double number = state.values[field("track.lap")];
     if (!laps_.empty() && std::isfinite(number)) laps_.back().number = number;
+    news = true;
   }
+  if (!news) return;
   for (const auto& [column, index] : kSources) settle(column);
 }
 

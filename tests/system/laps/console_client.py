@@ -1,4 +1,4 @@
-"""A console as a socket: the WebSocket of the base (RFC 6455) and its messages, by a second hand."""
+"""A console as a socket: the base's WebSocket (RFC 6455) and its messages, by a second hand."""
 # SPDX-License-Identifier: Apache-2.0
 import json
 import os

@@ -1,5 +1,5 @@
-"""A drive around a track whose way over time is known in closed form, as a recording of a base: MCAP
-written by a second hand, from https://mcap.dev/spec. And the samples of any such recording.
+"""A drive around a track whose way over time is known in closed form, as a recording of a base:
+MCAP written by a second hand, from https://mcap.dev/spec. And the samples of any such recording.
 """
 # SPDX-License-Identifier: Apache-2.0
 import pathlib
@@ -53,7 +53,7 @@ def pairs(values):
 
 def write_segment(path, times_s, length_m, begin_m):
     out = [record(HEADER, text("") + text("second hand")),
-           record(METADATA, text("pitwall") + pairs({"utc_minus_base_ns": str(UTC_MINUS_BASE_NS),
+           record(METADATA, text("run") + pairs({"utc_minus_base_ns": str(UTC_MINUS_BASE_NS),
                                                      "boot": "of the drive"}))]
     for number, (group, (fields, _)) in enumerate(CHANNELS.items(), 1):
         schema = "".join(f"float64 {field}\n" for field in fields)
