@@ -4,6 +4,7 @@
  */
 // SPDX-License-Identifier: Apache-2.0
 import { describe, expect, test } from "vitest";
+import { lap as encodeLap } from "../../../tests/system/console/wire.mjs";
 import { columnOf, deltaOf, noDeltaText, pointAt, remarkOf } from "../src/pages/laps/comparison";
 import type { Compared } from "../src/pages/laps/comparison";
 import { reasonText } from "../src/pages/primary/limit_words";
@@ -45,13 +46,8 @@ const lap = (id: number, time: number[], more: Partial<LapRow> = {}): Compared =
 });
 
 function frame(columns: number[][]): DataView {
-  const view = new DataView(new ArrayBuffer(24 + 16 + 4 * columns.length * columns[0].length));
-  view.setUint8(0, 3);
-  view.setUint8(1, 1);
-  [7, columns.length, columns[0].length].forEach((n, i) => view.setUint32(24 + 4 * i, n, true));
-  view.setFloat32(36, 2.5, true);
-  columns.flat().forEach((value, i) => view.setFloat32(40 + 4 * i, value, true));
-  return view;
+  const { buffer, byteOffset, byteLength } = encodeLap(7, columns, { timeMs: 1, stepM: 2.5 });
+  return new DataView(buffer, byteOffset, byteLength);
 }
 
 describe("the frame of a lap", () => {
@@ -66,9 +62,9 @@ describe("the frame of a lap", () => {
   test("may have more columns, and is refused with fewer or cut", () => {
     expect(readLap(frame([...columns, [9, 9, 9]]))!.columns.brake[0]).toBe(4);
     expect(readLap(frame(columns.slice(1)))).toBeNull();
-    const { buffer } = frame(columns);
-    expect(readLap(new DataView(buffer, 0, buffer.byteLength - 1))).toBeNull();
-    expect(readLap(new DataView(buffer, 0, 30))).toBeNull();
+    const { buffer, byteOffset, byteLength } = frame(columns);
+    expect(readLap(new DataView(buffer, byteOffset, byteLength - 1))).toBeNull();
+    expect(readLap(new DataView(buffer, byteOffset, 30))).toBeNull();
   });
 });
 

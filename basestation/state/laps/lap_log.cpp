@@ -42,12 +42,18 @@ void LapLog::note(const telemetry::Snapshot& state, telemetry::GroupSet groups) 
   }
   if (groups.has(kTrack) && state.ever(kTrack)) {
     follow(progress_.take(state.at(kTrack), state.values[field("track.station")]));
-    const double number = state.values[field("track.lap")];
-    if (!laps_.empty() && std::isfinite(number)) laps_.back().number = number;
+    count_lap(state.values[field("track.lap")]);
     news = true;
   }
   if (!news) return;
   for (const auto& [column, index] : kSources) settle(column);
+}
+
+// The count comes later than the line.
+void LapLog::count_lap(double number) {
+  if (laps_.empty() || !std::isfinite(number) || laps_.back().number == number) return;
+  laps_.back().number = number;
+  ++revision_;
 }
 
 void LapLog::follow(const LapMove& move) {

@@ -42,7 +42,7 @@ class LapLog {
   double length_m() const { return length_m_; }
   double step_m() const { return step_m_; }
   std::size_t points() const { return points_; }
-  // Changes when a lap begins or ends.
+  // Changes when a lap begins, ends or gets its count.
   std::uint64_t revision() const { return revision_; }
 
  private:
@@ -52,6 +52,7 @@ class LapLog {
     std::size_t point = 0;
   };
 
+  void count_lap(double number);
   void follow(const LapMove& move);
   void begin_lap(Instant at, double way_m, bool seen);
   void end_lap(Instant at, bool seen);

@@ -158,6 +158,17 @@ TEST_F(Laps, ACarThatStandsOnTheLineDrivesNoLaps) {
   EXPECT_TRUE(log_.laps().front().running);
 }
 
+TEST_F(Laps, ACountThatComesLaterIsAChange) {
+  drive(0.0, 10.0);
+  const std::uint64_t before = log_.revision();
+  drive(10.0, 10.4);
+  EXPECT_EQ(log_.revision(), before);
+  state_.values[telemetry::field("track.lap")] = 77.0;
+  tell(Group::kTrack, 10.41);
+  EXPECT_EQ(nth(log_.laps().size() - 1).number, 77.0);
+  EXPECT_GT(log_.revision(), before);
+}
+
 TEST_F(Laps, ASampleExactlyAtAPointIsThatPoint) {
   state_.values[telemetry::field("ego.vx")] = 50.0;
   for (int i = 0; i < 40; ++i) {

@@ -36,7 +36,7 @@ export function LapTable({ shown }: { shown: LapRow | null }) {
           <thead>
             <tr>
               <th>lap</th>
-              <th>count</th>
+              <th>counted</th>
               <th>began</th>
               <th>time</th>
               <th>to best</th>
