@@ -35,6 +35,7 @@ ReplayConsole::ReplayConsole(service::ServiceConfig config, replay::Player playe
   messages_.subscribe([this](std::string_view, std::string_view text, Instant) {
     clients_.send_to_all(std::string{text});
   });
+  if (laps() != nullptr) messages_.set_state("laps", service::laps_text(*laps()), player_.begin());
   restart(player_.begin());
   jumps_ = 0;
   clients_.identify(
@@ -179,12 +180,11 @@ void ReplayConsole::restart(Instant to) {
   evaluator_.emplace(config_.evaluator);
   settings_pending_ = true;
   received_.reset();
-  messages_.clear();
+  messages_.clear("laps");
   clients_.want_full();
   ++jumps_;
   // Before anything is told anew: who hears of the jump afterwards would forget that, too.
   messages_.set_state("playback", playback_text(), to);
-  if (laps() != nullptr) messages_.set_state("laps", service::laps_text(*laps()), to);
 }
 
 void run_replay(ReplayConsole& console, int server, int stop, Duration duration,

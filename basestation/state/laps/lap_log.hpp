@@ -22,7 +22,7 @@
 #include "basestation/state/laps/lap.hpp"
 #include "basestation/state/laps/lap_progress.hpp"
 #include "basestation/state/laps/recent_samples.hpp"
-#include "protocol/telemetry/registry/snapshot.hpp"
+#include "protocol/telemetry/registry/registry.hpp"
 
 namespace pitwall::state {
 
