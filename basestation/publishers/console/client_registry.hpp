@@ -85,6 +85,7 @@ class ClientRegistry {
   // called before anything else is sent.
   void greet_new_clients();
   std::string hello(ClientId client, Instant now) const;
+  void send_lap(ClientId client, const AskLap& ask, const StateSource& source, Instant now);
   void send_history(ClientId client, const AskHistory& ask, const StateSource& source, Instant now);
 
   std::string catalogue_;
