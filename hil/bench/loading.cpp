@@ -7,6 +7,7 @@
 #include "hil/plant/plant_file.hpp"
 #include "protocol/transport/file.hpp"
 #include "vehicle/parameters/car_file.hpp"
+#include "vehicle/parameters/car_setup.hpp"
 #include "vehicle/parameters/track_file.hpp"
 
 namespace pitwall::bench {
@@ -41,7 +42,8 @@ Result<Loaded, Problem> load(const std::string& scenario_file, const std::string
     if (!plant) return Unexpected{plant.error()};
     scenario->plant = plant->params;
   }
-  auto setup = pipeline::prepare(car->params, *track);
+  auto setup = parameters::set_up(
+      *car, *track, [](const std::string& path) { return transport::read_file(path); });
   if (!setup) return Unexpected{setup.error()};
   for (std::size_t unit = 0; scenario->receivers && unit < scenario->receivers->size(); ++unit)
     setup->params.receivers[unit].kind = (*scenario->receivers)[unit];
