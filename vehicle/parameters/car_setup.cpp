@@ -10,7 +10,7 @@
 namespace pitwall::parameters {
 namespace {
 
-constexpr std::string_view kTrackMark = "{track}";
+constexpr std::string_view kTrackMark = "<track>";
 
 std::string folder_with_slash(const std::string& path) {
   return path.substr(0, path.rfind('/') + 1);

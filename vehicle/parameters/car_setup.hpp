@@ -24,7 +24,7 @@ using ReadFile = std::function<Result<std::string, Problem>(const std::string& p
 Result<pipeline::Setup, Problem> set_up(const CarFile& car, const world::TrackDescription& track,
                                         const ReadFile& read_file);
 
-// Relative to the folder of the car file; {track} is the name of the track file without its ending.
+// Relative to the folder of the car file; <track> is the name of the track file without its ending.
 // Empty: the car file names no bank.
 std::string bank_path(const CarFile& car, const world::TrackDescription& track);
 

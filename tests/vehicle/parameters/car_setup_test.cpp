@@ -28,7 +28,7 @@ CarFile car_with(const std::string& line_keys) {
 }
 
 CarFile car_on(const std::string& name) {
-  return car_with("    bank: ../racelines/{track}.json\n    name: " + name + "\n");
+  return car_with("    bank: ../racelines/<track>.json\n    name: " + name + "\n");
 }
 
 world::TrackDescription track() {
@@ -116,10 +116,10 @@ TEST(CarSetup, TheBankLiesBesideTheCarFile) {
     car.params.planning.line.bank = bank;
     return bank_path(car, track());
   };
-  EXPECT_EQ(path("../racelines/{track}.json", "config/cars/car.yaml"),
+  EXPECT_EQ(path("../racelines/<track>.json", "config/cars/car.yaml"),
             "config/cars/../racelines/stadium.json");
   EXPECT_EQ(path("bank.json", "car.yaml"), "bank.json");
-  EXPECT_EQ(path("/var/{track}.json", "config/car.yaml"), "/var/stadium.json");
+  EXPECT_EQ(path("/var/<track>.json", "config/car.yaml"), "/var/stadium.json");
   EXPECT_EQ(path("", "config/car.yaml"), "");
 }
 

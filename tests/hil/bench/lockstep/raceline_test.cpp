@@ -46,7 +46,7 @@ class Course {
             had(parameters::read_track(had(transport::read_file(track_file_)), track_file_))) {
     const std::string av21 = had(transport::read_file(kTree + "/vehicle/config/cars/av21.yaml"));
     const std::string named =
-        with(av21, "    offset_m: 0.0\n", "    bank: {track}.json\n    name: " + line + "\n");
+        with(av21, "    offset_m: 0.0\n", "    bank: <track>.json\n    name: " + line + "\n");
     had(transport::write_file(path("car.yaml"), named));
     const auto car = had(parameters::read_car(named, path("car.yaml")));
     const auto map = had(world::TrackMap::build(description_));
