@@ -31,6 +31,11 @@ std::string bank_path(const CarFile& car, const world::TrackDescription& track) 
   return path.starts_with('/') ? path : folder_with_slash(car.source) + path;
 }
 
+raceline::BankParams bank_for(const pipeline::CarParams& car) {
+  const double beside_m = car.planning.line.wall_clearance_m - 0.5 * car.width_m;
+  return {.car_width_m = car.width_m, .clearance_m = beside_m + raceline::kExcessAllowed_m};
+}
+
 raceline::CarLimits limits_of(const pipeline::CarParams& car) {
   const planning::LineParams& line = car.planning.line;
   const double ratio = car.outbound.steering_ratio;

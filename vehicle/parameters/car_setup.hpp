@@ -14,6 +14,7 @@
 #include "protocol/vocabulary/result.hpp"
 #include "vehicle/parameters/car_file.hpp"
 #include "vehicle/pipeline/setup.hpp"
+#include "vehicle/raceline/bank_builder.hpp"
 #include "vehicle/raceline/line_check.hpp"
 #include "vehicle/world/track_map.hpp"
 
@@ -28,6 +29,8 @@ Result<pipeline::Setup, Problem> set_up(const CarFile& car, const world::TrackDe
 // Empty: the car file names no bank.
 std::string bank_path(const CarFile& car, const world::TrackDescription& track);
 
+// Of a bank whose lines keep the car's wall clearance.
+raceline::BankParams bank_for(const pipeline::CarParams& car);
 // What the car can do on a raceline.
 raceline::CarLimits limits_of(const pipeline::CarParams& car);
 

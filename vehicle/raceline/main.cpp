@@ -25,7 +25,7 @@ constexpr int kExitDone = 0, kExitRefused = 2;
 
 struct Arguments {
   std::string track_file, car_file, out_file, check_file, apex_file, picture_file, report_file;
-  double clearance_m = raceline::BankParams{}.clearance_m;
+  std::optional<double> clearance_m;
 };
 
 int refuse(const Problem& problem) {
@@ -42,15 +42,17 @@ void add_options(CLI::App& app, Arguments& args) {
   app.add_option("--apexes", args.apex_file, "apexes chosen by a person (.yaml)")->excludes(check);
   app.add_option("--picture", args.picture_file, "write a picture here (.svg)");
   app.add_option("--report", args.report_file, "write the figures of the checks here (.json)");
-  app.add_option("--clearance", args.clearance_m, "beside the car to the sides of a lane, m")
+  app.add_option("--clearance", args.clearance_m,
+                 "beside the car to the sides of a lane, m; if not given, what the car file wants "
+                 "to the walls")
       ->check(CLI::Range(0.0, 5.0))
-      ->excludes(check)
-      ->capture_default_str();
+      ->excludes(check);
 }
 
 Result<raceline::RacelineBank, Problem> make(const Arguments& args,
                                              const world::TrackDescription& description,
-                                             const world::TrackMap& map, double width_m) {
+                                             const world::TrackMap& map,
+                                             const pipeline::CarParams& car) {
   raceline::ChosenApexes chosen;
   if (!args.apex_file.empty()) {
     const auto text = transport::read_file(args.apex_file);
@@ -59,8 +61,9 @@ Result<raceline::RacelineBank, Problem> make(const Arguments& args,
     if (!apexes) return Unexpected{apexes.error()};
     chosen = *std::move(apexes);
   }
-  return raceline::build_bank(description, map,
-                              {.car_width_m = width_m, .clearance_m = args.clearance_m}, chosen);
+  raceline::BankParams params = parameters::bank_for(car);
+  if (args.clearance_m) params.clearance_m = *args.clearance_m;
+  return raceline::build_bank(description, map, params, chosen);
 }
 
 Result<raceline::RacelineBank, Problem> load(const Arguments& args,
@@ -92,7 +95,7 @@ int run(const Arguments& args) {
   const auto car = parameters::read_car(*car_text, args.car_file);
   if (!car) return refuse(car.error());
   const raceline::CarLimits limits = parameters::limits_of(car->params);
-  const auto bank = args.check_file.empty() ? make(args, *description, *map, limits.width_m)
+  const auto bank = args.check_file.empty() ? make(args, *description, *map, car->params)
                                             : load(args, *description, *map, limits);
   if (!bank) return refuse(bank.error());
   const raceline::Lanes lanes{*map};

@@ -104,7 +104,7 @@ class ProgramTest(unittest.TestCase):
                     "the curvature jumps: the points turn with 0.00")
 
     def test_a_wider_car_leaves_its_lane(self):
-        bank = self.make("lvms.yaml")
+        bank = self.make("lvms.yaml", "--clearance", "0.3")
         wide = self.folder / "wide.yaml"
         wide.write_text(CAR.read_text().replace("width_m: 1.93", "width_m: 2.8", 1))
         self.refuse(raceline("lvms.yaml", "--check", bank, car=wide),

@@ -38,9 +38,8 @@ world::TrackDescription track() {
 }
 
 const RacelineBank& bank() {
-  static const RacelineBank built = valid(
-      raceline::build_bank(track(), valid(world::TrackMap::build(track())),
-                           {.car_width_m = car_on("track/minimum_curvature").params.width_m}));
+  static const RacelineBank built = valid(raceline::build_bank(
+      track(), valid(world::TrackMap::build(track())), bank_for(car_on("inner/apex").params)));
   return built;
 }
 
@@ -188,9 +187,17 @@ TEST(CarSetup, ALineThatCrossesItselfIsRefused) {
   expect_parts(why, {kFile, "inner/apex: s = ", "the line crosses itself, at s = "});
 }
 
+TEST(CarSetup, ALineThatComesTooCloseToAWallIsRefused) {
+  CarFile careful = car_on("inner/apex");
+  EXPECT_EQ(Disk{bank()}.refusal(careful), "");
+  careful.params.planning.line.wall_clearance_m += 0.1;
+  expect_parts(Disk{bank()}.refusal(careful),
+               {"line.wall_clearance_m", kFile, "inner/apex: s = ", "m from a wall, at least 1.6"});
+}
+
 TEST(CarSetup, ALineForANarrowerCarIsRefused) {
   CarFile wide = car_on("inner/apex");
-  wide.params.width_m += 0.7;  // the bank leaves 0.3 m to either side
+  wide.params.width_m += 0.2 + 2.0 * bank_for(wide.params).clearance_m;
   expect_parts(Disk{bank()}.refusal(wide), {kFile, "s = ", "leaves the inner lane"});
 }
 

@@ -142,6 +142,21 @@ std::optional<Problem> off_road(const world::TrackMap& track, const LineParams& 
   return std::nullopt;
 }
 
+// The first place where a raceline comes too close to a wall; the car's side may not reach it even
+// where the car strays.
+std::optional<Problem> too_close(const LineParams& params, const Line& line,
+                                 const std::string& source) {
+  for (const LinePoint& p : line.points) {
+    const double room_m = std::min(p.room_left_m, p.room_right_m);
+    if (room_m >= params.wall_clearance_m) continue;
+    return Problem{"line.wall_clearance_m",
+                   source + ": " + params.name + ": s = " + std::to_string(p.s_m) +
+                       " m: " + std::to_string(room_m) + " m from a wall, at least " +
+                       std::to_string(params.wall_clearance_m)};
+  }
+  return std::nullopt;
+}
+
 std::string names_of(const world::RacelineBank& bank) {
   std::string names;
   for (const world::Raceline& line : bank.lines) names += (names.empty() ? "" : ", ") + line.name;
@@ -245,6 +260,7 @@ Result<Line, Problem> build_line(const world::TrackMap& track, const LineParams&
     if (!number) return Unexpected{number.error()};
     line.number = *number;
     place_points(track, bank->lines[*number - 1], line);
+    if (auto problem = too_close(params, line, bank->source)) return Unexpected{*problem};
   } else {
     if (auto problem = off_road(track, params)) return Unexpected{*problem};
     place_points(track, params, line);

@@ -25,7 +25,7 @@ namespace pitwall::planning {
 struct LineParams {
   std::string bank = {}, name = {};  // file of a bank and its line; empty: a line at an offset
   double offset_m = kUnset;          // from the track's reference line; 0 with a bank
-  double wall_clearance_m = kUnset;  // minimum from a line at an offset to a wall
+  double wall_clearance_m = kUnset;  // minimum from the centre of gravity to a wall
   double spacing_m = kUnset;         // of a line at an offset
   double speed_max_mps = kUnset;
   double grip_share = kUnset;  // usable share of the friction ellipse
