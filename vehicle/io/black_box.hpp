@@ -30,7 +30,7 @@ namespace pitwall::io {
 
 // What the car was set up from.
 struct BlackBoxFiles {
-  std::string car, track, bank;  // no bank: empty
+  std::string car = {}, track = {}, bank = {};  // no bank: empty
 };
 
 class BlackBox {
