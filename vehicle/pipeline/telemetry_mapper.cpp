@@ -34,6 +34,7 @@ static_assert(telemetry::label_at(telemetry::kLinkLossLevels,
 static_assert(telemetry::label_at(telemetry::kSpeedReasons,
                                   static_cast<std::size_t>(planning::Reason::kLineLimit)) ==
               "line");
+static_assert(telemetry::kFields[field("planner.line")].max == planning::kLinesMost);
 
 template <class E>
 double number_of(E value) {
