@@ -222,13 +222,13 @@ TEST(AutonomySection, ALineIsThatOfABankOrLiesAtAnOffset) {
     std::size_t below;  // line of the error, below that of the offset
     std::string word;
   };
-  for (const Case& c :
-       std::vector<Case>{{"    bank: a.json\n    name: x\n    offset_m: 0.0\n", 2, "offset_m"},
-                         {"    bank: a.json\n    offset_m: 0.0\n", 0, "name"},
-                         {"    bank: a.json\n", 0, "name"},
-                         {"    bank: \"\"\n    name: x\n", 0, "names no file"},
-                         {"    name: x\n    offset_m: 0.0\n", 0, "name"},
-                         {"", 0, "offset_m"}}) {
+  for (const Case& c : std::vector<Case>{
+           {"    bank: a.json\n    name: x\n    offset_m: 0.0\n", 2, "a line of a bank is named"},
+           {"    bank: a.json\n    offset_m: 0.0\n", 0, "name"},
+           {"    bank: a.json\n", 0, "name"},
+           {"    bank: \"\"\n    name: x\n", 0, "names no file"},
+           {"    name: x\n    offset_m: 0.0\n", 0, "name"},
+           {"", 0, "offset_m"}}) {
     const std::string why = refusal(with(av21(), offset, c.keys));
     EXPECT_EQ(why.rfind("car.yaml:" + std::to_string(line + c.below) + ":", 0), 0u) << why;
     EXPECT_NE(why.find(c.word), std::string::npos) << why;
