@@ -162,7 +162,7 @@ TEST(Raceline, TheCarFollowsTheLeastCurvatureOfLasVegas) {
 TEST(Raceline, TheCarFollowsTheLeastCurvatureOfIndianapolis) {
   drive("ims", "track/minimum_curvature");
 }
-// At 147 mph this car strays up to 0.96 m from the reference line of Texas, which is more than its
+// At 147 mph this car strays up to 0.85 m from the reference line of Texas, which is more than its
 // wall clearance leaves beside it. The law allows itself stray_max_m.
 TEST(Raceline, TheCarFollowsTheLeastCurvatureOfTexas) {
   drive("tms", "track/minimum_curvature", kOfTheLaw);
