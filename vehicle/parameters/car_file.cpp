@@ -30,6 +30,7 @@ CarFile read_root(yaml::StrictMap& map) {
   car.database = map.text("database");
   if (car.database != "av21")
     map.fail("database", "\"" + car.database + "\" is not built in; built in: av21");
+  read_ranges(map, pipeline::kCarRanges, car.params);
   car.params.rates = read_rates(map.map("rates"));
   read_gateway(map.map("gateway"), car.params);
   car.params.localization = read_localization(map.map("localization"), car.params.receivers);
@@ -57,7 +58,9 @@ CarFile read_root(yaml::StrictMap& map) {
 Result<CarFile, Problem> read_car(const std::string& text, const std::string& name) {
   const auto document = yaml::load_text(text, name);
   if (!document) return Unexpected{document.error()};
-  return yaml::read(*document, read_root);
+  auto car = yaml::read(*document, read_root);
+  if (car) car->source = name;
+  return car;
 }
 
 }  // namespace pitwall::parameters

@@ -18,7 +18,7 @@
 #include "protocol/vocabulary/time.hpp"
 #include "vehicle/pipeline/step.hpp"
 #include "vehicle/pipeline/tick_log.hpp"
-#include "vehicle/world/receiver_traffic.hpp"
+#include "vehicle/world/receiver.hpp"
 
 namespace pitwall::pipeline {
 

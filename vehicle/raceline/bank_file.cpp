@@ -87,7 +87,7 @@ Result<RacelineBank, Problem> read_bank(std::string_view text, const std::string
                                         const world::TrackMap& track, const CarLimits& car) {
   const auto root = json::JsonValue::parse(text, name);
   if (!root) return Unexpected{root.error()};
-  RacelineBank bank{track.name(), fingerprint_of(description), {}};
+  RacelineBank bank{track.name(), fingerprint_of(description), {}, name};
   if (auto problem = fault_of_head(*root, name, bank.track, bank.track_fingerprint))
     return Unexpected{*std::move(problem)};
   const Lanes lanes{track};

@@ -2,15 +2,14 @@
 // Wires files to the builder, the checks, the report and the picture.
 // SPDX-License-Identifier: Apache-2.0
 #include <CLI/CLI.hpp>
-#include <cmath>
 #include <cstdio>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "protocol/transport/file.hpp"
-#include "vehicle/autonomy/planning/friction.hpp"
 #include "vehicle/parameters/car_file.hpp"
+#include "vehicle/parameters/car_setup.hpp"
 #include "vehicle/parameters/track_file.hpp"
 #include "vehicle/raceline/apex_file.hpp"
 #include "vehicle/raceline/bank_builder.hpp"
@@ -26,7 +25,7 @@ constexpr int kExitDone = 0, kExitRefused = 2;
 
 struct Arguments {
   std::string track_file, car_file, out_file, check_file, apex_file, picture_file, report_file;
-  raceline::BankParams bank;
+  std::optional<double> clearance_m;
 };
 
 int refuse(const Problem& problem) {
@@ -43,34 +42,17 @@ void add_options(CLI::App& app, Arguments& args) {
   app.add_option("--apexes", args.apex_file, "apexes chosen by a person (.yaml)")->excludes(check);
   app.add_option("--picture", args.picture_file, "write a picture here (.svg)");
   app.add_option("--report", args.report_file, "write the figures of the checks here (.json)");
-  app.add_option("--car-width", args.bank.car_width_m, "over the wheels, m")
-      ->check(CLI::Range(0.5, 3.0))
-      ->capture_default_str();
-  app.add_option("--clearance", args.bank.clearance_m, "beside the car to the sides of a lane, m")
+  app.add_option("--clearance", args.clearance_m,
+                 "beside the car to the sides of a lane, m; if not given, what the car file wants "
+                 "to the walls")
       ->check(CLI::Range(0.0, 5.0))
-      ->excludes(check)
-      ->capture_default_str();
-}
-
-raceline::CarLimits limits_of(const pipeline::CarParams& car, double width_m) {
-  const planning::LineParams& line = car.planning.line;
-  const double ratio = car.outbound.steering_ratio;
-  constexpr double kStanding_mps = 0.0;  // where the steering reaches furthest
-  return {.width_m = width_m,
-          .wheelbase_m = car.control.steering.bicycle.wheelbase_m,
-          .steer_max_rad = from_deg(safety::steer_limit_deg(car.gate, kStanding_mps)) / ratio,
-          .steer_rate_max_rad_per_s = from_deg(car.gate.steer_slew_deg_per_s) / ratio,
-          .corner_speed_mps = [line](double curvature_per_m, double bank_rad) {
-            const double speed_mps = planning::corner_speed_mps(
-                line.friction, {.curvature_per_m = curvature_per_m, .bank_rad = bank_rad},
-                line.grip_share);
-            return std::min(speed_mps, line.speed_max_mps);
-          }};
+      ->excludes(check);
 }
 
 Result<raceline::RacelineBank, Problem> make(const Arguments& args,
                                              const world::TrackDescription& description,
-                                             const world::TrackMap& map) {
+                                             const world::TrackMap& map,
+                                             const pipeline::CarParams& car) {
   raceline::ChosenApexes chosen;
   if (!args.apex_file.empty()) {
     const auto text = transport::read_file(args.apex_file);
@@ -79,7 +61,9 @@ Result<raceline::RacelineBank, Problem> make(const Arguments& args,
     if (!apexes) return Unexpected{apexes.error()};
     chosen = *std::move(apexes);
   }
-  return raceline::build_bank(description, map, args.bank, chosen);
+  raceline::BankParams params = parameters::bank_for(car);
+  if (args.clearance_m) params.clearance_m = *args.clearance_m;
+  return raceline::build_bank(description, map, params, chosen);
 }
 
 Result<raceline::RacelineBank, Problem> load(const Arguments& args,
@@ -110,8 +94,8 @@ int run(const Arguments& args) {
   if (!car_text) return refuse(car_text.error());
   const auto car = parameters::read_car(*car_text, args.car_file);
   if (!car) return refuse(car.error());
-  const raceline::CarLimits limits = limits_of(car->params, args.bank.car_width_m);
-  const auto bank = args.check_file.empty() ? make(args, *description, *map)
+  const raceline::CarLimits limits = parameters::limits_of(car->params);
+  const auto bank = args.check_file.empty() ? make(args, *description, *map, car->params)
                                             : load(args, *description, *map, limits);
   if (!bank) return refuse(bank.error());
   const raceline::Lanes lanes{*map};

@@ -129,7 +129,7 @@ struct Ticked {
 };
 
 Ticked tick_until(Radio& radio, Base& base, const std::function<bool()>& condition,
-                  BlackBox box = *BlackBox::open("", "", "")) {
+                  BlackBox box = *BlackBox::open("", {})) {
   Ticked out;
   const Instant limit = transport::monotonic_now() + kTimeout;
   while (!(out.held = condition()) && transport::monotonic_now() < limit) {
@@ -158,7 +158,7 @@ TEST_F(CarRadio, SendsAndReceivesOverOnePathAndOverTwo) {
           return view.stop == telemetry::StopLevel::kControlled && view.alive_at &&
                  base.endpoint().state().values[telemetry::field("ego.vx")] > 0.0;
         },
-        *BlackBox::open(folder_->path() + "/box" + std::to_string(paths), "", ""));
+        *BlackBox::open(folder_->path() + "/box" + std::to_string(paths), {}));
     EXPECT_TRUE(ticked.held) << paths;
     EXPECT_TRUE(radio->endpoint().schema_agrees());
     EXPECT_NEAR(base.endpoint().state().values[telemetry::field("ego.vx")], 61.5, 0.05);

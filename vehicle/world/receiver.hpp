@@ -1,4 +1,6 @@
-// Parameters of one satellite receiver (GNSS with IMU), as the car file gives them.
+// One satellite receiver (GNSS with IMU): its parameters, as the car file gives them, and the
+// counts of its traffic since the start of the car process, for telemetry, so that every drop is
+// visible. The counts per reason are in the summary of the car.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -27,5 +29,14 @@ struct ReceiverParams {
 };
 
 using Receivers = std::array<ReceiverParams, kGnssUnits>;
+
+struct ReceiverTraffic {
+  std::uint64_t bytes = 0, logs = 0;
+  std::uint64_t bad_checksum = 0;
+  std::uint64_t bad_frame = 0;  // an unknown header, or one that was not requested
+  std::uint64_t resyncs = 0;    // number of gaps with bytes outside logs
+  std::uint64_t refused = 0;    // whole logs: content, range, unknown time, faulty IMU
+  std::uint64_t lost = 0;       // datagrams lost before the read; losses of a stream
+};
 
 }  // namespace pitwall::world
