@@ -142,7 +142,8 @@ int play(const Arguments& arguments) {
   if (!arguments.web_port) return complain(kMistake, "--replay needs --web PORT");
   auto plan = session::plan_of_replay(arguments, log_line);
   if (!plan) return complain(kMistake, plan.error());
-  auto player = replay::Player::open(arguments.replay_folder);
+  service::RecordingIndex index{plan->service.evaluator.course};
+  auto player = replay::Player::open(arguments.replay_folder, &index);
   if (!player) return complain(kMistake, player.error());
   for (const std::string& problem : player->problems()) log_line(problem);
   const transport::FileDescriptor stop = stop_signals();
@@ -151,7 +152,8 @@ int play(const Arguments& arguments) {
   auto foxglove = session::foxglove_of_replay(arguments, *player, log_line);
   if (!foxglove) return complain(kFailed, foxglove.error());
   const auto recordings = list_recordings(arguments, **server);
-  console::ReplayConsole consoles{std::move(plan->service), *std::move(player), **server};
+  console::ReplayConsole consoles{std::move(plan->service), *std::move(player), std::move(index),
+                                  **server};
   if (*foxglove) consoles.tell_also(**foxglove);
   const auto control_playback = [&consoles](double speed, std::optional<Instant> to) {
     consoles.control_playback(speed, to);

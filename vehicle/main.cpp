@@ -26,6 +26,7 @@
 #include "vehicle/io/report/tally.hpp"
 #include "vehicle/io/station_addresses.hpp"
 #include "vehicle/parameters/car_file.hpp"
+#include "vehicle/parameters/car_setup.hpp"
 #include "vehicle/parameters/track_file.hpp"
 #include "vehicle/pipeline/radio_adapter.hpp"
 #include "vehicle/pipeline/step.hpp"
@@ -49,16 +50,19 @@ int refuse(const Problem& problem) {
   return kExitUsage;
 }
 
+Result<std::string, Problem> read_whole(const std::string& path) {
+  return transport::read_file(path);
+}
+
 Result<pipeline::Setup, Problem> set_up(const io::Arguments& args, const std::string& car_text) {
-  const auto car = parameters::read_car(car_text, args.car_file);
+  auto car = parameters::read_car(car_text, args.car_file);
   if (!car) return Unexpected{car.error()};
   const auto track_text = transport::read_file(args.track_file);
   if (!track_text) return Unexpected{track_text.error()};
   const auto track = parameters::read_track(*track_text, args.track_file);
   if (!track) return Unexpected{track.error()};
-  pipeline::CarParams params = car->params;
-  if (args.no_base) params.watchdog[safety::Stream::kRadio].watched = false;
-  return pipeline::prepare(params, *track);
+  if (args.no_base) car->params.watchdog[safety::Stream::kRadio].watched = false;
+  return parameters::set_up(*car, *track, read_whole);
 }
 
 void say(const std::string& what) { std::fprintf(stderr, "pitwall-vehicle: %s\n", what.c_str()); }
@@ -249,7 +253,7 @@ class Drive {
   io::FrameTotals frames_;
   io::LossTally losses_;
   world::BusHealth bus_;
-  safety::Arming arming_ = safety::Arming::kNotAsked;
+  safety::Arming arming_ = safety::Arming::kNotRequested;
   bool schema_reported_ = false, silence_reported_ = false;
   std::optional<Instant> first_tick_;
   Instant schema_looked_at_;
@@ -278,7 +282,9 @@ Result<Parts, Problem> open_parts(const io::Arguments& args, const pipeline::Set
       io::LocalReport::open(args.local_report, args.simulation ? telemetry::Source::kSimulation
                                                                : telemetry::Source::kCar);
   if (!report) return Unexpected{report.error()};
-  auto box = io::BlackBox::open(args.record_folder, args.car_file, args.track_file, args.no_base);
+  auto box = io::BlackBox::open(args.record_folder,
+                                {args.car_file, args.track_file, setup.params.planning.line.bank},
+                                args.no_base);
   if (!box) return Unexpected{box.error()};
   auto sensors = open_sensors(args);
   if (!sensors) return Unexpected{sensors.error()};

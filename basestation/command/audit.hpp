@@ -1,4 +1,5 @@
-// Audit log: operator, action, time and outcome, also of refused actions.
+// Person at a console, and the audit log of what persons did: operator, action, time and outcome,
+// also of refused actions.
 //   bound  the newest kKept lines are kept, all are counted; the recorder keeps them all
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
@@ -7,9 +8,18 @@
 #include <deque>
 #include <string>
 
+#include "protocol/telemetry/command/command_table.hpp"
 #include "protocol/vocabulary/time.hpp"
 
 namespace pitwall::command {
+
+// Operator or viewer at a console of the base station.
+struct Person {
+  telemetry::HolderId console = 0;  // 1 .. 254; 0: nobody
+  std::string name;
+
+  bool operator==(const Person&) const = default;
+};
 
 struct AuditLine {
   std::uint64_t number = 0;  // from 1

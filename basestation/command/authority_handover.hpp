@@ -14,7 +14,6 @@
 #include <optional>
 
 #include "basestation/command/audit.hpp"
-#include "basestation/command/person.hpp"
 #include "protocol/telemetry/command/authority.hpp"
 #include "protocol/vocabulary/result.hpp"
 #include "protocol/vocabulary/time.hpp"

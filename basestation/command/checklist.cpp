@@ -7,13 +7,15 @@
 #include <cstdio>
 #include <utility>
 
-#include "basestation/command/value_text.hpp"
+#include "basestation/state/value_text.hpp"
 
 namespace pitwall::command {
 namespace {
 
 using state::BaseField;
 using state::FieldView;
+using state::label_text;
+using state::number_text;
 using telemetry::field;
 
 FieldView own(double value) {  // of the base itself: always known
@@ -66,7 +68,7 @@ class Checker {
       check.age = std::max(check.age, one.age);
     }
     if (!check.known) {
-      check.text = (never ? "not known" : "too old: " + number(check.age.seconds(), "s")) +
+      check.text = (never ? "not known" : "too old: " + number_text(check.age.seconds(), "s")) +
                    std::string{"; "} + check.text;
     }
     check.go = check.known && go;
@@ -80,8 +82,8 @@ class Checker {
     if (known(silence)) seen.age = milliseconds(static_cast<std::int64_t>(silence.value));
     const FieldView loss = see(BaseField::kDownLoss);
     add(CheckKind::kLink, {seen}, state == state::LinkState::kGood,
-        label(state::kLinkStates, seen.value) +
-            (known(loss) ? ", " + number(100.0 * loss.value, "% lost") : ""));
+        label_text(state::kLinkStates, seen.value) +
+            (known(loss) ? ", " + number_text(100.0 * loss.value, "% lost") : ""));
   }
 
   void software() {
@@ -95,17 +97,17 @@ class Checker {
   void clocks() {
     const FieldView offset = see(BaseField::kClockOffset);
     add(CheckKind::kClocks, {offset}, good(BaseField::kClockOffset),
-        "base " + number(offset.value, "ms") + " from UTC at the most");
+        "base " + number_text(offset.value, "ms") + " from UTC at the most");
   }
 
   void disk() {
     const FieldView recording = see(BaseField::kRecording);
     const FieldView minutes = see(BaseField::kDiskMinutes);
     constexpr double kOn = 1.0;  // of state::kRecordingStates
-    const std::string state = "recording " + label(state::kRecordingStates, recording.value);
+    const std::string state = "recording " + label_text(state::kRecordingStates, recording.value);
     if (recording.value != kOn) return add(CheckKind::kDisk, {recording}, false, state);
     add(CheckKind::kDisk, {recording, minutes}, good(BaseField::kDiskMinutes),
-        state + ", room for " + number(minutes.value, "min"));
+        state + ", room for " + number_text(minutes.value, "min"));
   }
 
   void settings() {
@@ -136,28 +138,29 @@ class Checker {
     add(CheckKind::kCorrections, {conflict, age},
         conflict.value == 0.0 && good(BaseField::kCorrectionAge),
         (conflict.value > 0.0 ? "somebody else uses the login, " : "one login, ") +
-            std::string{"corrections "} + number(age.value, "s") + " old");
+            std::string{"corrections "} + number_text(age.value, "s") + " old");
   }
 
   void tyres() {
     const FieldView pressure = see(BaseField::kTyrePressureMin);
     const FieldView coldest = see(BaseField::kTyreMin);
     add(CheckKind::kTyres, {pressure, coldest}, good(BaseField::kTyrePressureMin),
-        "softest " + number(pressure.value, "kPa") + ", coldest " +
-            number(coldest.value, "\u00b0C"));
+        "softest " + number_text(pressure.value, "kPa") + ", coldest " +
+            number_text(coldest.value, "\u00b0C"));
   }
 
   void fuel() {
     const FieldView attempts = see(BaseField::kFuelAttempts);
     const bool estimated = see(BaseField::kFuelEstimated).value > 0.0;
     add(CheckKind::kFuel, {attempts}, attempts.value >= 1.0,
-        number(see(BaseField::kFuelLaps).value, "laps") + ", " +
-            number(attempts.value, "attempts") + (estimated ? " (estimate)" : ""));
+        number_text(see(BaseField::kFuelLaps).value, "laps") + ", " +
+            number_text(attempts.value, "attempts") + (estimated ? " (estimate)" : ""));
   }
 
   void stop() {
     const FieldView seen = see(BaseField::kStop);
-    add(CheckKind::kStop, {seen}, seen.value == 0.0, label(telemetry::kStopLevels, seen.value));
+    add(CheckKind::kStop, {seen}, seen.value == 0.0,
+        label_text(telemetry::kStopLevels, seen.value));
   }
 
   void alarms() {

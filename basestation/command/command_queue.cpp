@@ -5,12 +5,13 @@
 #include <array>
 #include <cmath>
 
-#include "basestation/command/value_text.hpp"
+#include "basestation/state/value_text.hpp"
 #include "protocol/vocabulary/text.hpp"
 
 namespace pitwall::command {
 namespace {
 
+using state::label_text;
 using telemetry::CommandType;
 using telemetry::field;
 using telemetry::Outcome;
@@ -18,7 +19,7 @@ using telemetry::Outcome;
 std::string words(const telemetry::Command& command) {
   const telemetry::CommandRow& row = telemetry::row_of(command.type);
   const bool named = !row.labels.empty() && !row.is_set() && row.has(command.argument);
-  if (named) return std::string{row.name} + " " + label(row.labels, command.argument);
+  if (named) return std::string{row.name} + " " + label_text(row.labels, command.argument);
   return std::string{row.name} + formatted(" %g", command.argument) +
          (row.unit.empty() ? "" : " ") + std::string{row.unit};
 }

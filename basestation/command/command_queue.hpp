@@ -28,7 +28,6 @@
 
 #include "basestation/command/audit.hpp"
 #include "basestation/command/gates.hpp"
-#include "basestation/command/person.hpp"
 #include "protocol/telemetry/endpoint/station_endpoint.hpp"
 #include "protocol/vocabulary/result.hpp"
 #include "protocol/vocabulary/time.hpp"

@@ -6,15 +6,17 @@
 #include <cmath>
 #include <cstdio>
 
-#include "basestation/command/value_text.hpp"
 #include "basestation/state/derived/flags.hpp"
 #include "basestation/state/derived/tyre_gate.hpp"
+#include "basestation/state/value_text.hpp"
 
 namespace pitwall::command {
 namespace {
 
 using state::BaseField;
 using state::FieldView;
+using state::label_text;
+using state::number_text;
 using telemetry::CommandType;
 using telemetry::field;
 
@@ -77,7 +79,7 @@ class Judge {
     const bool known = state::usable(seen) && !std::isnan(seen.value);
     if (!known) {
       const bool never = seen.quality == state::Quality::kNever || std::isnan(seen.value);
-      text = (never ? "not received yet" : "too old: " + number(seen.age.seconds(), "s")) +
+      text = (never ? "not received yet" : "too old: " + number_text(seen.age.seconds(), "s")) +
              std::string{"; "} + text;
     }
     gates_.push_back({.kind = kind,
@@ -125,7 +127,7 @@ class Judge {
     if (state::usable(silence)) {
       seen.age = {static_cast<std::int64_t>(silence.value * 1e6)};  // of the newest packet
     }
-    const std::string word = label(state::kLinkStates, seen.value);
+    const std::string word = label_text(state::kLinkStates, seen.value);
     add(GateKind::kLink, seen, enough, {.word = word}, "link " + word);
   }
   bool harmless() const { return command_.type != CommandType::kSpeedLimit || slower(); }
@@ -139,7 +141,7 @@ class Judge {
 
   void stop() {
     const FieldView seen = see(BaseField::kStop);
-    const std::string word = label(telemetry::kStopLevels, seen.value);
+    const std::string word = label_text(telemetry::kStopLevels, seen.value);
     add(GateKind::kStop, seen, seen.value == 0.0, {.word = word}, word);
   }
 
@@ -154,17 +156,17 @@ class Judge {
         std::find(kVehicleFlagsThatAllow.begin(), kVehicleFlagsThatAllow.end(), vehicle.value) !=
             kVehicleFlagsThatAllow.end();
     add(GateKind::kFlag, track, track_allows && vehicle_allows,
-        {.word = label(telemetry::kTrackFlags, track.value)},
-        "track " + label(telemetry::kTrackFlags, track.value) + ", vehicle " +
-            label(telemetry::kVehicleFlags, vehicle.value));
+        {.word = label_text(telemetry::kTrackFlags, track.value)},
+        "track " + label_text(telemetry::kTrackFlags, track.value) + ", vehicle " +
+            label_text(telemetry::kVehicleFlags, vehicle.value));
   }
 
   void tyres() {
     const FieldView coldest = see(BaseField::kTyreMin);
     const double needed_c = state::tyre_needed_c(in_.evaluator.tyre_gate(), command_.argument);
     add(GateKind::kTyres, coldest, coldest.value >= needed_c, {.unit = "degC"},
-        number(coldest.value, "degC") + ", " + number(needed_c, "degC") + " needed for " +
-            number(command_.argument, "m/s"));
+        number_text(coldest.value, "degC") + ", " + number_text(needed_c, "degC") + " needed for " +
+            number_text(command_.argument, "m/s"));
   }
 
   void step() {
@@ -173,23 +175,23 @@ class Judge {
     FieldView seen = now;
     seen.value = step_mps;
     add(GateKind::kStep, seen, step_mps <= params_.step_max_mps, {.unit = "m/s"},
-        (step_mps > 0.0 ? "+" : "") + number(step_mps, "m/s") + ", at most +" +
-            number(params_.step_max_mps, "m/s"));
+        (step_mps > 0.0 ? "+" : "") + number_text(step_mps, "m/s") + ", at most +" +
+            number_text(params_.step_max_mps, "m/s"));
   }
 
   void corner() {
     const FieldView ahead = see(BaseField::kCornerIn);
     add(GateKind::kCorner, ahead, ahead.value > params_.corner_ahead.seconds(), {.unit = "s"},
         ahead.value == 0.0 ? "in a corner"
-                           : "a corner in " + number(ahead.value, "s") + ", more than " +
-                                 number(params_.corner_ahead.seconds(), "s") + " needed");
+                           : "a corner in " + number_text(ahead.value, "s") + ", more than " +
+                                 number_text(params_.corner_ahead.seconds(), "s") + " needed");
   }
 
   void fuel() {
     const FieldView attempts = see(BaseField::kFuelAttempts);
     add(GateKind::kFuel, attempts, attempts.value >= 1.0, {.unit = "attempts"},
-        number(see(BaseField::kFuelLaps).value, "laps") +
-            ", attempts: " + number(attempts.value, "") +
+        number_text(see(BaseField::kFuelLaps).value, "laps") +
+            ", attempts: " + number_text(attempts.value, "") +
             (see(BaseField::kFuelEstimated).value > 0.0 ? " (estimate)" : ""));
   }
 
@@ -211,10 +213,11 @@ class Judge {
             state::restriction_of_track_flag(acted_on.value) &&
         state::usable(acted_on)) {
       add(GateKind::kSource, acted_on, true,
-          {.word = label(telemetry::kTrackFlags, acted_on.value)}, "not less restrictive than now");
+          {.word = label_text(telemetry::kTrackFlags, acted_on.value)},
+          "not less restrictive than now");
       return;
     }
-    const std::string word = label(telemetry::kTrackFlags, reported.value);
+    const std::string word = label_text(telemetry::kTrackFlags, reported.value);
     add(GateKind::kSource, reported, reported.value == wanted, {.word = word},
         "race control shows " + word);
   }
@@ -227,7 +230,8 @@ class Judge {
     add(GateKind::kStanding, speed, !denied && std::abs(speed.value) <= params_.standing_mps,
         {.unit = "m/s"},
         denied ? "the car does not report a standstill yet"
-               : number(speed.value, "m/s") + ", at most " + number(params_.standing_mps, "m/s"));
+               : number_text(speed.value, "m/s") + ", at most " +
+                     number_text(params_.standing_mps, "m/s"));
   }
 
   const telemetry::Command& command_;

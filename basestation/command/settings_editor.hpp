@@ -15,7 +15,6 @@
 
 #include "basestation/alarms/evaluator.hpp"
 #include "basestation/command/audit.hpp"
-#include "basestation/command/person.hpp"
 #include "protocol/vocabulary/result.hpp"
 #include "protocol/vocabulary/time.hpp"
 

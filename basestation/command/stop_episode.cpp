@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "basestation/command/value_text.hpp"
 #include "basestation/state/value_text.hpp"
 #include "protocol/telemetry/delivery/event_content.hpp"
 
@@ -12,6 +11,7 @@ namespace pitwall::command {
 namespace {
 
 using state::FieldView;
+using state::label_text;
 using telemetry::CommandType;
 using telemetry::field;
 
@@ -96,7 +96,7 @@ void StopEpisode::advance(const Inputs& in) {
     if (drives(mode)) stopped_.reset();
   }
   if (!stopped_) return;
-  stopped_->mode = label(telemetry::kModes, mode);
+  stopped_->mode = label_text(telemetry::kModes, mode);
   stopped_->latched = latch > 0.0;
   judge_steps(in);
 }
@@ -118,10 +118,10 @@ void StopEpisode::explain(const Inputs& in) {
   if (level > level_ || stopped_->level.empty()) {
     level_ = std::fmax(level, level_);
     stopped_->by.clear();
-    stopped_->level = level_ > 0.0 ? label(telemetry::kStopLevels, level_) : "halted";
+    stopped_->level = level_ > 0.0 ? label_text(telemetry::kStopLevels, level_) : "halted";
   }
   if (const double cause = value_of(gates, field("mode.first_stop_cause")); cause > 0.0) {
-    stopped_->cause = label(telemetry::kStopCauses, cause);
+    stopped_->cause = label_text(telemetry::kStopCauses, cause);
     const auto number = static_cast<std::size_t>(cause);
     for (auto event = in.events.rbegin(); event != in.events.rend(); ++event) {
       const auto content = telemetry::content_of(*event);
@@ -135,7 +135,7 @@ void StopEpisode::explain(const Inputs& in) {
       break;
     }
   } else if (stopped_->cause.empty() && latch > 0.0) {
-    stopped_->cause = "operator: " + label(telemetry::kStopLevels, latch);
+    stopped_->cause = "operator: " + label_text(telemetry::kStopLevels, latch);
   }
   const bool operators =
       std::ranges::find(kByOperator, value_of(gates, field("mode.first_stop_cause"))) !=
@@ -149,7 +149,7 @@ void StopEpisode::explain(const Inputs& in) {
   if (is_of_this && !press->by.empty()) {
     stopped_->by = press->by;
   } else if (reason > 0.0) {
-    stopped_->by = label(telemetry::kStopReasons, reason);
+    stopped_->by = label_text(telemetry::kStopReasons, reason);
   }
 }
 
@@ -204,7 +204,7 @@ void StopEpisode::judge_steps(const Inputs& in) {
   const double arming = value_of(gates, field("mode.arming"));
   std::string last = refusal_since(in.queue, CommandType::kArm, stopped_->since);
   if (!last.empty() && arming >= kFirstRefusal)
-    last += "; the car says: " + label(telemetry::kArmings, arming);
+    last += "; the car says: " + label_text(telemetry::kArmings, arming);
   const std::string faults = reported_faults(gates);
   if (!faults.empty()) last += (last.empty() ? "" : "; ") + faults;
   settle(arm, std::move(waits), std::move(last));

@@ -9,12 +9,34 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
+#include <cstdint>
 
-#include "basestation/link/age_histogram.hpp"
-#include "protocol/telemetry/registry/snapshot.hpp"
+#include "protocol/telemetry/registry/registry.hpp"
 #include "protocol/vocabulary/time.hpp"
 
 namespace pitwall::link {
+
+// Histogram of the age of the newest value, weighted by time. Between two packets the age grows
+// evenly, so that each interval is spread over the buckets that it crosses; ages beyond kBuckets
+// milliseconds share the last bucket.
+class AgeHistogram {
+ public:
+  static constexpr std::size_t kBuckets = 10'000;
+  static constexpr Duration kBucket = milliseconds(1);
+
+  void add(Duration from, Duration length);
+  bool empty() const { return total_ns_ == 0; }
+
+  // The age that was not exceeded for this fraction of the time; zero if empty.
+  Duration quantile(double fraction) const;
+  Duration largest() const { return largest_; }
+
+ private:
+  std::array<std::int64_t, kBuckets> time_ns_{};
+  std::int64_t total_ns_ = 0;
+  Duration largest_{};
+};
 
 class AgeStatistics {
  public:

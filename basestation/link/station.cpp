@@ -18,8 +18,8 @@ void push_bounded(std::deque<Item>& log, const Item& item) {
 
 }  // namespace
 
-bool Station::take(std::span<const std::uint8_t> datagram, telemetry::PathId path,
-                   telemetry::Address from, Instant received) {
+bool Station::take(std::span<const std::uint8_t> datagram, telemetry::PathId path, UdpAddress from,
+                   Instant received) {
   if (observer_) observer_(true, path, from, received, datagram);
   const auto arrival = endpoint_.feed(datagram, path, from, received);
   if (!arrival) return false;

@@ -36,14 +36,14 @@ class Station {
       : endpoint_(config, randomness), paths_(config.association.paths) {}
 
   // Returns true for an authentic packet of the car that was not received before.
-  bool take(std::span<const std::uint8_t> datagram, telemetry::PathId path, telemetry::Address from,
+  bool take(std::span<const std::uint8_t> datagram, telemetry::PathId path, UdpAddress from,
             Instant received);
   // Content of the last datagram that take() accepted; nullopt before the first one.
   const std::optional<telemetry::Arrival>& arrival() const { return arrival_; }
   std::optional<telemetry::Outgoing> poll(Instant now);
   Instant due() const { return endpoint_.due(); }
   // Receives every datagram as it came (also a refused one) or went. `down`: from the car.
-  using Observer = std::function<void(bool down, telemetry::PathId path, telemetry::Address other,
+  using Observer = std::function<void(bool down, telemetry::PathId path, UdpAddress other,
                                       Instant at, std::span<const std::uint8_t> bytes)>;
   void observe(Observer observer) { observer_ = std::move(observer); }
   // Brings the ages up to `now`; call it before the figures are read.

@@ -5,7 +5,7 @@
 #include <string_view>
 
 #include "protocol/recorder/channels.hpp"
-#include "protocol/telemetry/registry/snapshot.hpp"
+#include "protocol/telemetry/registry/registry.hpp"
 #include "protocol/vocabulary/time.hpp"
 
 namespace pitwall::replay {

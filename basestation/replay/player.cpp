@@ -32,25 +32,29 @@ bool is_frequent(recorder::Topic topic) {
 
 class TextCollector : public Listener {
  public:
-  explicit TextCollector(std::function<void(recorder::Topic, Instant, std::string_view)> keep)
-      : keep_(std::move(keep)) {}
-  void state(const telemetry::Snapshot&, telemetry::GroupSet, Instant) override {}
+  using Keep = std::function<void(recorder::Topic, Instant, std::string_view)>;
+
+  TextCollector(Keep keep, Listener* index) : keep_(std::move(keep)), index_(index) {}
+  void state(const telemetry::Snapshot& state, telemetry::GroupSet groups, Instant at) override {
+    if (index_ != nullptr) index_->state(state, groups, at);
+  }
   void text(recorder::Topic topic, Instant at, std::string_view json) override {
     if (!is_frequent(topic)) keep_(topic, at, json);
   }
   void restart(Instant) override {}
 
  private:
-  std::function<void(recorder::Topic, Instant, std::string_view)> keep_;
+  Keep keep_;
+  Listener* index_;
 };
 
 }  // namespace
 
-Result<Player, Problem> Player::open(const std::string& folder) {
+Result<Player, Problem> Player::open(const std::string& folder, Listener* index) {
   const auto paths = recorder::segments_of(folder);
   if (!paths) return Unexpected{paths.error()};
   Player player;
-  for (const std::string& path : *paths) player.add(path);
+  for (const std::string& path : *paths) player.add(path, index);
   if (player.segments_.empty()) {
     std::string what = "no recording of a base station in it";
     for (const std::string& problem : player.problems_) what += "; " + problem;
@@ -67,7 +71,7 @@ Result<Player, Problem> Player::open(const std::string& folder) {
 }
 
 // Reads it once: when it begins and ends, and its texts.
-bool Player::add(const std::string& path) {
+bool Player::add(const std::string& path, Listener* index) {
   const auto file = transport::read_file(path);
   if (!file) return problems_.push_back(to_string(file.error())), false;
   recording::McapReader head{as_bytes(*file)};
@@ -83,8 +87,9 @@ bool Player::add(const std::string& path) {
   Segment segment{.path = path};
   bool any = false;
   TextCollector texts{[this](recorder::Topic topic, Instant at, std::string_view json) {
-    texts_.push_back({topic, at, std::string{json}});
-  }};
+                        texts_.push_back({topic, at, std::string{json}});
+                      },
+                      index};
   for (; const auto due = reader.due(); any = true) {
     segment.begin = any ? std::min(segment.begin, *due) : *due;
     segment.end = any ? std::max(segment.end, *due) : *due;

@@ -30,7 +30,8 @@ inline constexpr double kSlowest = 0.1, kFastest = 20.0;
 
 class Player {
  public:
-  static Result<Player, Problem> open(const std::string& folder);
+  // `index`: gets every state of the recording, oldest first; nullptr: nobody.
+  static Result<Player, Problem> open(const std::string& folder, Listener* index = nullptr);
 
   Instant begin() const { return begin_; }
   Instant end() const { return end_; }
@@ -57,7 +58,7 @@ class Player {
     std::string json;
   };
 
-  bool add(const std::string& path);
+  bool add(const std::string& path, Listener* index);
   void load(std::size_t segment);
   void tell_texts_until(Instant to, Listener& listener);
   void tell_until(Instant to, Listener& listener);

@@ -57,7 +57,9 @@ CarService::CarService(ServiceConfig config, const telemetry::LinkEndpointConfig
       station_(radio, randomness),
       evaluator_(config_.evaluator),
       requests_(executor_config(config_), station_.endpoint(), vehicle_, evaluator_),
-      stop_(config_.gates) {}
+      stop_(config_.gates) {
+  if (const auto& course = evaluator_.course()) laps_.emplace(course->length_m());
+}
 
 std::optional<Problem> CarService::settings_problem() const {
   return config_.store ? config_.store->unreadable() : std::nullopt;
@@ -73,7 +75,7 @@ CarIdentity CarService::identity() const {
 }
 
 bool CarService::receive(std::span<const std::uint8_t> datagram, telemetry::PathId path,
-                         telemetry::Address from, Instant at) {
+                         UdpAddress from, Instant at) {
   if (!station_.take(datagram, path, from, at)) return false;
   const telemetry::Snapshot& state = station_.endpoint().state();
   const telemetry::Arrival& arrival = *station_.arrival();
@@ -84,14 +86,19 @@ bool CarService::receive(std::span<const std::uint8_t> datagram, telemetry::Path
     evaluator_.receive(arrival.received);
   }
   vehicle_.update(state, arrival.groups);
-  trends_.note(state, arrival.groups);
+  take_history(state, arrival.groups);
   monitor_.packet(arrival.groups, arrival.received);
   return true;
 }
 
 void CarService::restore(const telemetry::Snapshot& state, telemetry::GroupSet groups) {
   vehicle_.update(state, groups);
+  take_history(state, groups);
+}
+
+void CarService::take_history(const telemetry::Snapshot& state, telemetry::GroupSet groups) {
   trends_.note(state, groups);
+  if (laps_) laps_->note(state, groups);
 }
 
 void CarService::restore(const command::OperatorEntries& entries, double fuel_left_l, Instant now) {

@@ -29,6 +29,7 @@
 #include "basestation/service/message_publisher.hpp"
 #include "basestation/service/messages/message_log.hpp"
 #include "basestation/service/messages/message_text.hpp"
+#include "basestation/state/laps/lap_log.hpp"
 #include "basestation/state/trends.hpp"
 
 namespace pitwall::service {
@@ -61,8 +62,8 @@ class CarService {
   CarService& operator=(const CarService&) = delete;
 
   // Returns true for a new authentic packet of the car, which is then at link().arrival().
-  bool receive(std::span<const std::uint8_t> datagram, telemetry::PathId path,
-               telemetry::Address from, Instant at);
+  bool receive(std::span<const std::uint8_t> datagram, telemetry::PathId path, UdpAddress from,
+               Instant at);
   std::optional<telemetry::Outgoing> poll(Instant now) { return station_.poll(now); }
   // Brings all up to `now`; once per turn of the loop, after requests and before publishers.
   void advance(Instant now);
@@ -76,7 +77,7 @@ class CarService {
   // Adds a line to the log of the race.
   void mark(const std::string& text, const command::Person& by, Instant now);
 
-  // Restores state and trends from before this process; no alarms.
+  // Restores state, trends and laps from before this process; no alarms.
   void restore(const telemetry::Snapshot& state, telemetry::GroupSet groups);
   // Restores operator entries, in force from `now` on. `fuel_left_l`: what is left of their fuel.
   void restore(const command::OperatorEntries& entries, double fuel_left_l, Instant now);
@@ -113,6 +114,7 @@ class CarService {
   }
   std::vector<state::TrendPoint> past(state::FieldId field, Instant from, Instant to,
                                       std::size_t points) const;
+  const state::LapLog* laps() const { return laps_ ? &*laps_ : nullptr; }  // nullptr: no course
   std::size_t history_bytes() const { return trends_.filled_bytes() + own_trends_.filled_bytes(); }
 
  private:
@@ -120,6 +122,7 @@ class CarService {
 
   void measure(Instant now);
   state::BaseFigures own_figures(Instant now) const;
+  void take_history(const telemetry::Snapshot& state, telemetry::GroupSet groups);
   void relay_flag();
   void set_budget();
 
@@ -128,6 +131,7 @@ class CarService {
   state::VehicleState vehicle_;
   state::Trends trends_;
   state::TrendTable own_trends_{state::kBaseFields};
+  std::optional<state::LapLog> laps_;
   alarms::Evaluator evaluator_;
   LinkMonitor monitor_;
   command::RequestExecutor requests_;

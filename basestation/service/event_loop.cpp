@@ -65,8 +65,7 @@ class CarTurn {
   }
 
   void take(const transport::UdpDatagram& datagram, telemetry::PathId path) {
-    const telemetry::Address from{.ip = datagram.from.ip, .port = datagram.from.port};
-    if (service_.receive(datagram.payload(), path, from, datagram.at)) {
+    if (service_.receive(datagram.payload(), path, datagram.from, datagram.at)) {
       for (Publisher* const publisher : car_.publishers)
         publisher->packet(service_, *service_.link().arrival());
     }
@@ -74,10 +73,7 @@ class CarTurn {
   }
 
   void send(Instant now) {
-    while (const auto out = service_.poll(now)) {
-      const transport::UdpAddress to{.ip = out->to.ip, .port = out->to.port};
-      car_.radio[out->path].send_to(to, out->bytes);
-    }
+    while (const auto out = service_.poll(now)) car_.radio[out->path].send_to(out->to, out->bytes);
   }
 
   void take_stops(std::span<transport::UdpDatagram> batch) {

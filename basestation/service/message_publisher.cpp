@@ -7,6 +7,7 @@
 
 #include "basestation/service/car_service.hpp"
 #include "basestation/service/messages/checklist_text.hpp"
+#include "basestation/service/messages/lap_text.hpp"
 #include "basestation/service/messages/message_text.hpp"
 #include "basestation/service/messages/settings_text.hpp"
 
@@ -32,6 +33,7 @@ void MessagePublisher::publish(const CarService& car, MessageLog& to, Instant no
   publish_fuel(car, to, now);
   publish_settings(car, to, now);
   publish_checks(car, to, now);
+  publish_laps(car, to, now);
   begun_ = true;
 }
 
@@ -145,6 +147,13 @@ void MessagePublisher::publish_checks(const CarService& car, MessageLog& to, Ins
   if (begun_ && now - checks_at_ < kChecksEvery) return;
   checks_at_ = now;
   to.set_state("checklist", checklist_text(car.checks(now), now), now);
+}
+
+void MessagePublisher::publish_laps(const CarService& car, MessageLog& to, Instant now) {
+  const state::LapLog* const laps = car.laps();
+  if (laps == nullptr || laps->revision() == laps_) return;
+  laps_ = laps->revision();
+  to.set_state("laps", laps_text(*laps), now);
 }
 
 void MessagePublisher::publish_link(const CarService& car, MessageLog& to, Instant now) {

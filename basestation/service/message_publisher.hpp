@@ -43,6 +43,7 @@ class MessagePublisher {
   void publish_events(const CarService& car, MessageLog& to, Instant now);
   void publish_settings(const CarService& car, MessageLog& to, Instant now);
   void publish_checks(const CarService& car, MessageLog& to, Instant now);
+  void publish_laps(const CarService& car, MessageLog& to, Instant now);
 
   struct Shown {
     link::Station::Source source = link::Station::Source::kNone;
@@ -56,6 +57,7 @@ class MessagePublisher {
   // Revisions and counts at the last publication.
   std::uint64_t alarms_ = 0, alarm_events_ = 0, notice_revision_ = 0;
   std::uint64_t tickets_ = 0, audit_ = 0, authority_ = 0, events_ = 0, entries_ = 0, settings_ = 0;
+  std::uint64_t laps_ = 0;
   std::vector<alarms::Notice> notices_;
   std::string fuel_, stop_;
   Instant authority_at_{}, entries_at_{}, checks_at_{}, link_at_{}, fuel_at_{}, stop_at_{};

@@ -90,7 +90,7 @@ Result<std::unique_ptr<CarSession>, Problem> CarSession::open(Plan plan) {
 }
 
 Result<bool, Problem> CarSession::open_sockets() {
-  for (const transport::UdpAddress& address : plan_.listen) {
+  for (const UdpAddress& address : plan_.listen) {
     auto socket = transport::UdpSocket::bind(address);
     if (!socket) return Unexpected{socket.error()};
     radio_.push_back(*std::move(socket));

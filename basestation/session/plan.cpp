@@ -28,13 +28,13 @@ constexpr std::uint16_t kDefaultPort = 23'431;
 constexpr std::uint32_t kLoopbackNet = 127U << 24U, kNetMask = 0xFF00'0000U;
 constexpr double kBytesPerKbit = 125.0;
 
-Result<std::vector<transport::UdpAddress>, Problem> addresses_of(const Arguments& arguments) {
+Result<std::vector<UdpAddress>, Problem> addresses_of(const Arguments& arguments) {
   std::vector<std::string> wanted = arguments.listen;
-  if (wanted.empty()) wanted.push_back(to_string(transport::UdpAddress{.port = kDefaultPort}));
+  if (wanted.empty()) wanted.push_back(to_string(UdpAddress{.port = kDefaultPort}));
   if (wanted.size() > telemetry::kPaths) {
     return Unexpected{Problem{"--listen", "expected at most two radios"}};
   }
-  std::vector<transport::UdpAddress> addresses;
+  std::vector<UdpAddress> addresses;
   for (const std::string& text : wanted) {
     const auto address = transport::parse_udp_address(text);
     if (!address) return Unexpected{Problem{"--listen", to_string(address.error())}};

@@ -28,7 +28,7 @@ using LogLine = std::function<void(const std::string&)>;
 
 struct Plan {
   settings::Arguments arguments;
-  std::vector<transport::UdpAddress> listen{};
+  std::vector<UdpAddress> listen{};
   inputs::CommandScript script{};
   telemetry::LinkEndpointConfig config{};
   std::string stamp_file{};            // empty: no file

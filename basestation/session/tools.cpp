@@ -93,7 +93,7 @@ Result<foxglove::ServerConfig, Problem> foxglove_of(const Arguments& a, std::siz
   return config;
 }
 
-void log_address(const Arguments& a, const transport::UdpAddress& address, const std::string& whose,
+void log_address(const Arguments& a, const UdpAddress& address, const std::string& whose,
                  const LogLine& log) {
   log(whose + "Foxglove at " + (a.web_certificate.empty() ? "ws://" : "wss://") +
       to_string(address));

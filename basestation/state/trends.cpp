@@ -95,7 +95,7 @@ std::size_t TrendTable::Ring::first_not_before(std::int64_t ns) const {
 bool TrendTable::note(Instant sampled, std::span<const double> values) {
   CHECK(values.size() == columns_);
   if (fine_.size() > 0 && fine_.time_ns[fine_.place(fine_.size() - 1)] >= sampled.ns) return false;
-  const std::span<float> row = fine_.push(sampled, columns_, kFineRows);
+  const std::span<float> row = fine_.push(sampled, columns_, capacity_.fine_rows);
   std::ranges::transform(values, row.begin(), [](double v) { return static_cast<float>(v); });
   note_coarse(sampled, values);
   return true;
@@ -103,14 +103,15 @@ bool TrendTable::note(Instant sampled, std::span<const double> values) {
 
 void TrendTable::note_coarse(Instant sampled, std::span<const double> values) {
   const std::size_t width = 2 * columns_;
+  if (capacity_.whole && coarse_.size() == capacity_.spans) double_spans();
   const std::size_t last = coarse_.size() > 0 ? coarse_.place(coarse_.size() - 1) : 0;
-  const bool same =
-      coarse_.size() > 0 && sampled.ns / kBucket.ns == coarse_.time_ns[last] / kBucket.ns;
+  const bool same = coarse_.size() > 0 &&
+                    sampled.ns / capacity_.span.ns == coarse_.time_ns[last] / capacity_.span.ns;
   std::span<float> row;
   if (same) {
     row = std::span{coarse_.values}.subspan(last * width, width);
   } else {
-    row = coarse_.push(sampled, width, kCoarseRows);
+    row = coarse_.push(sampled, width, capacity_.spans);
     std::ranges::fill(row, kNoValue);
   }
   for (std::size_t i = 0; i < columns_; ++i) {
@@ -120,19 +121,42 @@ void TrendTable::note_coarse(Instant sampled, std::span<const double> values) {
   }
 }
 
+// Joins neighbours until half of the rows are free: the ring has not come round yet.
+void TrendTable::double_spans() {
+  const std::size_t width = 2 * columns_;
+  while (2 * coarse_.size() > capacity_.spans) {
+    capacity_.span = 2 * capacity_.span;
+    std::size_t kept = 0;
+    for (std::size_t row = 1; row < coarse_.size(); ++row) {
+      const std::span<float> from = std::span{coarse_.values}.subspan(row * width, width);
+      const bool same =
+          coarse_.time_ns[row] / capacity_.span.ns == coarse_.time_ns[kept] / capacity_.span.ns;
+      if (!same) coarse_.time_ns[++kept] = coarse_.time_ns[row];
+      const std::span<float> to = std::span{coarse_.values}.subspan(kept * width, width);
+      for (std::size_t i = 0; i < width; ++i) {
+        const bool low = i % 2 == 0;
+        to[i] = !same ? from[i] : low ? std::fmin(to[i], from[i]) : std::fmax(to[i], from[i]);
+      }
+    }
+    coarse_.time_ns.resize(kept + 1);
+    coarse_.values.resize((kept + 1) * width);
+  }
+}
+
 std::vector<TrendTable::Sample> TrendTable::samples(std::size_t column, Instant from,
                                                     Instant to) const {
   std::vector<Sample> out;
   if (fine_.size() == 0 || to < from) return out;
   const std::int64_t fine_from = fine_.time_ns[fine_.place(0)];
-  for (std::size_t i = coarse_.first_not_before(from.ns - kBucket.ns); i < coarse_.size(); ++i) {
+  for (std::size_t i = coarse_.first_not_before(from.ns - capacity_.span.ns); i < coarse_.size();
+       ++i) {
     const std::size_t row = coarse_.place(i);
     const std::int64_t at = coarse_.time_ns[row];
     if (at >= fine_from || at > to.ns) break;
     const float low = coarse_.values[row * 2 * columns_ + 2 * column];
     const float high = coarse_.values[row * 2 * columns_ + 2 * column + 1];
     if (at >= from.ns) out.push_back({at, low});
-    const std::int64_t later = std::min(at + kBucket.ns / 2, fine_from - 1);
+    const std::int64_t later = std::min(at + capacity_.span.ns / 2, fine_from - 1);
     if (high != low && later > at && later >= from.ns && later <= to.ns)
       out.push_back({later, high});
   }
@@ -147,7 +171,7 @@ std::vector<TrendTable::Sample> TrendTable::samples(std::size_t column, Instant 
 std::vector<TrendPoint> TrendTable::range(std::size_t column, Instant from, Instant to,
                                           std::size_t points, Duration target_age) const {
   CHECK(column < columns_);
-  const std::int64_t silence = std::max(stale_after(target_age).ns, 2 * kBucket.ns);
+  const std::int64_t silence = std::max(stale_after(target_age).ns, 2 * capacity_.span.ns);
   std::vector<TrendPoint> all;
   for (const Sample& sample : samples(column, from, to)) {
     if (!all.empty() && seconds_of(sample.ns) - all.back().time_s > seconds_of(silence)) {
@@ -167,9 +191,9 @@ std::size_t TrendTable::filled_bytes() const {
   return of(fine_) + of(coarse_);
 }
 
-Trends::Trends() {
+Trends::Trends(const TrendCapacity& capacity) {
   for (const telemetry::GroupRow& row : telemetry::kGroupTable) {
-    groups_.emplace_back(telemetry::fields_of(row.group).count);
+    groups_.emplace_back(telemetry::fields_of(row.group).count, capacity);
   }
 }
 

@@ -49,6 +49,18 @@ std::string value_text(const telemetry::FieldRow& row, double value) {
   return formatted("%.*f", decimals_of(row.resolution), value);
 }
 
+std::string number_text(double value, const char* unit) {
+  if (std::isnan(value)) return "no data";
+  return formatted("%.1f%s%s", value, *unit == '\0' ? "" : " ", unit);
+}
+
+std::string label_text(std::string_view labels, double value) {
+  if (!(value >= 0.0)) return "no data";
+  const auto name = telemetry::label_at(labels, static_cast<std::size_t>(value));
+  return name.empty() ? "no. " + std::to_string(static_cast<std::size_t>(value))
+                      : std::string{name};
+}
+
 std::string path_of(const telemetry::FieldRow& row) {
   return std::string{telemetry::row_of(row.group).name} + "." + std::string{row.name};
 }

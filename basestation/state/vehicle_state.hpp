@@ -12,7 +12,6 @@
 #include <cstdint>
 
 #include "protocol/telemetry/registry/registry.hpp"
-#include "protocol/telemetry/registry/snapshot.hpp"
 #include "protocol/vocabulary/time.hpp"
 
 namespace pitwall::state {

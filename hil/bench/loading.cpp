@@ -6,7 +6,9 @@
 #include "hil/nodes/protected_messages.hpp"
 #include "hil/plant/plant_file.hpp"
 #include "protocol/transport/file.hpp"
+#include "protocol/vocabulary/text.hpp"
 #include "vehicle/parameters/car_file.hpp"
+#include "vehicle/parameters/car_setup.hpp"
 #include "vehicle/parameters/track_file.hpp"
 
 namespace pitwall::bench {
@@ -41,7 +43,12 @@ Result<Loaded, Problem> load(const std::string& scenario_file, const std::string
     if (!plant) return Unexpected{plant.error()};
     scenario->plant = plant->params;
   }
-  auto setup = pipeline::prepare(car->params, *track);
+  const double width_m = car->params.width_m, modelled_m = scenario->plant.chassis.width_m;
+  if (width_m != modelled_m)
+    return refuse(car_file, formatted("width_m is %.3f, but the modelled car is %.3f m wide",
+                                      width_m, modelled_m));
+  auto setup = parameters::set_up(
+      *car, *track, [](const std::string& path) { return transport::read_file(path); });
   if (!setup) return Unexpected{setup.error()};
   for (std::size_t unit = 0; scenario->receivers && unit < scenario->receivers->size(); ++unit)
     setup->params.receivers[unit].kind = (*scenario->receivers)[unit];

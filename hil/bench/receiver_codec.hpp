@@ -19,7 +19,7 @@
 #include "hil/faults/byte_damage.hpp"
 #include "hil/sensors/receiver_bytes.hpp"
 #include "vehicle/receivers/receiver.hpp"
-#include "vehicle/world/receiver_params.hpp"
+#include "vehicle/world/receiver.hpp"
 #include "vehicle/world/sensor_input.hpp"
 
 namespace pitwall::bench {

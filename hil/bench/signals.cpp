@@ -82,11 +82,20 @@ grading::Kind kind_of(scenario::ExpectKind kind) {
 Duration radio_limit_of(const pipeline::CarParams& params) {
   safety::WatchdogParams watchdog = params.watchdog;
   const Duration stop = watchdog[safety::Stream::kRadio].bad;
-  return params.radio.ladder.no_comm_drives ? stop : std::min(stop, params.radio.ladder.no_comm);
+  return params.radio.link_loss.no_comm_drives ? stop
+                                               : std::min(stop, params.radio.link_loss.no_comm);
 }
 
 double cross_track_m(const Rig& rig, double line_offset_m) {
   return rig.road().n_m - line_offset_m;
+}
+
+world::Curvilinear place_of(const Rig& rig) { return {rig.road().s_m, rig.road().n_m}; }
+
+double line_offset_m(const pipeline::Setup& setup, const world::Curvilinear& car) {
+  if (setup.line.number == 0) return setup.params.planning.line.offset_m;
+  const world::TrackPoint at = setup.track.offset(car.s_m, car.n_m);
+  return car.n_m - setup.line.project(at.x_m, at.y_m).offset_m;
 }
 
 double wall_gap_m(const Rig& rig) {

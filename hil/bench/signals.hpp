@@ -21,6 +21,7 @@
 #include "protocol/vocabulary/result.hpp"
 #include "vehicle/pipeline/setup.hpp"
 #include "vehicle/world/monitor.hpp"
+#include "vehicle/world/track_map.hpp"
 
 namespace pitwall::bench {
 
@@ -116,7 +117,7 @@ using SignalValues = std::array<double, kSignals + world::kMonitors>;
 struct SignalSources {
   const Rig& rig;
   const CarReport& car;
-  double line_offset_m = 0.0;  // offset of the line from the track's reference line
+  double line_offset_m = 0.0;  // as line_offset_m() has it
   std::uint64_t frames_lost = 0;
   Duration radio_gap{}, radio_gap_max{};  // as the radio channel recorded it
   Duration radio_limit{};                 // the car stops after a longer gap
@@ -128,7 +129,10 @@ Duration radio_limit_of(const pipeline::CarParams& params);
 
 SignalValues observe(const SignalSources& from);
 double cross_track_m(const Rig& rig, double line_offset_m);
-double wall_gap_m(const Rig& rig);  // of the corner nearest to a wall, on either side
+double wall_gap_m(const Rig& rig);            // of the corner nearest to a wall, on either side
+world::Curvilinear place_of(const Rig& rig);  // of the car, in truth
+// Offset of the line from the track's reference line, beside a car at this place.
+double line_offset_m(const pipeline::Setup& setup, const world::Curvilinear& car);
 // True state of the car, as Outcome takes it.
 VehiclePlace vehicle_place(const Rig& rig, double line_offset_m, Instant now);
 

@@ -8,7 +8,6 @@
 namespace pitwall::can_bus {
 namespace {
 
-using transport::UdpAddress;
 using transport::UdpSocket;
 
 constexpr std::size_t kBatch = 32;

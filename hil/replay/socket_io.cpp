@@ -55,10 +55,10 @@ Result<SocketIo, Problem> SocketIo::open(const Timeline& timeline) {
 }
 
 Result<SocketIo::Sender, Problem> SocketIo::open_receiver(const Track& track) {
-  if (const auto* udp = std::get_if<transport::UdpAddress>(&*track.to)) {
-    const bool stays_here = udp->ip >> kNetworkShift == transport::kLoopbackIp >> kNetworkShift;
-    auto socket = transport::UdpSocket::bind(
-        {.ip = stays_here ? transport::kLoopbackIp : transport::kAnyIp, .port = 0});
+  if (const auto* udp = std::get_if<UdpAddress>(&*track.to)) {
+    const bool stays_here = udp->ip >> kNetworkShift == kLoopbackIp >> kNetworkShift;
+    auto socket =
+        transport::UdpSocket::bind({.ip = stays_here ? kLoopbackIp : transport::kAnyIp, .port = 0});
     if (!socket) return Unexpected{socket.error()};
     if (auto connected = socket->connect(*udp); !connected) return Unexpected{connected.error()};
     return Sender{Line{*std::move(socket), &track.datagrams}};

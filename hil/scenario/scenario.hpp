@@ -19,7 +19,7 @@
 #include "protocol/vocabulary/time.hpp"
 #include "protocol/vocabulary/units.hpp"
 #include "vehicle/world/race_control.hpp"
-#include "vehicle/world/receiver_params.hpp"
+#include "vehicle/world/receiver.hpp"
 
 namespace pitwall::scenario {
 

@@ -17,7 +17,7 @@
 
 #include "protocol/gnss/novatel_codec.hpp"
 #include "protocol/gnss/vectornav_message.hpp"
-#include "vehicle/world/receiver_params.hpp"
+#include "vehicle/world/receiver.hpp"
 #include "vehicle/world/sensor_input.hpp"
 
 namespace pitwall::sensors {

@@ -23,8 +23,6 @@ namespace pitwall::gnss {
 
 inline constexpr std::uint8_t kVectorNavSync = 0xFA;
 inline constexpr std::size_t kVectorNavCrcBytes = 2;
-// Sync, groups, two words for each of seven groups.
-inline constexpr std::size_t kMaxVectorNavHeaderBytes = 2 + 4 * kVectorNavGroups;
 // Longer than any message with all known fields.
 inline constexpr std::size_t kMaxVectorNavBytes = 1'536;
 

@@ -26,7 +26,7 @@
 #include <vector>
 
 #include "protocol/recording/mcap_writer.hpp"
-#include "protocol/telemetry/registry/snapshot.hpp"
+#include "protocol/telemetry/registry/registry.hpp"
 #include "protocol/vocabulary/fixed_vector.hpp"
 
 namespace pitwall::recorder {

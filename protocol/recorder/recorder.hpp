@@ -24,7 +24,7 @@
 #include "protocol/recorder/raw_record.hpp"
 #include "protocol/recorder/segment_chain.hpp"
 #include "protocol/recorder/tick_record.hpp"
-#include "protocol/telemetry/registry/snapshot.hpp"
+#include "protocol/telemetry/registry/registry.hpp"
 
 namespace pitwall::recorder {
 

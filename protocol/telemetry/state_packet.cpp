@@ -4,8 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "protocol/bits/bit_reader.hpp"
-#include "protocol/bits/bit_writer.hpp"
+#include "protocol/bits/bit_stream.hpp"
 #include "protocol/bits/crc.hpp"
 #include "protocol/telemetry/little_endian.hpp"
 #include "protocol/telemetry/registry/schema.hpp"

@@ -18,7 +18,7 @@
 #include <cstdint>
 #include <span>
 
-#include "protocol/telemetry/registry/snapshot.hpp"
+#include "protocol/telemetry/registry/registry.hpp"
 #include "protocol/vocabulary/result.hpp"
 #include "protocol/vocabulary/time.hpp"
 
@@ -34,7 +34,6 @@ inline constexpr std::size_t kHeaderBytes = 24, kChecksumBytes = 4;
 inline constexpr std::size_t kStatePacketBytes =
     kHeaderBytes + (groups_of(Direction::kDown).count() * kAgeBits + kValueBits + 7) / 8 +
     kChecksumBytes;
-inline constexpr int kStateRate_hz = 50;
 
 struct StatePacket {
   Source source = Source::kSimulation;

@@ -73,15 +73,6 @@ Result<UdpAddress, Problem> parse_udp_address(std::string_view text) {
   return out;
 }
 
-std::string to_string(const UdpAddress& a) {
-  std::string out;
-  for (int shift = 24; shift >= 0; shift -= 8) {
-    out += std::to_string((a.ip >> shift) & 0xFFU);
-    out += shift == 0 ? ':' : '.';
-  }
-  return out + std::to_string(a.port);
-}
-
 Result<UdpSocket, Problem> UdpSocket::bind(UdpAddress local, const UdpSocketOptions& options) {
   const auto refuse = [&](const PosixOutcome& o) {
     return Unexpected{Problem{to_string(local), o.reason()}};

@@ -18,24 +18,16 @@
 #include "protocol/transport/posix_call.hpp"
 #include "protocol/vocabulary/result.hpp"
 #include "protocol/vocabulary/time.hpp"
+#include "protocol/vocabulary/udp_address.hpp"
 
 struct sockaddr_in;
 
 namespace pitwall::transport {
 
-inline constexpr std::uint32_t kLoopbackIp = 0x7F000001;  // 127.0.0.1
-inline constexpr std::uint32_t kAnyIp = 0;                // every interface: only by an option
-
-struct UdpAddress {
-  std::uint32_t ip = kLoopbackIp;  // host byte order
-  std::uint16_t port = 0;          // 0 in bind(): the kernel chooses
-
-  bool operator==(const UdpAddress&) const = default;
-};
+inline constexpr std::uint32_t kAnyIp = 0;  // every interface: only by an option
 
 // "127.0.0.1:5000" or "5000" (loopback). Numbers only: a race car has no name service.
 Result<UdpAddress, Problem> parse_udp_address(std::string_view text);
-std::string to_string(const UdpAddress& address);
 
 inline constexpr std::size_t kMaxDatagramBytes = 2'048;  // longer ones are counted and dropped
 

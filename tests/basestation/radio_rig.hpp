@@ -26,7 +26,7 @@ struct RigOptions {
 
 struct RadioRig {
   static constexpr Duration kDelay = milliseconds(10), kTick = milliseconds(1);
-  static constexpr telemetry::Address kCarAt{.ip = 0x7F000001, .port = 40'001},
+  static constexpr UdpAddress kCarAt{.ip = 0x7F000001, .port = 40'001},
       kBaseAt{.ip = 0x7F000001, .port = 40'002};
 
   struct Travelling {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "tests/benchmarks/command_line.hpp"
+#include "tests/benchmarks/control/bench_control.hpp"
 #include "tests/benchmarks/gateway/bench_gateway.hpp"
 #include "tests/benchmarks/laps/bench_laps.hpp"
 #include "tests/benchmarks/modules/bench_dbc.hpp"
@@ -29,6 +30,7 @@ struct Benchmark {
 };
 
 constexpr std::array kBenchmarks{
+    Benchmark{"control", "control laws side by side, at held speeds on three ovals", bench_control},
     Benchmark{"dbc", "CAN databases: parse, decode, encode", bench_dbc},
     Benchmark{"ekf", "the filter of localization: its cost to the car", bench_ekf},
     Benchmark{"gateway", "27,000 frames/s of CAN, and every lost frame reported", bench_gateway},

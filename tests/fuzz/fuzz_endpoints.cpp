@@ -22,7 +22,7 @@ using pitwall::radio::VirtualRadio;
 
 constexpr std::size_t kUnderWay = 64;
 constexpr HolderId kOperator = 1;
-constexpr Address kElsewhere{0x0A000063, 9'999};
+constexpr UdpAddress kElsewhere{0x0A000063, 9'999};
 
 class Adversary {
  public:
@@ -173,8 +173,8 @@ class Adversary {
   void move(std::uint8_t which) {
     const auto path = static_cast<PathId>(which >> 1U & 1U);
     const bool base = (which & 1U) != 0;
-    const Address home = base ? base_home_[path] : car_home_[path];
-    const Address there{home.ip + (which >> 2U & 3U), home.port};
+    const UdpAddress home = base ? base_home_[path] : car_home_[path];
+    const UdpAddress there{home.ip + (which >> 2U & 3U), home.port};
     base ? radio_.move_base(path, there) : radio_.move_car(path, there);
   }
   void jump() {
@@ -236,7 +236,7 @@ class Adversary {
   std::size_t at_ = 0;
   std::array<std::array<std::deque<Bytes>, kPaths>, 2> under_way_;
   VirtualRadio radio_;
-  std::array<Address, kPaths> car_home_{radio_.car_address(0), radio_.car_address(1)},
+  std::array<UdpAddress, kPaths> car_home_{radio_.car_address(0), radio_.car_address(1)},
       base_home_{radio_.base_address(0), radio_.base_address(1)};
   std::map<std::pair<std::uint64_t, CommandId>, Instant> issued_;
   std::set<std::uint16_t> released_;

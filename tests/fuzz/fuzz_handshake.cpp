@@ -22,7 +22,7 @@ using namespace pitwall::telemetry;
 
 using Datagram = std::vector<std::uint8_t>;
 
-constexpr Address kCarAt{.ip = 1, .port = 1}, kBaseAt{.ip = 2, .port = 2},
+constexpr UdpAddress kCarAt{.ip = 1, .port = 1}, kBaseAt{.ip = 2, .port = 2},
     kElsewhere{.ip = 9, .port = 9};
 constexpr std::size_t kMaxAir = 64, kMaxSteps = 2'000;
 
@@ -48,8 +48,8 @@ struct Run {
       : randomness(run_boot),
         association({.keys = keys,
                      .greeting = {.boot = run_boot},
-                     .peer = {keys.role == Role::kCar ? kBaseAt : Address{},
-                              keys.role == Role::kCar ? kBaseAt : Address{}},
+                     .peer = {keys.role == Role::kCar ? kBaseAt : UdpAddress{},
+                              keys.role == Role::kCar ? kBaseAt : UdpAddress{}},
                      .paths = kPaths},
                     randomness),
         boot(run_boot) {}
@@ -146,7 +146,7 @@ class World {
     }
     if ((how & 1U) == 0) air_.erase(air_.begin() + static_cast<std::ptrdiff_t>(which));
     const bool to_base = (how & 2U) == 0 ? sent.to_base : !sent.to_base;
-    const Address home = sent.to_base ? kCarAt : kBaseAt;
+    const UdpAddress home = sent.to_base ? kCarAt : kBaseAt;
     deliver(sent.datagram, to_base, (how & 4U) == 0 ? 0 : 1, (how & 8U) == 0 ? home : kElsewhere);
   }
 
@@ -156,7 +156,7 @@ class World {
     deliver(datagram, input_.next() % 2 == 0, 0, kElsewhere);
   }
 
-  void deliver(const Datagram& datagram, bool to_base, PathId path, Address from) {
+  void deliver(const Datagram& datagram, bool to_base, PathId path, UdpAddress from) {
     Run& run = *ends_[to_base ? 1 : 0];
     std::array<std::uint8_t, kMaxBody> plain{};
     if (const auto opened = run.association.feed(datagram, path, from, now_, plain)) {

@@ -59,8 +59,8 @@ class CarRadio {
       for (std::size_t path = 0; path < sockets_.size(); ++path) {
         const std::size_t n = sockets_[path].receive(batch_);
         for (std::size_t i = 0; i < n; ++i) {
-          end_->feed(batch_[i].payload(), static_cast<telemetry::PathId>(path),
-                     {.ip = batch_[i].from.ip, .port = batch_[i].from.port}, batch_[i].at);
+          end_->feed(batch_[i].payload(), static_cast<telemetry::PathId>(path), batch_[i].from,
+                     batch_[i].at);
           if (received) received(batch_[i].at);
         }
       }
@@ -71,7 +71,7 @@ class CarRadio {
   std::size_t send(const telemetry::Snapshot& snapshot) {
     std::size_t sent = 0;
     while (const auto out = end_->poll(snapshot, transport::monotonic_now())) {
-      sockets_[out->path].send_to({.ip = out->to.ip, .port = out->to.port}, out->bytes);
+      sockets_[out->path].send_to(out->to, out->bytes);
       ++sent;
     }
     return sent;

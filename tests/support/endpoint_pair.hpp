@@ -26,7 +26,7 @@ struct WireDatagram {
 
 class EndpointPair {
  public:
-  static constexpr telemetry::Address kCar{0x0A000001, 4'000}, kBase{0x0A000002, 5'000};
+  static constexpr UdpAddress kCar{0x0A000001, 4'000}, kBase{0x0A000002, 5'000};
   static constexpr Duration kWay = milliseconds(10);
 
   explicit EndpointPair(std::uint8_t paths = 1, std::uint64_t seed = 1)

@@ -21,7 +21,7 @@ class TcpServer {
             [] { return ::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0); })) {
     sockaddr_in address{};
     address.sin_family = AF_INET;
-    address.sin_addr.s_addr = htonl(transport::kLoopbackIp);
+    address.sin_addr.s_addr = htonl(kLoopbackIp);
     auto* generic = reinterpret_cast<sockaddr*>(&address);
     socklen_t length = sizeof address;
     EXPECT_EQ(::bind(listener_.get(), generic, sizeof address), 0);

@@ -16,9 +16,9 @@ constexpr double kWheelMax_mps = 120.0;
 constexpr Duration kSignalAgeMax = milliseconds(100);
 constexpr Duration kFreshRecord = milliseconds(25);
 // Later than this after its last tick, the guardian itself did not run.
-constexpr Duration kOverslept = milliseconds(10);
+constexpr Duration kPauseMin = milliseconds(10);
 // A tick of the car that began before it could read that the guardian drives is over by then.
-constexpr Duration kCrossing = milliseconds(20);
+constexpr Duration kSendOverlapMax = milliseconds(20);
 const world::SensorInput kNoSamples;
 
 struct Tick {
@@ -35,14 +35,14 @@ void enter(const Tick& t, Mode mode, Cause cause) {
   status.since = t.in.now;
 }
 
-bool moves(world::Mode mode) {
+bool is_moving(world::Mode mode) {
   return mode == world::Mode::kDriving || mode == world::Mode::kCoast ||
          mode == world::Mode::kControlledStop || mode == world::Mode::kEmergencyStop;
 }
 
-bool guarded(const CarRecord& record) { return record.armed && moves(record.mode); }
+bool guarded(const CarRecord& record) { return record.armed && is_moving(record.mode); }
 
-void hear_wheels(State& s, const can::ReceivedFrame& received) {
+void receive_wheel_speeds(State& s, const can::ReceivedFrame& received) {
   av21::WheelSpeedReport m;
   if (!av21::decode(received.frame, m)) return;
   const world::PerWheel wheels{{m.wheel_speed_FL * kMpsPerKmh, m.wheel_speed_FR * kMpsPerKmh,
@@ -52,13 +52,13 @@ void hear_wheels(State& s, const can::ReceivedFrame& received) {
   s.signals.wheel_speed_mps = {wheels, received.at, true};
 }
 
-void hear_steering(State& s, const can::ReceivedFrame& received) {
+void receive_steering(State& s, const can::ReceivedFrame& received) {
   av21::SteeringReport m;
   if (!av21::decode(received.frame, m)) return;
   s.signals.steering_motor_rad = {from_deg(m.steering_motor_ang_avg_fdbk), received.at, true};
 }
 
-void hear_bus(Tick& t) {
+void receive_frames(Tick& t) {
   State& s = t.state;
   for (const can::ReceivedFrame& received : t.in.can) {
     const std::uint32_t id = received.frame.id;
@@ -67,8 +67,8 @@ void hear_bus(Tick& t) {
       continue;
     }
     s.others_at = std::max(s.others_at, received.at);
-    if (id == av21::WheelSpeedReport::kId) hear_wheels(s, received);
-    if (id == av21::SteeringReport::kId) hear_steering(s, received);
+    if (id == av21::WheelSpeedReport::kId) receive_wheel_speeds(s, received);
+    if (id == av21::SteeringReport::kId) receive_steering(s, received);
   }
 }
 
@@ -77,9 +77,9 @@ void hear_bus(Tick& t) {
 void count_silence(const Tick& t) {
   State& s = t.state;
   if (t.command_received) s.silent_from = s.received.commanded_at;
-  const Duration slept = t.in.now - s.stepped_at;
-  if (s.stepped_at != Instant{} && slept > kOverslept)
-    s.silent_from = std::min(t.in.now - kTick, s.silent_from + (slept - kTick));
+  const Duration pause = t.in.now - s.stepped_at;
+  if (s.stepped_at != Instant{} && pause > kPauseMin)
+    s.silent_from = std::min(t.in.now - kTick, s.silent_from + (pause - kTick));
   s.stepped_at = t.in.now;
 }
 
@@ -97,7 +97,7 @@ void take_record(Tick& t) {
   s.record.datum = before.datum;
 }
 
-void hear_forces(Tick& t) {
+void store_accelerations(Tick& t) {
   for (const world::ImuSample& sample : t.in.sensors.imu) {
     t.state.ax_mps2 = sample.specific_force_mps2[0];
     t.state.ay_mps2 = sample.specific_force_mps2[1];
@@ -141,7 +141,7 @@ safety::PathPose on_path(const Pose& pose) {
 }
 
 // Why it must not or cannot act; kNone: it can.
-Cause hindrance(Tick& t) {
+Cause takeover_obstacle(Tick& t) {
   State& s = t.state;
   if (t.in.now - s.others_at > t.params.bus_silence_max) return Cause::kBusSilent;
   if (s.received.commanded_at - s.record.at > kRecordLag) return Cause::kStale;
@@ -163,7 +163,7 @@ safety::GateContext gate_context(const Tick& t, world::Mode mode, Instant comman
           .now = now};
 }
 
-// The gate has to have seen what the car was told last: it then judges our first frames by it.
+// The gate needs the last command of the car: it then judges our first frames by it.
 void seed_gate(const Tick& t) {
   State& s = t.state;
   s.gate = {};
@@ -183,7 +183,7 @@ void take_over(const Tick& t) {
   s.open_loop = {};
   s.standing = false;
   s.fresh_records = 0;
-  s.next_speech = t.in.now;
+  s.next_send = t.in.now;
   s.status.run = s.record.run;
   s.status.drove_from = s.status.drove_until = t.in.now;
   s.status.counters = counters_of(s.received);
@@ -206,7 +206,7 @@ void watch(Tick& t) {
     return;
   }
   if (!s.received.commanded) return;
-  const Cause cause = hindrance(t);
+  const Cause cause = takeover_obstacle(t);
   if (cause == Cause::kNone) return take_over(t);
   if (s.status.mode != Mode::kNothingToDrive || s.status.cause != cause)
     enter(t, Mode::kNothingToDrive, cause);
@@ -217,7 +217,7 @@ void hand_back(const Tick& t, Cause cause) {
   s.handed_back = true;
   s.handed_back_at = t.in.now;
   ++s.status.hand_backs;
-  s.received.commanded_at = s.silent_from = t.in.now;  // it has as long as ever to be heard
+  s.received.commanded_at = s.silent_from = t.in.now;  // the full silence is allowed again
   s.status.guidance = Guidance::kNone;
   enter(t, Mode::kHandedBack, cause);
 }
@@ -238,13 +238,13 @@ bool is_released(const Tick& t, bool alive) {
 }
 
 // Whether the car process gets the car again; true if it did.
-bool gave_back(const Tick& t) {
+bool try_hand_back(const Tick& t) {
   State& s = t.state;
   const CarRecord& record = s.record;
   count_records(t);
   const bool alive = s.fresh_records >= kRecordsToBelieve;
-  if (record.speaks && s.fresh_records > 0 && record.at - s.status.drove_from > kCrossing) {
-    hand_back(t, Cause::kCarSpeaks);
+  if (record.sends && s.fresh_records > 0 && record.at - s.status.drove_from > kSendOverlapMax) {
+    hand_back(t, Cause::kCarSends);
     return true;
   }
   if (is_released(t, alive)) {
@@ -293,7 +293,7 @@ world::ActuatorCommand next_command(const Tick& t) {
   return s.following.command;
 }
 
-void stand(const Tick& t) {
+void detect_standstill(const Tick& t) {
   State& s = t.state;
   const bool still = s.reckoning.pose.speed_mps < t.params.following.stop.standstill_mps;
   if (still && !s.standing) s.standing_since = t.in.now;
@@ -306,12 +306,12 @@ void stand(const Tick& t) {
 
 void drive(const Tick& t, Output& out) {
   State& s = t.state;
-  if (gave_back(t)) return;
+  if (try_hand_back(t)) return;
   s.status.drove_until = t.in.now;
   reckon(t, t.in.sensors);
-  stand(t);
-  if (t.in.now < s.next_speech) return;
-  s.next_speech = t.in.now + kSpeakEvery;
+  detect_standstill(t);
+  if (t.in.now < s.next_send) return;
+  s.next_send = t.in.now + kSendPeriod;
   s.status.command = next_command(t);
   const CommandFrames encoded = encode_frames(s.received, s.status.counters,
                                               {.command = s.status.command,
@@ -331,10 +331,10 @@ Output step(const Params& params, State& state, const Inputs& inputs) {
   Tick tick{params, state, inputs};
   Output out;
   const Mode before = state.status.mode;
-  hear_bus(tick);
+  receive_frames(tick);
   count_silence(tick);
-  hear_forces(tick);
-  listen(state.reckoning, inputs.sensors);
+  store_accelerations(tick);
+  store_gyro_rates(state.reckoning, inputs.sensors);
   take_record(tick);
   if (!drives(before)) watch(tick);
   if (drives(state.status.mode)) drive(tick, out);

@@ -4,7 +4,7 @@
 // frames of the car process.
 //   in     the newest CarRecord (or null), frames from the bus, samples of the receivers, the time
 //   out    frames that passed the guardian's own gate, Status
-//   rate   every 5 ms (any rate from 1 to 10 ms); frames are sent every kSpeakEvery while it drives
+//   rate   every 5 ms (any rate from 1 to 10 ms); frames are sent every kSendPeriod while it drives
 //   invariants
 //          it takes over only if all of this holds:
 //            no command (1400..1402) of the car was received for kSilence, but other frames were;
@@ -37,7 +37,7 @@ namespace pitwall::guardian {
 
 inline constexpr Duration kSilence = milliseconds(30);
 inline constexpr Duration kRecordLag = milliseconds(100);
-inline constexpr Duration kSpeakEvery = milliseconds(10);
+inline constexpr Duration kSendPeriod = milliseconds(10);
 inline constexpr Duration kTick = milliseconds(5);
 
 struct Params {
@@ -63,7 +63,7 @@ struct State {
   safety::FollowingState following;
   safety::SafeStopState open_loop;
   safety::GateState gate;
-  Instant next_speech{}, standing_since{}, handed_back_at{};
+  Instant next_send{}, standing_since{}, handed_back_at{};
   bool standing = false, handed_back = false;
   int fresh_records = 0;
   double ax_mps2 = kUnset, ay_mps2 = kUnset;  // specific force, for the accelerations frame

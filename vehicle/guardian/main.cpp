@@ -18,7 +18,7 @@
 #include "vehicle/io/receiver_port.hpp"
 #include "vehicle/io/shared_stop.hpp"
 #include "vehicle/parameters/car_file.hpp"
-#include "vehicle/pipeline/guarding.hpp"
+#include "vehicle/pipeline/guardian_interface.hpp"
 
 namespace pitwall {
 namespace {
@@ -33,22 +33,22 @@ int refuse(const Problem& problem) {
 }
 
 struct Counts {
-  std::uint64_t ticks = 0, missed = 0, received = 0, sent = 0, not_sent = 0, refused = 0;
+  std::uint64_t ticks = 0, missed = 0, received = 0, sent = 0, refused = 0;
   std::int64_t longest_ns = 0;
 };
 
-// What the guardian hears and says.
-class Rim {
+// Bus socket, receiver ports and shared memory of the guardian.
+class GuardianIo {
  public:
-  static Result<Rim, Problem> open(const io::GuardianArguments& args,
-                                   const world::Receivers& receivers) {
+  static Result<GuardianIo, Problem> open(const io::GuardianArguments& args,
+                                          const world::Receivers& receivers) {
     auto can = transport::CanSocket::open(args.can_interface);
     if (!can) return Unexpected{can.error()};
     auto ports = io::open_receivers(args.receivers, receivers);
     if (!ports) return Unexpected{ports.error()};
     auto shared = io::SharedStop::open(args.guardian);
     if (!shared) return Unexpected{shared.error()};
-    return Rim{*std::move(can), *std::move(ports), *std::move(shared)};
+    return GuardianIo{*std::move(can), *std::move(ports), *std::move(shared)};
   }
 
   // Valid until the next one.
@@ -72,7 +72,8 @@ class Rim {
   const transport::CanSocketCounters& can() const { return can_.counters(); }
 
  private:
-  Rim(transport::CanSocket can, std::vector<io::ReceiverPort> receivers, io::SharedStop shared)
+  GuardianIo(transport::CanSocket can, std::vector<io::ReceiverPort> receivers,
+             io::SharedStop shared)
       : can_(std::move(can)),
         receivers_(std::move(receivers)),
         shared_(std::move(shared)),
@@ -110,16 +111,16 @@ std::string summary_json(const Counts& c, const guardian::Status& s) {
          "\n";
 }
 
-Counts watch_over(const guardian::Params& params, guardian::State& state, Rim& rim,
-                  transport::StopSignal& stop) {
+Counts run_ticks(const guardian::Params& params, guardian::State& state, GuardianIo& guardian_io,
+                 transport::StopSignal& stop) {
   Counts counts;
   transport::Ticker ticker{guardian::kTick};
   guardian::Guidance guidance = guardian::Guidance::kNone;
   while (!stop.raised()) {
     const transport::Tick tick = ticker.next();
     const Instant now = transport::monotonic_now();
-    const guardian::Output out = guardian::step(params, state, rim.read(now));
-    rim.write(state.status, out.frames.span());
+    const guardian::Output out = guardian::step(params, state, guardian_io.read(now));
+    guardian_io.write(state.status, out.frames.span());
     ++counts.ticks;
     counts.missed += tick.missed;
     counts.refused = std::max(counts.refused, out.gate_refusals);
@@ -127,8 +128,8 @@ Counts watch_over(const guardian::Params& params, guardian::State& state, Rim& r
     if (out.mode_changed || state.status.guidance != guidance) report(state.status);
     guidance = state.status.guidance;
   }
-  counts.received = rim.can().received;
-  counts.sent = rim.can().sent;
+  counts.received = guardian_io.can().received;
+  counts.sent = guardian_io.can().sent;
   return counts;
 }
 
@@ -144,15 +145,16 @@ int run(int argc, const char* const* argv) {
   const auto car = parameters::read_car(*text, args.car_file);
   if (!car) return refuse(car.error());
   if (args.check) return 0;
-  auto rim = Rim::open(args, car->params.receivers);
-  if (!rim) return refuse(rim.error());
+  auto guardian_io = GuardianIo::open(args, car->params.receivers);
+  if (!guardian_io) return refuse(guardian_io.error());
   const auto realtime = transport::request_realtime(kPriority);
   std::fprintf(stderr, "pitwall-guardian: on %s, %s, %s%s\n", args.can_interface.c_str(),
                io::shared_stop_path(args.guardian).c_str(), transport::to_string(realtime).c_str(),
                args.simulation ? ", SIMULATION" : "");
   if (const auto taken = transport::take_turns(); !taken) return refuse(taken.error());
   const auto state = std::make_unique<guardian::State>();
-  const Counts counts = watch_over(pipeline::guardian_params(car->params), *state, *rim, *stop);
+  const Counts counts =
+      run_ticks(pipeline::guardian_params(car->params), *state, *guardian_io, *stop);
   if (args.summary_file.empty()) return 0;
   const auto written =
       transport::write_file(args.summary_file, summary_json(counts, state->status));

@@ -24,12 +24,12 @@ double yaw_rate(const ReckoningParams& p, ReckoningState& s, double by_steering,
   const auto rate = [&](std::size_t unit) {
     return s.gyros[unit].rate_rad_per_s - s.gyros[unit].bias_rad_per_s;
   };
-  const auto lives = [&](std::size_t unit) {
+  const auto alive = [&](std::size_t unit) {
     return std::isfinite(rate(unit)) && now - s.gyros[unit].at <= p.gyro_age_max;
   };
-  s.gyro_used = lives(0) || lives(1);
+  s.gyro_used = alive(0) || alive(1);
   if (!s.gyro_used) return std::isfinite(by_steering) ? by_steering : s.pose.yaw_rate_rad_per_s;
-  if (!lives(0) || !lives(1)) return lives(0) ? rate(0) : rate(1);
+  if (!alive(0) || !alive(1)) return alive(0) ? rate(0) : rate(1);
   const bool differ = std::abs(rate(0) - rate(1)) > p.gyro_differ_rad_per_s;
   if (!differ || !std::isfinite(by_steering)) return rate(0);
   return std::abs(rate(0) - by_steering) <= std::abs(rate(1) - by_steering) ? rate(0) : rate(1);
@@ -120,7 +120,7 @@ bool placed(const world::EgoState& ego) {
 
 }  // namespace
 
-void listen(ReckoningState& state, const SensorInput& sensors) {
+void store_gyro_rates(ReckoningState& state, const SensorInput& sensors) {
   for (const world::ImuSample& sample : sensors.imu) {
     if (sample.unit >= world::kGnssUnits) continue;
     Gyroscope& gyro = state.gyros[sample.unit];

@@ -89,7 +89,7 @@ struct Motion {
 };
 
 // Takes the gyroscope rates, in every tick.
-void listen(ReckoningState& state, const world::SensorInput& sensors);
+void store_gyro_rates(ReckoningState& state, const world::SensorInput& sensors);
 
 // Takes the car's estimate and updates the gyroscope biases from it, while the car process runs.
 void follow_car(const ReckoningParams& params, ReckoningState& state, const world::EgoState& ego);

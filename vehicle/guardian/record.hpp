@@ -42,7 +42,7 @@ struct CarRecord {
   Instant at{};                // time of the tick
   world::Mode mode = world::Mode::kDisarmed;
   bool armed = false;     // actuator frames are sent, unless the guardian drives
-  bool speaks = false;    // sends frames in this tick
+  bool sends = false;     // sends frames in this tick
   bool reset = false;     // by the operator or by a start without --arm: ends the hold
   bool finished = false;  // the process ended normally and the car stood
   bool barred = false;    // an earlier run ended armed: --arm is refused until one start without it
@@ -73,7 +73,7 @@ enum class Cause : std::uint8_t {
   kOffPath,    // the car is not on the trajectory
   kBusSilent,  // no node sends: the bus or the guardian's socket failed
   kCarBack,    // the car process publishes records again, in time
-  kCarSpeaks,  // the car process sends, as if the guardian were dead
+  kCarSends,   // the car process sends, as if the guardian were dead
   kStands,     // the car has stopped
   kReset       // by the operator, or by a start without being armed
 };
@@ -101,7 +101,7 @@ constexpr const char* text_of(Cause cause) {
                                                     "car not on the stop trajectory",
                                                     "bus silent",
                                                     "car process is back",
-                                                    "car process speaks",
+                                                    "car process sends",
                                                     "car stands",
                                                     "reset"};
   return kTexts[static_cast<std::size_t>(cause)];

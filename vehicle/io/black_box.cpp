@@ -5,19 +5,20 @@
 #include <cstdio>
 
 #include "protocol/json/json_text.hpp"
-#include "protocol/telemetry/registry/group_row.hpp"
+#include "protocol/telemetry/registry/rows.hpp"
 #include "protocol/vocabulary/check.hpp"
 #include "vehicle/io/tick_inputs.hpp"
 
 namespace pitwall::io {
 
-Result<BlackBox, Problem> BlackBox::open(const std::string& folder, const std::string& car_file,
-                                         const std::string& track_file, bool no_base) {
+Result<BlackBox, Problem> BlackBox::open(const std::string& folder, const BlackBoxFiles& files,
+                                         bool no_base) {
   BlackBox box;
   if (folder.empty()) return box;
   recording::Metadata run = recorder::program_metadata("pitwall-vehicle");
-  recorder::append_file(run, "car", car_file);
-  recorder::append_file(run, "track", track_file);
+  recorder::append_file(run, "car", files.car);
+  recorder::append_file(run, "track", files.track);
+  if (!files.bank.empty()) recorder::append_file(run, "bank", files.bank);
   run.emplace_back(kBaseKey, no_base ? kNoBase : "watched");
   auto started = recorder::Recorder::start(folder, std::move(run));
   if (!started) return Unexpected{started.error()};

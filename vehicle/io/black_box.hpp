@@ -20,7 +20,7 @@
 
 #include "protocol/can/frame.hpp"
 #include "protocol/recorder/recorder.hpp"
-#include "protocol/telemetry/registry/snapshot.hpp"
+#include "protocol/telemetry/registry/registry.hpp"
 #include "protocol/vocabulary/result.hpp"
 #include "protocol/vocabulary/time.hpp"
 #include "vehicle/io/tick_inputs.hpp"
@@ -28,15 +28,20 @@
 
 namespace pitwall::io {
 
+// What the car was set up from.
+struct BlackBoxFiles {
+  std::string car = {}, track = {}, bank = {};  // no bank: empty
+};
+
 class BlackBox {
  public:
   static constexpr std::uint64_t kStateEvery = 2;                     // ticks
   static constexpr const char *kBaseKey = "base", *kNoBase = "none";  // metadata key and value
 
-  // With an empty folder the recording is off. `car_file` and `track_file` are named in the
-  // recording; `no_base` is stored in it: no base station is used.
-  static Result<BlackBox, Problem> open(const std::string& folder, const std::string& car_file,
-                                        const std::string& track_file, bool no_base = false);
+  // With an empty folder the recording is off. The files are named in the recording; `no_base` is
+  // stored in it: no base station is used.
+  static Result<BlackBox, Problem> open(const std::string& folder, const BlackBoxFiles& files,
+                                        bool no_base = false);
 
   bool on() const { return recorder_ != nullptr; }
   bool state_due(std::uint64_t tick) const { return on() && tick % kStateEvery == 0; }

@@ -28,16 +28,16 @@ Result<std::unique_ptr<BusWatch>, Problem> BusWatch::start(std::string_view inte
 
 BusWatch::BusWatch(transport::CanInterface interface, transport::FileDescriptor wake_fd)
     : interface_(std::move(interface)), wake_fd_(std::move(wake_fd)) {
-  mine_.interface = shared_.interface = seen_.interface = interface_.status();
+  own_.interface = shared_.interface = seen_.interface = interface_.status();
   thread_ = std::thread([this] { serve(); });
 }
 
 BusWatch::~BusWatch() {
-  ask(end_);
+  raise(end_);
   thread_.join();
 }
 
-void BusWatch::ask(std::atomic<bool>& request) {
+void BusWatch::raise(std::atomic<bool>& request) {
   if (request.exchange(true)) return;
   eventfd_write(wake_fd_.get(), 1);
 }
@@ -67,9 +67,9 @@ void BusWatch::serve() {
 }
 
 void BusWatch::publish() {
-  mine_.interface = interface_.status();
+  own_.interface = interface_.status();
   const std::lock_guard lock(shared_lock_);
-  shared_ = mine_;
+  shared_ = own_;
 }
 
 bool BusWatch::count(const std::optional<Problem>& refused, std::uint64_t& done,
@@ -80,8 +80,8 @@ bool BusWatch::count(const std::optional<Problem>& refused, std::uint64_t& done,
   }
   ++refusals;
   const std::string text = to_string(*refused);
-  mine_.refusal = {};
-  text.copy(mine_.refusal.data(), mine_.refusal.size() - 1);
+  own_.refusal = {};
+  text.copy(own_.refusal.data(), own_.refusal.size() - 1);
   return false;
 }
 
@@ -89,15 +89,15 @@ void BusWatch::carry_out_restart() {
   const std::uint32_t counted = interface_.status().restarts;
   const auto refused = interface_.restart();
   interface_.refresh();
-  if (count(refused, mine_.restarts, mine_.restarts_refused) &&
+  if (count(refused, own_.restarts, own_.restarts_refused) &&
       interface_.status().restarts == counted)
-    ++mine_.down_and_up;
+    ++own_.down_and_up;
   publish();
   restart_asked_.store(false);  // last: what was asked meanwhile is done with
 }
 
 void BusWatch::carry_out_flush() {
-  count(interface_.flush(), mine_.flushes, mine_.flushes_refused);
+  count(interface_.flush(), own_.flushes, own_.flushes_refused);
   publish();
   flush_asked_.store(false);
 }

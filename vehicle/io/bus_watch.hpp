@@ -46,14 +46,14 @@ class BusWatch {
 
   // Valid until the next call; for one thread only.
   const BusReport& newest();
-  void restart() { ask(restart_asked_); }
-  void flush() { ask(flush_asked_); }
+  void restart() { raise(restart_asked_); }
+  void flush() { raise(flush_asked_); }
   // A flush is requested or running, so frames may vanish at any moment.
   bool flushing() const { return flush_asked_.load(); }
 
  private:
   BusWatch(transport::CanInterface interface, transport::FileDescriptor wake_fd);
-  void ask(std::atomic<bool>& request);
+  void raise(std::atomic<bool>& request);
   void serve();
   void carry_out_restart();
   bool count(const std::optional<Problem>& refused, std::uint64_t& done, std::uint64_t& refusals);
@@ -63,7 +63,7 @@ class BusWatch {
   transport::CanInterface interface_;
   transport::FileDescriptor wake_fd_;
   std::atomic<bool> restart_asked_{false}, flush_asked_{false}, end_{false};
-  BusReport mine_;  // of the thread
+  BusReport own_;  // of the thread
   std::mutex shared_lock_;
   BusReport shared_;
   BusReport seen_;  // of the caller

@@ -53,7 +53,8 @@ void CarIo::poll_bus(Instant now) {
   const bool flushing = watch_->flushing();  // first: a flush that ends now shows in one of the two
   const BusReport& report = watch_->newest();
   const std::uint64_t emptied = report.flushes + report.restarts;
-  slots_.look({.bytes = can_.queued_bytes(), .flushed = flushing || emptied != emptied_}, now);
+  slots_.observe_queue({.bytes = can_.queued_bytes(), .flushed = flushing || emptied != emptied_},
+                       now);
   emptied_ = emptied;
   if (slots_.should_flush(now) && report.flushes_refused == 0) watch_->flush();
   link_ = observer_.observe({.interface = report.interface,
@@ -69,7 +70,7 @@ void CarIo::poll_bus(Instant now) {
 
 void CarIo::write(std::span<const can::Frame> frames, Instant now) {
   if (listen_only()) {
-    silenced_ += frames.size();
+    listen_only_drops_ += frames.size();
     return;
   }
   slots_.offer(frames, now);

@@ -49,7 +49,7 @@ class CarIo {
   std::span<const ReceiverPort> receivers() const { return receivers_; }
   const TransmitCounters& transmit() const { return slots_.counters(); }
   // Frames that were not sent in time: a command is never sent late.
-  std::uint64_t tx_drops() const { return slots_.counters().dropped() + silenced_; }
+  std::uint64_t tx_drops() const { return slots_.counters().dropped() + listen_only_drops_; }
   void poll_drops() { can_.poll_drops(); }
   const BusReport& bus() { return watch_->newest(); }
   // Reason for which the kernel refused a request to the bus; returned once, at the first refusal.
@@ -68,10 +68,10 @@ class CarIo {
   LinkObserver observer_;
   world::LinkObservation link_;
   bool refusal_reported_ = false;
-  std::uint64_t emptied_ = 0;  // flushes of the kernel's queue at the last look
+  std::uint64_t emptied_ = 0;  // flushes of the kernel's queue at the last observation
   std::vector<ReceiverPort> receivers_;
   std::vector<can::ReceivedFrame> frames_;
-  std::uint64_t silenced_ = 0;  // frames not sent on a listen-only interface
+  std::uint64_t listen_only_drops_ = 0;  // frames not sent on a listen-only interface
 };
 
 }  // namespace pitwall::io

@@ -16,7 +16,7 @@
 namespace pitwall::io {
 namespace {
 
-constexpr Duration kBeat = seconds(1);
+constexpr Duration kSamplePeriod = seconds(1);
 constexpr int kZones = 32;                                  // more than any computer of a car has
 constexpr std::size_t kTimes = 8, kIdle = 3, kWaiting = 4;  // columns of /proc/stat
 constexpr double kKibPerMib = 1024.0, kThousandths = 1e-3;
@@ -96,7 +96,7 @@ void ComputerWatch::serve() {
   while (!end_.load()) {
     if (transport::monotonic_now() >= next) {
       read();
-      next += kBeat;
+      next += kSamplePeriod;
     }
     const int watched[] = {wake_fd_.get()};
     transport::wait_readable(watched, next);

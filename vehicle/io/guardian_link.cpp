@@ -11,7 +11,7 @@ Result<GuardianLink, Problem> GuardianLink::open(const std::string& name, bool a
   auto shared = SharedStop::open(name);
   if (!shared) return Unexpected{shared.error()};
   link.shared_.emplace(*std::move(shared));
-  link.reported_ = std::make_unique<pipeline::Reported>();
+  link.reported_ = std::make_unique<pipeline::GuardianRecord>();
   link.arm_ = arm;
   link.run_ = static_cast<std::uint64_t>(transport::utc_now().ns);  // no two starts share it
   const auto found = std::make_unique<guardian::CarRecord>();

@@ -17,7 +17,7 @@
 
 #include "protocol/vocabulary/result.hpp"
 #include "vehicle/io/shared_stop.hpp"
-#include "vehicle/pipeline/guarding.hpp"
+#include "vehicle/pipeline/guardian_interface.hpp"
 
 namespace pitwall::io {
 
@@ -42,7 +42,7 @@ class GuardianLink {
   GuardianLink() = default;
 
   std::optional<SharedStop> shared_;
-  std::unique_ptr<pipeline::Reported> reported_;
+  std::unique_ptr<pipeline::GuardianRecord> reported_;
   guardian::Status status_;
   bool received_ = false;
   std::uint64_t run_ = 0;

@@ -25,27 +25,27 @@ ControllerState state_of(BusState state) {
   return ControllerState::kUnknown;
 }
 
-ControllerState judge(const LinkNews& news) {
-  const transport::CanInterfaceStatus& report = news.interface;
-  if (news.hung_up || !report.exists || !report.up) return ControllerState::kDown;
+ControllerState judge(const LinkEvents& events) {
+  const transport::CanInterfaceStatus& report = events.interface;
+  if (events.hung_up || !report.exists || !report.up) return ControllerState::kDown;
   const bool reported = report.has_controller && report.state != BusState::kUnknown;
-  if (!reported) return state_of(news.reported_by_frames);
-  if (news.reported_at > report.at) return state_of(news.reported_by_frames);
-  if (news.reported_at < report.at) return state_of(report.state);
-  return std::max(state_of(news.reported_by_frames), state_of(report.state));
+  if (!reported) return state_of(events.reported_by_frames);
+  if (events.reported_at > report.at) return state_of(events.reported_by_frames);
+  if (events.reported_at < report.at) return state_of(report.state);
+  return std::max(state_of(events.reported_by_frames), state_of(report.state));
 }
 
 }  // namespace
 
-world::LinkObservation LinkObserver::observe(const LinkNews& news) {
-  const transport::CanInterfaceStatus& report = news.interface;
-  return {.controller = judge(news),
-          .lost_in_socket = news.lost_in_socket,
+world::LinkObservation LinkObserver::observe(const LinkEvents& events) {
+  const transport::CanInterfaceStatus& report = events.interface;
+  return {.controller = judge(events),
+          .lost_in_socket = events.lost_in_socket,
           .lost_in_interface = lost_.follow(report.exists ? report.lost() : 0),
-          .error_frames = news.error_frames,
-          .tx_drops = news.tx_drops,
-          .restarts = restarts_.follow(report.exists ? report.restarts : 0) + news.down_and_up,
-          .tx_stalled = news.tx_stalled};
+          .error_frames = events.error_frames,
+          .tx_drops = events.tx_drops,
+          .restarts = restarts_.follow(report.exists ? report.restarts : 0) + events.down_and_up,
+          .tx_stalled = events.tx_stalled};
 }
 
 }  // namespace pitwall::io

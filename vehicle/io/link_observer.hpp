@@ -4,7 +4,7 @@
 //     error frame  ----- bus-off @120 -------------------------->  bus-off from 120 on
 //     interface    - active @100 ------- bus-off @200 --- active @300 (restarted) -> active
 //
-//   in     LinkNews
+//   in     LinkEvents
 //   out    world::LinkObservation; losses and restarts since the first observation
 //   units  frames, Instant
 //   invariants
@@ -28,7 +28,7 @@
 
 namespace pitwall::io {
 
-struct LinkNews {
+struct LinkEvents {
   const transport::CanInterfaceStatus& interface;
   transport::BusState reported_by_frames = transport::BusState::kUnknown;
   Instant reported_at{};
@@ -56,7 +56,7 @@ class GrowingCount {
 
 class LinkObserver {
  public:
-  world::LinkObservation observe(const LinkNews& news);
+  world::LinkObservation observe(const LinkEvents& events);
 
  private:
   GrowingCount lost_, restarts_;

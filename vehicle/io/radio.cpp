@@ -13,13 +13,9 @@
 namespace pitwall::io {
 namespace {
 
-using transport::UdpAddress;
 using transport::UdpSocket;
 
 constexpr std::uint8_t kExpedited = 46;  // RFC 3246: every packet holds safety's part
-
-telemetry::Address address_of(UdpAddress a) { return {.ip = a.ip, .port = a.port}; }
-UdpAddress address_of(telemetry::Address a) { return {.ip = a.ip, .port = a.port}; }
 
 recorder::RadioDatagram on_air(telemetry::PathId path, UdpAddress other,
                                std::span<const std::uint8_t> bytes) {
@@ -34,15 +30,15 @@ Result<telemetry::KeyFile, Problem> read_keys(const std::string& path, bool real
 }
 
 Result<UdpSocket, Problem> open_socket(UdpAddress base) {
-  return UdpSocket::bind({.ip = is_loopback(base) ? transport::kLoopbackIp : transport::kAnyIp},
+  return UdpSocket::bind({.ip = is_loopback(base) ? kLoopbackIp : transport::kAnyIp},
                          {.dscp = kExpedited});
 }
 
 void set_addresses(telemetry::AssociationConfig& config, std::size_t path,
                    const StationAddresses& addresses) {
-  config.peer[path] = address_of(addresses.front());
+  config.peer[path] = addresses.front();
   for (const UdpAddress& spare : std::span(addresses).subspan(1)) {
-    CHECK(config.spare[path].push(address_of(spare)));
+    CHECK(config.spare[path].push(spare));
   }
 }
 
@@ -92,16 +88,15 @@ void Radio::receive(BlackBox& box) {
       for (const transport::UdpDatagram& datagram : std::span(inbox_).first(count)) {
         const auto number = static_cast<telemetry::PathId>(path);
         box.radio(false, datagram.at, on_air(number, datagram.from, datagram.payload()));
-        endpoint_.feed(datagram.payload(), number, address_of(datagram.from), datagram.at);
+        endpoint_.feed(datagram.payload(), number, datagram.from, datagram.at);
       }
     }
 }
 
 void Radio::send(const telemetry::Snapshot& snapshot, Instant now, BlackBox& box) {
   while (const auto out = endpoint_.poll(snapshot, now)) {
-    const UdpAddress to = address_of(out->to);
-    paths_[out->path].send_to(to, out->bytes);
-    box.radio(true, now, on_air(out->path, to, out->bytes));
+    paths_[out->path].send_to(out->to, out->bytes);
+    box.radio(true, now, on_air(out->path, out->to, out->bytes));
   }
 }
 

@@ -48,7 +48,7 @@ class Radio {
   const transport::UdpCounters& counters(std::size_t path) const { return paths_[path].counters(); }
   bool bench_keys() const { return bench_keys_; }
   std::size_t paths() const { return paths_.size(); }
-  transport::UdpAddress local(std::size_t path) const { return paths_[path].local(); }
+  UdpAddress local(std::size_t path) const { return paths_[path].local(); }
 
  private:
   // A tick at most this much before its slot serves it, because the next tick would be late.

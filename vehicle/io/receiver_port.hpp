@@ -22,7 +22,7 @@
 #include "protocol/transport/udp_socket.hpp"
 #include "vehicle/io/arguments/receiver_link.hpp"
 #include "vehicle/receivers/receiver.hpp"
-#include "vehicle/world/receiver_params.hpp"
+#include "vehicle/world/receiver.hpp"
 #include "vehicle/world/sensor_input.hpp"
 
 namespace pitwall::io {

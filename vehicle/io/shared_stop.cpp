@@ -92,7 +92,7 @@ void write_value(Pair<Value>& pair, const Value& value) {
 
 // A writer that was killed between copy and hint has left a copy newer than the hint.
 template <class Value>
-void take_up(Pair<Value>& pair) {
+void restore_newest(Pair<Value>& pair) {
   Copy<Value> own;
   if (read_newest(pair, own) && own.sequence > pair.newest) pair.newest = own.sequence;
 }
@@ -143,8 +143,8 @@ Result<SharedStop, Problem> SharedStop::open(std::string_view name) {
       layout->record_bytes != sizeof(guardian::CarRecord) ||
       layout->status_bytes != sizeof(guardian::Status))
     return refuse(path, "holds a record of another layout: car and guardian must be of one build");
-  take_up(layout->record);
-  take_up(layout->status);
+  restore_newest(layout->record);
+  restore_newest(layout->status);
   return shared;
 }
 

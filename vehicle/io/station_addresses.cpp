@@ -9,9 +9,7 @@
 namespace pitwall::io {
 namespace {
 
-using transport::UdpAddress;
-
-constexpr std::size_t kMostOfAPath = 1 + telemetry::kSpares;
+constexpr std::size_t kAddressesPerPathMax = 1 + telemetry::kSpares;
 constexpr unsigned kFirstByte = 24;
 constexpr std::uint32_t kLoopbackNet = 127;  // 127.0.0.0/8, RFC 1122 3.2.1.3
 
@@ -40,9 +38,9 @@ Result<StationAddresses, Problem> parse_list(const std::string& list) {
     if (comma == rest.size()) break;
     rest.remove_prefix(comma + 1);
   }
-  if (addresses.size() > kMostOfAPath) {
+  if (addresses.size() > kAddressesPerPathMax) {
     return refuse_radio(list, std::to_string(addresses.size()) + " addresses, expected one to " +
-                                  std::to_string(kMostOfAPath) + " of a path");
+                                  std::to_string(kAddressesPerPathMax) + " of a path");
   }
   if (std::ranges::any_of(addresses, is_loopback) && !std::ranges::all_of(addresses, is_loopback)) {
     return refuse_radio(

@@ -17,12 +17,12 @@
 
 namespace pitwall::io {
 
-using StationAddresses = std::vector<transport::UdpAddress>;
+using StationAddresses = std::vector<UdpAddress>;
 
 Result<std::vector<StationAddresses>, Problem> parse_station_addresses(
     std::span<const std::string> paths);
 
 // Whether the address is on the loopback interface.
-bool is_loopback(transport::UdpAddress address);
+bool is_loopback(UdpAddress address);
 
 }  // namespace pitwall::io

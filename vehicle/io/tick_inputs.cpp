@@ -38,7 +38,7 @@ guardian::CommandCounters unpacked(std::uint32_t bits) {
   return {.brake = byte(0), .throttle = byte(8), .steering = byte(16), .report = byte(24)};
 }
 
-void keep_operator(const pipeline::Inputs& in, TickRecord& to) {
+void record_operator(const pipeline::Inputs& in, TickRecord& to) {
   to.requests = static_cast<std::uint8_t>(
       bit_if(in.requests.arm, kArmBit) | bit_if(in.requests.reset, kResetBit) |
       bit_if(in.requests.stop, kStopBit) | bit_if(in.requests.emergency_stop, kEmergencyBit) |
@@ -59,7 +59,7 @@ void keep_operator(const pipeline::Inputs& in, TickRecord& to) {
   to.radio_at_ns = ns_of(in.radio_at);
 }
 
-void keep_link(const world::LinkObservation& link, TickRecord& to) {
+void record_link(const world::LinkObservation& link, TickRecord& to) {
   to.controller = static_cast<std::uint8_t>(link.controller);
   to.lost_in_socket = link.lost_in_socket;
   to.lost_in_interface = link.lost_in_interface;
@@ -70,7 +70,7 @@ void keep_link(const world::LinkObservation& link, TickRecord& to) {
   to.bus_load = link.load;
 }
 
-void keep_guardian(const pipeline::GuardianView& guardian, TickRecord& to) {
+void record_guardian(const pipeline::GuardianView& guardian, TickRecord& to) {
   to.guardian = static_cast<std::uint8_t>(bit_if(guardian.drives, kDrivesBit) |
                                           bit_if(guardian.stopped, kStoppedBit));
   to.drove_from_ns = guardian.drove_from.ns;
@@ -152,11 +152,11 @@ TickRecord record_of(const pipeline::Inputs& in, const TickCounts& counts) {
   to.frames_received = static_cast<std::uint32_t>(in.can.size());
   to.frames_sent = static_cast<std::uint32_t>(counts.frames_sent);
   to.receiver_bytes = static_cast<std::uint32_t>(counts.receiver_bytes);
-  keep_operator(in, to);
+  record_operator(in, to);
   to.gnss0_byte_at_ns = ns_of(in.gnss_byte_at[0]);
   to.gnss1_byte_at_ns = ns_of(in.gnss_byte_at[1]);
-  keep_link(in.link, to);
-  keep_guardian(in.guardian, to);
+  record_link(in.link, to);
+  record_guardian(in.guardian, to);
   to.processor_share = in.computer.processor_share;
   to.memory_mib = in.computer.memory_mib;
   to.temperature_c = in.computer.temperature_c;

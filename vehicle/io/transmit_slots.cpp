@@ -44,7 +44,7 @@ void TransmitSlots::keep(std::size_t done, Instant oldest) {
   }
 }
 
-void TransmitSlots::look(const KernelQueue& queue, Instant now) {
+void TransmitSlots::observe_queue(const KernelQueue& queue, Instant now) {
   // Right after giving, only an empty queue is news: how full it was then nobody has looked.
   const bool less = given_ ? queue.bytes == 0 : queue.bytes < bytes_;
   const bool moved = less && !queue.flushed;

@@ -1,10 +1,10 @@
 // Transmit buffer for the CAN bus: one slot per identifier, the latest value wins, and no old frame
 // is sent after waiting in a queue. Pure: the fill of the kernel queue and the time are inputs.
 //
-//   tick k    look: kernel empty   offer -> due: all of it -> kernel takes it
-//   tick k+1  look: not empty yet  offer -> due: nothing
-//   tick k+2  look: not empty yet  offer -> the new values replace those of k+1; due: nothing
-//   tick k+3  look: kernel empty   offer -> due: the newest values only
+//   tick k    observe: kernel empty   offer -> due: all of it -> kernel takes it
+//   tick k+1  observe: not empty yet  offer -> due: nothing
+//   tick k+2  observe: not empty yet  offer -> the new values replace those of k+1; due: nothing
+//   tick k+3  observe: kernel empty   offer -> due: the newest values only
 //
 //   in     frames of a tick in order of urgency (brake first); the fill of the kernel queue
 //   out    frames to give to the kernel now, in that order; then those left from earlier ticks
@@ -46,7 +46,7 @@ struct TransmitCounters {
 // Fill of the kernel queue with our frames.
 struct KernelQueue {
   std::uint32_t bytes = 0;  // 0: all frames were sent
-  // Frames may have been discarded since the last look: a smaller fill then shows no progress.
+  // Frames may have been discarded since the last observation: less fill then shows no progress.
   bool flushed = false;
 };
 
@@ -57,7 +57,7 @@ class TransmitSlots {
   explicit TransmitSlots(const TransmitParams& params = {}) : params_(params) {}
 
   // To be called once per tick, before the other functions.
-  void look(const KernelQueue& queue, Instant now);
+  void observe_queue(const KernelQueue& queue, Instant now);
   // Frames of one tick, in order of urgency.
   void offer(std::span<const can::Frame> frames, Instant now);
   // Frames to give to the kernel; valid until the next call. Empty while it holds older ones.
@@ -79,8 +79,8 @@ class TransmitSlots {
   FixedVector<can::Frame, kSlots> frames_;
   FixedVector<Instant, kSlots> since_;  // offer time of each frame
   std::size_t tried_ = 0;               // number of frames returned by the last due()
-  std::uint32_t bytes_ = 0;             // fill at the last look
-  bool given_ = false;                  // frames were given since the last look
+  std::uint32_t bytes_ = 0;             // fill at the last observation
+  bool given_ = false;                  // frames were given since then
   bool stuck_ = false;
   Instant given_at_{}, moved_at_{};
   TransmitCounters counters_;

@@ -34,6 +34,16 @@ world::ReceiverParams read_receiver(yaml::StrictMap map) {
 
 planning::LineParams read_line(yaml::StrictMap map) {
   planning::LineParams line;
+  if (map.has("bank")) {
+    line.bank = map.text("bank");
+    if (line.bank.empty()) map.fail("bank", "names no file");
+    line.name = map.text("name");
+    if (map.has("offset_m"))
+      map.fail("offset_m", "a line of a bank is named: it has no offset from the reference line");
+    line.offset_m = 0.0;
+  } else {
+    read_ranges(map, planning::kOffsetRanges, line);
+  }
   read_ranges(map, planning::kLineRanges, line);
   line.friction = read_friction(map.map("friction"));
   return line;

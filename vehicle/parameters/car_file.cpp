@@ -30,6 +30,7 @@ CarFile read_root(yaml::StrictMap& map) {
   car.database = map.text("database");
   if (car.database != "av21")
     map.fail("database", "\"" + car.database + "\" is not built in; built in: av21");
+  read_ranges(map, pipeline::kCarRanges, car.params);
   car.params.rates = read_rates(map.map("rates"));
   read_gateway(map.map("gateway"), car.params);
   car.params.localization = read_localization(map.map("localization"), car.params.receivers);
@@ -38,7 +39,10 @@ CarFile read_root(yaml::StrictMap& map) {
   read_safety(map.map("safety"), car.params);
   read_radio(map.map("radio"), car.params);
   // Written once in the file, known to modules that must not include each other.
-  const steering::Params steering = read_steering(map.map("steering"));
+  steering::Params steering = read_steering(map.map("steering"));
+  const auto& filter = car.params.localization.filter.spatial;
+  steering.bicycle.cg_to_rear_m = filter.cg_to_rear_m;
+  steering.bicycle.rear_slip_rad_per_mps2 = filter.rear_slip_rad_per_mps2;
   safety::SafeStopParams& stop = car.params.supervisor.safe_stop;
   stop.steering = car.params.control.steering = steering;
   stop.tyres = car.params.planning.line.friction.tyres;
@@ -59,7 +63,9 @@ CarFile read_root(yaml::StrictMap& map) {
 Result<CarFile, Problem> read_car(const std::string& text, const std::string& name) {
   const auto document = yaml::load_text(text, name);
   if (!document) return Unexpected{document.error()};
-  return yaml::read(*document, read_root);
+  auto car = yaml::read(*document, read_root);
+  if (car) car->source = name;
+  return car;
 }
 
 }  // namespace pitwall::parameters

@@ -18,6 +18,7 @@ namespace pitwall::parameters {
 struct CarFile {
   std::string name;
   std::string database;  // revision of the database on the car's bus, "av21"
+  std::string source;    // file: what it names lies relative to its folder
   pipeline::CarParams params;
 };
 

@@ -15,7 +15,7 @@ namespace {
 // What no section leaves out has no default.
 std::string line_of(std::string_view section, const char* name, double value, double least,
                     double most) {
-  const std::string key = std::string{section} + "." + name;
+  const std::string key = std::string{section} + (section.empty() ? "" : ".") + name;
   return formatted("%-58s %10s %10s %10s\n", key.c_str(),
                    std::isnan(value) ? "required" : shortest(value).c_str(),
                    shortest(least).c_str(), shortest(most).c_str());
@@ -48,6 +48,7 @@ std::string autonomy_lines() {
          lines_of("localization.filter.spatial", localization::kSpatialRanges) +
          lines_of("localization.checks", localization::kCheckRanges) +
          lines_of("localization", localization::kRanges) +
+         lines_of("planning.line", planning::kOffsetRanges) +
          lines_of("planning.line", planning::kLineRanges) +
          lines_of("planning.line.friction", envelope::kFrictionRanges) +
          lines_of("planning.line.friction.engine", envelope::kEngineRanges) +
@@ -77,6 +78,7 @@ std::string safety_lines() {
 
 std::string parameter_table() {
   return formatted("%-58s %10s %10s %10s\n", "key", "default", "least", "most") +
+         lines_of("", pipeline::kCarRanges) +
          lines_of("gateway.handshake", gateway::kHandshakeTimes) +
          lines_of("gateway.handshake", gateway::kHandshakeRanges) +
          lines_of("gateway.outbound", gateway::kOutboundRanges) +

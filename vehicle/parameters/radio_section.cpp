@@ -23,19 +23,19 @@ void read_paths(yaml::StrictMap& map, pipeline::RadioParams& radio) {
   }
 }
 
-void read_ladder(yaml::StrictMap map, Duration lost, safety::LinkLossParams& ladder) {
+void read_link_loss(yaml::StrictMap map, Duration lost, safety::LinkLossParams& link_loss) {
   const auto time = [&](const char* key, double min_s, Duration above, const char* what) {
     const Duration at = from_seconds(map.number(key, min_s, 60.0));
     if (at <= above) map.fail(key, std::string{"must be above "} + what);
     return at;
   };
-  ladder.joystick_dropped = time("joystick_dropped_s", 0.05, Duration{}, "0");
-  ladder.override_gone =
-      time("override_gone_s", 0.05, ladder.joystick_dropped, "joystick_dropped_s");
-  ladder.no_comm = time("no_comm_s", 0.05, ladder.override_gone, "override_gone_s");
-  if (ladder.no_comm >= lost) map.fail("no_comm_s", "must be below safety.watchdog.radio.bad_s");
-  ladder.no_comm_drives = map.flag("no_comm_drives");
-  ladder.no_comm_speed_mps = map.number("no_comm_speed_mps", 1.0, 120.0);
+  link_loss.joystick_dropped = time("joystick_dropped_s", 0.05, Duration{}, "0");
+  link_loss.override_gone =
+      time("override_gone_s", 0.05, link_loss.joystick_dropped, "joystick_dropped_s");
+  link_loss.no_comm = time("no_comm_s", 0.05, link_loss.override_gone, "override_gone_s");
+  if (link_loss.no_comm >= lost) map.fail("no_comm_s", "must be below safety.watchdog.radio.bad_s");
+  link_loss.no_comm_drives = map.flag("no_comm_drives");
+  link_loss.no_comm_speed_mps = map.number("no_comm_speed_mps", 1.0, 120.0);
 }
 
 }  // namespace
@@ -44,7 +44,7 @@ void read_radio(yaml::StrictMap map, pipeline::CarParams& params) {
   read_paths(map, params.radio);
   params.radio.signed_only = map.flag("signed_only");
   const Duration lost = params.watchdog[safety::Stream::kRadio].bad;
-  read_ladder(map.map("ladder"), lost, params.radio.ladder);
+  read_link_loss(map.map("ladder"), lost, params.radio.link_loss);
 }
 
 }  // namespace pitwall::parameters

@@ -37,7 +37,7 @@ class EventDetector {
   std::uint64_t faults_ = 0;   // entries of the log that were reported
   safety::CauseSet reported_;  // reported faults that have not ended
   world::Mode mode_ = world::Mode::kDisarmed;
-  safety::Arming arming_ = safety::Arming::kNotAsked;
+  safety::Arming arming_ = safety::Arming::kNotRequested;
   world::TrackFlag track_ = world::TrackFlag::kNone;
   world::VehicleFlag vehicle_ = world::VehicleFlag::kNone;
   std::uint8_t laps_ = 0;

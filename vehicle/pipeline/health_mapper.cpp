@@ -265,7 +265,7 @@ void put_radio(const TelemetryInputs& in, Snapshot& snapshot) {
   const safety::StreamRow& base = in.out.watchdog[safety::Stream::kRadio];
   v[field("radio.base")] = number(static_cast<std::uint8_t>(base.health));
   if (base.health > safety::Health::kNever) v[field("radio.silence")] = base.age.seconds();
-  v[field("radio.rung")] = number(static_cast<std::uint8_t>(in.out.radio.rung));
+  v[field("radio.rung")] = number(static_cast<std::uint8_t>(in.out.radio.level));
   v[field("radio.round_trip")] = in.io.round_trip_ms;
   v[field("radio.heartbeats")] = number(in.io.heartbeats);
   v[field("radio.heartbeats_refused")] = number(in.io.heartbeats_refused);

@@ -21,6 +21,15 @@ std::optional<Problem> illegal_rates(const CarParams& p) {
                  LegalRange{"rates.planning_s", p.rates.planning.seconds(), tick_s, 0.2}});
 }
 
+// The middle of the car keeps half its width from a wall.
+std::optional<Problem> illegal_width(const CarParams& p) {
+  if (auto problem = world::first_illegal(kCarRanges, p)) return problem;
+  const double half_m = 0.5 * p.width_m;
+  return world::first_illegal(std::array{
+      LegalRange{"planning.line.wall_clearance_m", p.planning.line.wall_clearance_m, half_m, 10.0},
+      LegalRange{"planning.stop.clearance_m", p.planning.stop_path.clearance_m, half_m, 10.0}});
+}
+
 // What control and the supervisor may ask for must be what the frame gate lets pass: else the gate
 // stops a car that does what its parameters say. Their slews are compared where the file is read.
 std::optional<Problem> refused_by_gate(const CarParams& p) {
@@ -56,8 +65,10 @@ steering::AngleLimits angles_of(const CarParams& p) {
   return out;
 }
 
-Result<Setup, Problem> prepare(const CarParams& params, const world::TrackDescription& track) {
+Result<Setup, Problem> prepare(const CarParams& params, const world::TrackDescription& track,
+                               const world::RacelineBank* bank) {
   if (auto problem = illegal_rates(params)) return Unexpected{*problem};
+  if (auto problem = illegal_width(params)) return Unexpected{*problem};
   if (auto problem =
           world::first_illegal(gateway::kOutboundRanges, params.outbound, "gateway.outbound."))
     return Unexpected{*problem};
@@ -68,7 +79,7 @@ Result<Setup, Problem> prepare(const CarParams& params, const world::TrackDescri
   if (!datum) return Unexpected{datum.error()};
   auto localization = localization::checked(params.localization);
   if (!localization) return Unexpected{localization.error()};
-  auto line = planning::prepare(params.planning, *map);
+  auto line = planning::prepare(params.planning, *map, bank);
   if (!line) return Unexpected{line.error()};
   auto gains = control::prepare(params.control);
   if (!gains) return Unexpected{gains.error()};

@@ -1,17 +1,20 @@
 // Set-up of the pipeline before the first tick: the checked parameters of every module, and the
 // values derived from them once (track, line, gains, tangent plane). Read-only afterwards.
-//   in     CarParams and a TrackDescription, both from files
+//   in     CarParams and a TrackDescription, both from files, and the bank of racelines that the
+//          car file names
 //   out    Setup
 //   errors Problem whose place names the parameter or the row
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 
 #include "protocol/vocabulary/fixed_vector.hpp"
 #include "protocol/vocabulary/result.hpp"
 #include "protocol/vocabulary/time.hpp"
+#include "protocol/vocabulary/units.hpp"
 #include "vehicle/autonomy/control/control.hpp"
 #include "vehicle/autonomy/localization/localization.hpp"
 #include "vehicle/autonomy/planning/planning.hpp"
@@ -25,7 +28,9 @@
 #include "vehicle/safety/supervisor.hpp"
 #include "vehicle/safety/watchdog.hpp"
 #include "vehicle/steering/angle_limits.hpp"
-#include "vehicle/world/receiver_params.hpp"
+#include "vehicle/world/legal_range.hpp"
+#include "vehicle/world/raceline.hpp"
+#include "vehicle/world/receiver.hpp"
 #include "vehicle/world/track_map.hpp"
 
 namespace pitwall::pipeline {
@@ -46,10 +51,11 @@ inline constexpr std::size_t kRadioPathsMax = 2;
 struct RadioParams {
   FixedVector<RadioPathParams, kRadioPathsMax> paths;  // empty: defaults for each path
   bool signed_only = false;  // for venues that forbid encryption; both ends must agree
-  safety::LinkLossParams ladder;
+  safety::LinkLossParams link_loss;
 };
 
 struct CarParams {
+  double width_m = kUnset;  // over the wheels
   Rates rates;
   gateway::InboundParams inbound;
   gateway::IdentityParams identity;
@@ -66,6 +72,10 @@ struct CarParams {
   RadioParams radio;
 };
 
+inline constexpr auto kCarRanges = std::to_array<world::NamedRange<CarParams>>({
+    {"width_m", &CarParams::width_m, 1.0, 3.0},
+});
+
 struct Setup {
   CarParams params;
   world::TrackMap track;
@@ -78,6 +88,8 @@ struct Setup {
 // The frame gate's steering table at the road wheel.
 steering::AngleLimits angles_of(const CarParams& params);
 
-Result<Setup, Problem> prepare(const CarParams& params, const world::TrackDescription& track);
+// `bank` has been checked for this track and car; null if the parameters name none.
+Result<Setup, Problem> prepare(const CarParams& params, const world::TrackDescription& track,
+                               const world::RacelineBank* bank = nullptr);
 
 }  // namespace pitwall::pipeline

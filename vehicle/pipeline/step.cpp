@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "vehicle/pipeline/step.hpp"
-#include "vehicle/pipeline/monitoring.hpp"
 
 #include <cmath>
 
@@ -120,8 +119,8 @@ void drive(const Setup& setup, Car& car, const Inputs& in, Outputs& out) {
     follow_command(p.learning, car.learned, car.supervisor.last.road_wheel_rad, in.dt);
   if (car.follow == Follow::kStop) return;
   if (car.follow == Follow::kDrive && control::is_usable(ego))
-    learn(p.learning, p.bicycle, car.learned, {ego.vx_mps, ego.yaw_rate_rad_per_s, car.bank_rad},
-          in.dt);
+    learn(p.learning, p.bicycle, car.learned,
+          {ego.vx_mps, ego.yaw_rate_rad_per_s, car.bank_rad, ego.vy_mps}, in.dt);
   out.steered = control::step(setup.params.control, setup.gains, car.control,
                               {.ego = ego,
                                .trajectory = car.plan.output.drive,
@@ -169,8 +168,8 @@ void apply_guardian(Car& car, const GuardianView& guardian, Instant now) {
       static_cast<std::uint8_t>((guardian.counters.report + 1) % gateway::kReportCounterEnd);
 }
 
-// What the operator wants, before anything is decided; the ladder's limit is that of the tick
-// before: the watchdog judges after planning.
+// Inputs of the operator, before anything is decided. The limit of the link-loss policy is that of
+// the tick before: the watchdog judges after planning.
 void apply_operator(Car& car, const Inputs& in, Outputs& out) {
   out.requests = execute(car.orders,
                          {.switches = in.requests,
@@ -187,15 +186,15 @@ void apply_operator(Car& car, const Inputs& in, Outputs& out) {
                       car.link_loss.speed_limit_mps);
 }
 
-void say(const Setup& setup, Car& car, const Inputs& in, Outputs& out) {
+void encode_commands(const Setup& setup, Car& car, const Inputs& in, Outputs& out) {
   const CarParams& p = setup.params;
-  const auto spoken = gateway::encode(p.outbound, car.outbound,
-                                      {.command = out.chosen.command,
-                                       .actuate = out.chosen.actuate,
-                                       .ct_state = out.ct_state,
-                                       .acted_on = car.plan.made_with,
-                                       .ego = out.ego},
-                                      in.now);
+  const auto encoded = gateway::encode(p.outbound, car.outbound,
+                                       {.command = out.chosen.command,
+                                        .actuate = out.chosen.actuate,
+                                        .ct_state = out.ct_state,
+                                        .acted_on = car.plan.made_with,
+                                        .ego = out.ego},
+                                       in.now);
   out.passed = safety::gate(p.gate, car.gate,
                             {.mode = out.chosen.mode,
                              .armed = out.chosen.actuate,
@@ -203,7 +202,7 @@ void say(const Setup& setup, Car& car, const Inputs& in, Outputs& out) {
                              .command_at = out.chosen.command.at,
                              .now = in.now,
                              .engine_off = out.chosen.engine_off},
-                            spoken.frames.span());
+                            encoded.frames.span());
   car.gate_refused = out.passed.refused_now;
 }
 
@@ -243,8 +242,9 @@ Outputs step(const Setup& setup, Car& car, const Inputs& in) {
                                 .radio_at = in.radio_at,
                                 .use = car.orders.use},
                                in.now);
-  out.radio = safety::descend(p.radio.ladder, car.link_loss, out.watchdog[safety::Stream::kRadio],
-                              in.operator_inputs.joystick, in.now);
+  out.radio = safety::apply_link_loss_policy(p.radio.link_loss, car.link_loss,
+                                             out.watchdog[safety::Stream::kRadio],
+                                             in.operator_inputs.joystick, in.now);
   const bool resettable = car.bus_guard.failed || in.guardian.stopped;
   out.bus_guard =
       safety::guard(p.bus_guard, car.bus_guard, out.received.bus.link, out.requests.reset, in.now);
@@ -257,10 +257,19 @@ Outputs step(const Setup& setup, Car& car, const Inputs& in) {
 
   out.quiet = in.guardian.drives;
   car.gate_refused = false;
-  if (!out.quiet) say(setup, car, in, out);
-  out.seen = seen(out, located.seen);
+  if (!out.quiet) encode_commands(setup, car, in, out);
+  out.seen = findings_of(out, located.seen);
   ++car.ticks;
   return out;
+}
+
+world::MonitorSet findings_of(const Outputs& out, world::MonitorSet by_localization) {
+  world::MonitorSet all = by_localization;
+  all.add(out.received.seen);
+  all.add(out.watchdog.seen);
+  all.add(out.bus_guard.seen);
+  all.add(out.chosen.seen);
+  return all;
 }
 
 }  // namespace pitwall::pipeline

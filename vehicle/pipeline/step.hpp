@@ -27,8 +27,8 @@
 
 namespace pitwall::pipeline {
 
-// View of the guardian (made from its Status in guarding.hpp). While the guardian drives, the car
-// sends nothing; afterwards it continues from the guardian's last frames.
+// View of the guardian (made from its Status in guardian_interface.hpp). While the guardian drives,
+// the car sends nothing; afterwards it continues from the guardian's last frames.
 struct GuardianView {
   bool drives = false;                  // drives now, with a fresh status
   bool stopped = false;                 // it stopped this run: no driving until a reset
@@ -82,9 +82,13 @@ struct Outputs {
   world::RaceControl race_control;  // acted on: as received, or stricter by the base's flag
   double speed_limit_mps = kUnset;  // of operator and link-loss policy; unset: no limit
   Answers answers;                  // to commands of this and the previous tick
-  world::MonitorSet seen{};         // all monitors: monitoring.hpp
+  world::MonitorSet seen{};         // by all monitors
 };
 
 Outputs step(const Setup& setup, Car& car, const Inputs& in);
+
+// Union of the findings of all monitors in one tick: each is reported by the modules that
+// world/monitor.hpp names for it.
+world::MonitorSet findings_of(const Outputs& out, world::MonitorSet by_localization);
 
 }  // namespace pitwall::pipeline

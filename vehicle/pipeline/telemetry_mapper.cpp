@@ -23,17 +23,18 @@ constexpr bool causes_are_labelled_as_in_safety() {
 }
 static_assert(causes_are_labelled_as_in_safety(), "telemetry labels of causes are out of date");
 static_assert(telemetry::label_at(telemetry::kArmings,
-                                  static_cast<std::size_t>(safety::Arming::kSpent))
+                                  static_cast<std::size_t>(safety::Arming::kUsed))
                   .starts_with("SPENT"));
 static_assert(telemetry::label_at(telemetry::kBaseStates,
                                   static_cast<std::size_t>(safety::Health::kBad)) == "LOST");
 
-static_assert(telemetry::label_at(telemetry::kLadderRungs,
-                                  static_cast<std::size_t>(safety::RadioRung::kStop)) ==
+static_assert(telemetry::label_at(telemetry::kLinkLossLevels,
+                                  static_cast<std::size_t>(safety::LinkLossLevel::kStop)) ==
               "controlled stop");
 static_assert(telemetry::label_at(telemetry::kSpeedReasons,
                                   static_cast<std::size_t>(planning::Reason::kLineLimit)) ==
               "line");
+static_assert(telemetry::kFields[field("planner.line")].max == planning::kLinesMost);
 
 template <class E>
 double number_of(E value) {
@@ -185,6 +186,7 @@ void put_plan(Values& v, const TelemetryInputs& in) {
   if (!plan.ever) return;
   v[field("planner.primitive")] = number_of(primitive_of(in.car));
   v[field("planner.reason")] = number_of(plan.output.reason);
+  v[field("planner.line")] = static_cast<double>(in.setup.line.number);
   v[field("planner.line_offset")] = plan.output.line_offset_m;
   v[field("planner.stop_distance")] = plan.output.stop_distance_m;
   v[field("planner.operator_limit")] = in.out.speed_limit_mps;

@@ -14,11 +14,11 @@
 #include <array>
 #include <cstdint>
 
-#include "protocol/telemetry/registry/snapshot.hpp"
+#include "protocol/telemetry/registry/registry.hpp"
 #include "protocol/vocabulary/time.hpp"
 #include "vehicle/pipeline/step.hpp"
 #include "vehicle/pipeline/tick_log.hpp"
-#include "vehicle/world/receiver_traffic.hpp"
+#include "vehicle/world/receiver.hpp"
 
 namespace pitwall::pipeline {
 

@@ -82,7 +82,7 @@ Result<RacelineBank, Problem> build_bank(const world::TrackDescription& descript
       return Unexpected{*std::move(problem)};
   if (track.pit())
     if (auto problem = builder.add_pit()) return Unexpected{*std::move(problem)};
-  return RacelineBank{track.name(), fingerprint_of(description), builder.take(), 1.0};
+  return RacelineBank{track.name(), fingerprint_of(description), builder.take()};
 }
 
 }  // namespace pitwall::raceline

@@ -23,9 +23,9 @@
 namespace pitwall::raceline {
 
 struct BankParams {
-  double car_width_m = 1.93;  // over the wheels of an AV-21
-  double clearance_m = 0.3;   // beside the car, to each side of its lane
-  double step_m = 1.0;        // between the points of a line, at most
+  double car_width_m = kUnset;  // over the wheels
+  double clearance_m = 0.3;     // beside the car, to each side of its lane
+  double step_m = 1.0;          // between the points of a line, at most
   // The car whose line of minimum time is to be found; null: none, since it takes seconds.
   const envelope::EnvelopeTable* fastest_for = nullptr;
 };

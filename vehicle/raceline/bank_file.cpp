@@ -109,7 +109,11 @@ Result<RacelineBank, Problem> read_bank(std::string_view text, const std::string
                                         const world::TrackMap& track, const CarLimits& car) {
   const auto root = json::JsonValue::parse(text, name);
   if (!root) return Unexpected{root.error()};
-  RacelineBank bank{track.name(), fingerprint_of(description), {}, root->number("tyre_share")};
+  RacelineBank bank{.track = track.name(),
+                    .track_fingerprint = fingerprint_of(description),
+                    .lines = {},
+                    .tyre_share = root->number("tyre_share"),
+                    .source = name};
   if (auto problem = fault_of_head(*root, name, bank.track, bank.track_fingerprint))
     return Unexpected{*std::move(problem)};
   const Lanes lanes{track};

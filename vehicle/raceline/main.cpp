@@ -2,8 +2,6 @@
 // Wires files to the builder, the checks, the report and the picture.
 // SPDX-License-Identifier: Apache-2.0
 #include <CLI/CLI.hpp>
-#include <algorithm>
-#include <cmath>
 #include <cstdio>
 #include <optional>
 #include <string>
@@ -12,6 +10,7 @@
 #include "protocol/transport/file.hpp"
 #include "vehicle/envelope/envelope_table.hpp"
 #include "vehicle/parameters/car_file.hpp"
+#include "vehicle/parameters/car_setup.hpp"
 #include "vehicle/parameters/track_file.hpp"
 #include "vehicle/raceline/apex_file.hpp"
 #include "vehicle/raceline/bank_builder.hpp"
@@ -31,7 +30,7 @@ struct Arguments {
       envelope_file;
   bool minimum_time = false;
   std::optional<double> tyre_c;  // of all tyres; warm where nothing is given
-  raceline::BankParams bank;
+  std::optional<double> clearance_m;
 };
 
 int refuse(const Problem& problem) {
@@ -53,52 +52,21 @@ void add_options(CLI::App& app, Arguments& args) {
       ->check(CLI::Range(-50.0, 200.0));
   app.add_flag("--minimum-time", args.minimum_time, "find the line of minimum time, too")
       ->excludes(check);
-  app.add_option("--car-width", args.bank.car_width_m, "over the wheels, m")
-      ->check(CLI::Range(0.5, 3.0))
-      ->capture_default_str();
-  app.add_option("--clearance", args.bank.clearance_m, "beside the car to the sides of a lane, m")
+  app.add_option("--clearance", args.clearance_m,
+                 "beside the car to the sides of a lane, m; if not given, what the car file wants "
+                 "to the walls")
       ->check(CLI::Range(0.0, 5.0))
-      ->excludes(check)
-      ->capture_default_str();
+      ->excludes(check);
 }
 
 double tyre_share(const pipeline::CarParams& car, std::optional<double> tyre_c) {
   return tyre_c ? world::share_at(car.planning.line.friction.tyres, *tyre_c) : 1.0;
 }
 
-envelope::EnvelopeParams envelope_of(const pipeline::CarParams& car, std::optional<double> tyre_c,
-                                     const world::TrackMap& map) {
-  const planning::LineParams& line = car.planning.line;
-  double bank_rad = 0.0;
-  for (std::size_t i = 0; i < map.size(); ++i)
-    bank_rad = std::max(bank_rad, std::abs(map.point(i).bank_rad));
-  return {.friction = tyre_c ? envelope::on_tyres(line.friction, *tyre_c) : line.friction,
-          .grip_share = line.grip_share,
-          .speed_max_mps = line.speed_max_mps,
-          .bank_most_rad = bank_rad,
-          .steering = envelope::SteeringLimit{.limits = pipeline::angles_of(car),
-                                              .car = car.control.steering.bicycle,
-                                              .share = car.planning.steer_share}};
-}
-
-raceline::CarLimits limits_of(const pipeline::CarParams& car, double width_m,
-                              const envelope::EnvelopeTable& table) {
-  const double ratio = car.outbound.steering_ratio;
-  constexpr double kStanding_mps = 0.0;  // where the steering reaches furthest
-  return {.width_m = width_m,
-          .wheelbase_m = car.control.steering.bicycle.wheelbase_m,
-          .steer_max_rad = from_deg(safety::steer_limit_deg(car.gate, kStanding_mps)) / ratio,
-          .steer_rate_max_rad_per_s = from_deg(car.gate.steer_slew_deg_per_s) / ratio,
-          .corner_speed_mps =
-              [&table](double curvature_per_m, double bank_rad) {
-                return table.corner_speed_mps(table.place(curvature_per_m, bank_rad));
-              },
-          .envelope = &table};
-}
-
 Result<raceline::RacelineBank, Problem> make(const Arguments& args,
                                              const world::TrackDescription& description,
                                              const world::TrackMap& map,
+                                             const pipeline::CarParams& car,
                                              const envelope::EnvelopeTable& table) {
   raceline::ChosenApexes chosen;
   if (!args.apex_file.empty()) {
@@ -108,9 +76,10 @@ Result<raceline::RacelineBank, Problem> make(const Arguments& args,
     if (!apexes) return Unexpected{apexes.error()};
     chosen = *std::move(apexes);
   }
-  raceline::BankParams bank = args.bank;
-  if (args.minimum_time) bank.fastest_for = &table;
-  return raceline::build_bank(description, map, bank, chosen);
+  raceline::BankParams params = parameters::bank_for(car);
+  if (args.clearance_m) params.clearance_m = *args.clearance_m;
+  if (args.minimum_time) params.fastest_for = &table;
+  return raceline::build_bank(description, map, params, chosen);
 }
 
 Result<raceline::RacelineBank, Problem> load(const Arguments& args,
@@ -141,9 +110,9 @@ int run(const Arguments& args) {
   if (!car_text) return refuse(car_text.error());
   const auto car = parameters::read_car(*car_text, args.car_file);
   if (!car) return refuse(car.error());
-  const envelope::EnvelopeTable table{envelope_of(car->params, args.tyre_c, *map)};
-  const raceline::CarLimits limits = limits_of(car->params, args.bank.car_width_m, table);
-  auto bank = args.check_file.empty() ? make(args, *description, *map, table)
+  const envelope::EnvelopeTable table{parameters::envelope_of(car->params, *map, args.tyre_c)};
+  const raceline::CarLimits limits = parameters::limits_of(car->params, table);
+  auto bank = args.check_file.empty() ? make(args, *description, *map, car->params, table)
                                       : load(args, *description, *map, limits);
   if (!bank) return refuse(bank.error());
   if (args.check_file.empty()) bank->tyre_share = tyre_share(car->params, args.tyre_c);

@@ -9,7 +9,7 @@
 #include "protocol/gnss/refusal.hpp"
 #include "protocol/gnss/stream_window.hpp"
 #include "vehicle/receivers/gps_clock.hpp"
-#include "vehicle/world/receiver_traffic.hpp"
+#include "vehicle/world/receiver.hpp"
 
 namespace pitwall::receivers {
 

@@ -15,7 +15,7 @@
 #include "vehicle/receivers/counters.hpp"
 #include "vehicle/receivers/novatel_oem7.hpp"
 #include "vehicle/receivers/vectornav.hpp"
-#include "vehicle/world/receiver_params.hpp"
+#include "vehicle/world/receiver.hpp"
 #include "vehicle/world/sensor_input.hpp"
 
 namespace pitwall::receivers {

@@ -19,15 +19,15 @@ bool is_down(const BusGuardParams& params, const world::LinkObservation& link) {
 world::MonitorSet watch(const BusGuardParams& params, BusGuardState& state,
                         const world::LinkObservation& link) {
   world::MonitorSet seen;
-  const auto see = [&](Monitor monitor, bool holds) {
+  const auto add_if = [&](Monitor monitor, bool holds) {
     if (holds && !params.off.has(monitor)) seen.add(monitor);
   };
   const bool errors = link.error_frames > state.error_frames;
   state.error_frames = link.error_frames;
-  see(Monitor::kBusLoad, link.load > params.load_max);
-  see(Monitor::kControllerState, errors || (link.controller != ControllerState::kUnknown &&
-                                            link.controller != ControllerState::kActive));
-  see(Monitor::kTransmitStall, link.tx_stalled >= params.stall_seen);
+  add_if(Monitor::kBusLoad, link.load > params.load_max);
+  add_if(Monitor::kControllerState, errors || (link.controller != ControllerState::kUnknown &&
+                                               link.controller != ControllerState::kActive));
+  add_if(Monitor::kTransmitStall, link.tx_stalled >= params.stall_seen);
   return seen;
 }
 
@@ -41,7 +41,7 @@ void store_restart(BusGuardState& state, Instant now) {
   std::rotate(state.restarts.begin(), state.restarts.begin() + 1, state.restarts.end());
   state.restarts.back() = now;
   ++state.restarts_total;
-  ++state.tries;
+  ++state.attempts;
 }
 
 // Down, and not yet given up.
@@ -50,7 +50,7 @@ bool restart_or_fail(const BusGuardParams& params, BusGuardState& state, bool be
   if (begins && spent) state.failed = true;  // a fresh bus-off: nothing is under way to wait for
   const Instant last = std::max(state.down_since, state.restarts.back());
   if (state.failed || now - last < params.pause) return false;
-  state.failed = spent || state.tries >= params.restarts;
+  state.failed = spent || state.attempts >= params.restarts;
   if (!state.failed) store_restart(state, now);
   return !state.failed;
 }
@@ -64,7 +64,7 @@ BusGuardOutput guard(const BusGuardParams& params, BusGuardState& state,
   const bool begins = down && !state.down;
   if (begins) {
     state.down_since = now;
-    state.tries = 0;
+    state.attempts = 0;
   }
   state.down = down;
   if (reset && !state.reset_was && !down) state.failed = false;

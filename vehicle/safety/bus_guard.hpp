@@ -52,7 +52,7 @@ struct BusGuardState {
   std::array<Instant, kRestartsMax> restarts{};  // newest last; zero if unused
   std::uint64_t restarts_total = 0;
   Instant down_since{};
-  std::uint8_t tries = 0;  // restarts since down_since
+  std::uint8_t attempts = 0;  // restarts since down_since
   bool down = false;
   bool failed = false;  // latched
   bool reset_was = false;

@@ -50,9 +50,9 @@ enum class Cause : std::uint8_t {
   kRaceControlReportedLost,
   kRadioLost,
   kGnssRtkLost,
-  kSteeringStrays,
-  kBrakeStrays,
-  kThrottleStrays,
+  kSteeringDeviates,
+  kBrakeDeviates,
+  kThrottleDeviates,
   kComputerLate,
   kComputerMemory,
   kComputerHot,
@@ -72,13 +72,13 @@ enum class Cause : std::uint8_t {
 inline constexpr std::size_t kCauses = 49;
 
 // In rising order of severity.
-enum class Reaction : std::uint8_t { kNone, kTell, kCoast, kControlledStop, kEmergencyStop };
+enum class Reaction : std::uint8_t { kNone, kNotify, kCoast, kControlledStop, kEmergencyStop };
 
-enum class Arms : std::uint8_t {
-  kAnyway,  // bars driving only: may hold in the garage
+enum class ArmingEffect : std::uint8_t {
+  kAllows,  // bars driving only: may hold in the garage
   kBars,
   // Bars arming, and disarms a car in standby, so that it does not start when the cause clears.
-  kVoids
+  kRevokes
 };
 
 struct CauseRow {
@@ -86,14 +86,14 @@ struct CauseRow {
   const char* text;
   Reaction reaction;
   Duration deadline;
-  Arms arms = Arms::kAnyway;
-  bool of_the_paper = false;
+  ArmingEffect arms = ArmingEffect::kAllows;
+  bool listed_in_paper = false;
 };
 
 inline constexpr std::array<CauseRow, kCauses> kCauseTable = [] {
   using enum Cause;
-  using enum Arms;
-  constexpr auto kTell = Reaction::kTell, kCoast = Reaction::kCoast,
+  using enum ArmingEffect;
+  constexpr auto kNotify = Reaction::kNotify, kCoast = Reaction::kCoast,
                  kControlledStop = Reaction::kControlledStop,
                  kEmergencyStop = Reaction::kEmergencyStop;
   constexpr auto ms = [](std::int64_t n) { return milliseconds(n); };
@@ -127,21 +127,21 @@ inline constexpr std::array<CauseRow, kCauses> kCauseTable = [] {
     {kPlanLost, "planning failed or late", kControlledStop, ms(520)},
     {kLocalizationLost, "localization lost", kControlledStop, kTick},
     {kDeadReckoningTooLong, "dead reckoning too long", kControlledStop, ms(1'520)},
-    {kLocalizationUncertain, "position too uncertain", kControlledStop, kTick, kAnyway, true},
-    {kGnssUnitDisconnected, "GNSS unit disconnected", kControlledStop, ms(520), kAnyway, true},
-    {kGnssRateLost, "GNSS: both units miss the rate", kControlledStop, ms(1'220), kAnyway, true},
-    {kGnssSolutionLost, "GNSS: both units lost the solution", kControlledStop, ms(520), kAnyway,
+    {kLocalizationUncertain, "position too uncertain", kControlledStop, kTick, kAllows, true},
+    {kGnssUnitDisconnected, "GNSS unit disconnected", kControlledStop, ms(520), kAllows, true},
+    {kGnssRateLost, "GNSS: both units miss the rate", kControlledStop, ms(1'220), kAllows, true},
+    {kGnssSolutionLost, "GNSS: both units lost the solution", kControlledStop, ms(520), kAllows,
      true},
     {kImuLost, "IMU: both units lost", kControlledStop, ms(270)},
     {kRaceControlLost, "race control lost", kControlledStop, ms(10'020)},
     {kRaceControlReportedLost, "race control lost, says the drive-by-wire", kControlledStop,
      kReported},
-    {kRadioLost, "base station lost", kControlledStop, ms(3'020), kVoids},
+    {kRadioLost, "base station lost", kControlledStop, ms(3'020), kRevokes},
     {kGnssRtkLost, "GNSS: both units lost RTK and their accuracy", kControlledStop, ms(220),
-     kAnyway, true},
-    {kSteeringStrays, "steering does not do as it is told", kControlledStop, ms(300)},
-    {kBrakeStrays, "brake does not do as it is told", kControlledStop, ms(300)},
-    {kThrottleStrays, "throttle does not do as it is told", kControlledStop, ms(300)},
+     kAllows, true},
+    {kSteeringDeviates, "steering does not do as it is told", kControlledStop, ms(300)},
+    {kBrakeDeviates, "brake does not do as it is told", kControlledStop, ms(300)},
+    {kThrottleDeviates, "throttle does not do as it is told", kControlledStop, ms(300)},
     {kComputerLate, "computer misses too many ticks", kControlledStop, ms(2'500)},
     {kComputerMemory, "computer out of memory", kControlledStop, ms(1'020)},
     {kComputerHot, "computer too hot", kControlledStop, ms(1'020)},
@@ -149,12 +149,12 @@ inline constexpr std::array<CauseRow, kCauses> kCauseTable = [] {
     {kPositionPassing, "no good position", kCoast, ms(320)},
     {kPlanLate, "planning a beat late", kCoast, ms(145)},
     {kControlLate, "control a beat late", kCoast, ms(10)},
-    {kFlagsDisagree, "race control: flags unknown or contradictory", kTell, kTick},
-    {kTicksMissed, "computer missed ticks", kTell, kTick},
-    {kProcessorBusy, "computer busy", kTell, ms(1'020)},
-    {kClockStepped, "a clock stepped", kTell, ms(200), kBars},
-    {kClockSkewed, "clock too fast or slow", kTell, seconds(40), kBars},
-    {kGnssDegraded, "GNSS: one unit is bad", kTell, ms(1'220)},
+    {kFlagsDisagree, "race control: flags unknown or contradictory", kNotify, kTick},
+    {kTicksMissed, "computer missed ticks", kNotify, kTick},
+    {kProcessorBusy, "computer busy", kNotify, ms(1'020)},
+    {kClockStepped, "a clock stepped", kNotify, ms(200), kBars},
+    {kClockSkewed, "clock too fast or slow", kNotify, seconds(40), kBars},
+    {kGnssDegraded, "GNSS: one unit is bad", kNotify, ms(1'220)},
   }};
   // clang-format on
 }();
@@ -179,7 +179,8 @@ static_assert(every_cause([](const CauseRow& row, std::size_t) {
               }),
               "whatever is reacted to has a deadline");
 static_assert(every_cause([](const CauseRow& row, std::size_t) {
-                return row.reaction != Reaction::kEmergencyStop || row.arms != Arms::kAnyway;
+                return row.reaction != Reaction::kEmergencyStop ||
+                       row.arms != ArmingEffect::kAllows;
               }),
               "what would brake hard bars arming");
 

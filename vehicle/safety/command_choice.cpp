@@ -23,7 +23,7 @@ double ramp_dt_s(const Tick& t) {
 }
 
 // At standstill: the brake is held and the steering stays where it is.
-Chosen hold(const Tick& t) {
+ChosenCommand hold(const Tick& t) {
   const SupervisorState& s = t.state;
   const auto& motor = t.in.signals.steering_motor_rad;
   const double measured_rad = motor.received ? motor.value / t.params.steering_ratio : 0.0;
@@ -37,15 +37,16 @@ Chosen hold(const Tick& t) {
           CommandSource::kHold};
 }
 
-Chosen stop(const Tick& t) {
+ChosenCommand stop(const Tick& t) {
   const SupervisorParams& p = t.params;
   SupervisorState& s = t.state;
   const bool biased = s.steering_bias_rad != 0.0;
-  const bool hard = s.mode == Mode::kEmergencyStop || s.steering_strayed || biased || s.was_blind;
+  const bool hard =
+      s.mode == Mode::kEmergencyStop || s.steering_deviated || biased || s.had_no_guidance;
   steering::Learned learned = t.in.learned;
   learned.offset_rad += s.steering_bias_rad;
   const auto& motor = t.in.signals.steering_motor_rad;
-  const bool measured = s.steering_strayed && motor.fresh(t.now, kFeedbackAgeMax);
+  const bool measured = s.steering_deviated && motor.fresh(t.now, kFeedbackAgeMax);
   const SafeStopInputs inputs{.stop = t.in.stop,
                               .last_good = s.last,
                               .speed_mps = t.speed_mps,
@@ -67,14 +68,14 @@ Grip grip_now(const Tick& t) {
   return grip;
 }
 
-Chosen driving(const Tick& t, bool control_usable) {
+ChosenCommand driving(const Tick& t, bool control_usable) {
   if (control_usable) return {t.in.control, CommandSource::kControl};
   return {t.state.last, CommandSource::kHold};  // known since standby
 }
 
 // The line is held, nothing pushes and, at speed, nothing brakes: the tyres have only to steer.
-Chosen coast(const Tick& t, bool control_usable) {
-  Chosen out = driving(t, control_usable);
+ChosenCommand coast(const Tick& t, bool control_usable) {
+  ChosenCommand out = driving(t, control_usable);
   out.command.throttle_fraction = 0.0;
   if (!(t.speed_mps < t.params.coast_brakes_below_mps)) out.command.brake_kpa = 0.0;
   return out;
@@ -157,7 +158,7 @@ bool is_usable(const ActuatorCommand& c) {
          c.throttle_fraction <= 1.0 && c.brake_kpa >= 0.0 && std::isfinite(c.brake_kpa);
 }
 
-Chosen choose(const Tick& t) {
+ChosenCommand choose(const Tick& t) {
   const SupervisorState& s = t.state;
   const bool usable = t.in.control_ok && is_usable(t.in.control);
   switch (s.mode) {

@@ -28,12 +28,12 @@ struct Tick {
   double speed_mps;
 };
 
-struct Chosen {
+struct ChosenCommand {
   world::ActuatorCommand command;
   CommandSource source = CommandSource::kNone;
 };
 
-Chosen choose(const Tick& t);
+ChosenCommand choose(const Tick& t);
 world::ActuatorCommand shape(const Tick& t, const world::ActuatorCommand& chosen);
 
 bool is_usable(const world::ActuatorCommand& command);

@@ -17,7 +17,7 @@ using world::VehicleFlag;
 constexpr auto kFirstOfDriveByWire = static_cast<std::size_t>(Stream::kWheelSpeed);
 constexpr auto kLastOfDriveByWire = static_cast<std::size_t>(Stream::kDiagnostics);
 
-struct Finder {
+struct CauseCollector {
   const FaultParams& params;
   const FaultInputs& in;
   FaultOutput out;
@@ -45,17 +45,20 @@ bool is_down(const StreamRow& row) {
 }
 
 // Both of a pair are down; a unit that is not watched has no say.
-bool both_down(const WatchdogOutput& dog, Stream a, Stream b) {
-  const bool none = dog[a].health == Health::kUnwatched && dog[b].health == Health::kUnwatched;
-  const auto up = [&](Stream s) { return dog[s].health != Health::kUnwatched && !is_down(dog[s]); };
+bool both_down(const WatchdogOutput& watchdog, Stream a, Stream b) {
+  const bool none =
+      watchdog[a].health == Health::kUnwatched && watchdog[b].health == Health::kUnwatched;
+  const auto up = [&](Stream s) {
+    return watchdog[s].health != Health::kUnwatched && !is_down(watchdog[s]);
+  };
   return !none && !up(a) && !up(b);
 }
 
-double age_s(const WatchdogOutput& dog, Stream a, Stream b) {
-  return std::min(dog[a].age, dog[b].age).seconds();
+double age_s(const WatchdogOutput& watchdog, Stream a, Stream b) {
+  return std::min(watchdog[a].age, watchdog[b].age).seconds();
 }
 
-void operators(Finder& f) {
+void operators(CauseCollector& f) {
   f.add(Cause::kOperatorEmergency, f.in.operator_requests.emergency_stop);
   f.add(Cause::kOperatorStop, f.in.operator_requests.stop);
   f.add(Cause::kDisarmRequest, f.in.driving && !f.in.operator_requests.arm);
@@ -63,7 +66,7 @@ void operators(Finder& f) {
   f.add(Cause::kEngineKillFlag, f.in.race_control.vehicle == VehicleFlag::kEngineKill);
 }
 
-void drive_by_wire(Finder& f) {
+void drive_by_wire(CauseCollector& f) {
   const auto& misc = f.in.signals.misc;
   if (misc.received) {
     const SysState sys = misc.value.sys_state;
@@ -83,7 +86,7 @@ void drive_by_wire(Finder& f) {
   f.add(Monitor::kRaceControl, Cause::kRaceControlReportedLost, d.race_control_lost, 1.0);
 }
 
-void bus(Finder& f) {
+void bus(CauseCollector& f) {
   // While listening the bus is not known, and not knowing bars arming as well. Value: the first id
   // that differs.
   f.add(Cause::kWrongBus, f.in.bus.identity.verdict != world::IdentityVerdict::kRight,
@@ -97,17 +100,17 @@ void bus(Finder& f) {
 }
 
 // Since the newest message of the drive-by-wire; none before the first.
-std::optional<Duration> drive_by_wire_silence(const WatchdogOutput& dog) {
+std::optional<Duration> drive_by_wire_silence(const WatchdogOutput& watchdog) {
   std::optional<Duration> least;
   for (std::size_t s = kFirstOfDriveByWire; s <= kLastOfDriveByWire; ++s) {
-    const StreamRow& row = dog.rows[s];
+    const StreamRow& row = watchdog.rows[s];
     if (row.health == Health::kUnwatched || row.health == Health::kNever) continue;
     least = std::min(least.value_or(row.age), row.age);
   }
   return least;
 }
 
-void dead_bus(Finder& f, FaultState& state, Instant now) {
+void dead_bus(CauseCollector& f, FaultState& state, Instant now) {
   const auto silence = drive_by_wire_silence(f.in.watchdog);
   const bool dead = silence && *silence > f.params.bus_dead && !f.is_off(Monitor::kMessageAge);
   if (dead && !state.bus_dead) state.bus_dead_since = now;
@@ -116,7 +119,7 @@ void dead_bus(Finder& f, FaultState& state, Instant now) {
   f.out.drive_by_wire_gone = dead && now - state.bus_dead_since >= f.params.bus_dead_disarm;
 }
 
-void counts(Finder& f, FaultState& state) {
+void counts(CauseCollector& f, FaultState& state) {
   const auto run = [](std::uint8_t& ticks, bool bad, std::uint8_t limit) {
     ticks = bad ? static_cast<std::uint8_t>(std::min<int>(ticks + 1, limit)) : std::uint8_t{0};
     return ticks >= limit;
@@ -130,7 +133,7 @@ void counts(Finder& f, FaultState& state) {
   f.add(Cause::kCommandRefused, refused, state.gate_refused_ticks);
 }
 
-void localization(Finder& f, FaultState& state, Instant now) {
+void localization(CauseCollector& f, FaultState& state, Instant now) {
   const world::EgoState& ego = f.in.ego;
   if (ego.validity == Validity::kGood) {
     state.last_good = now;
@@ -154,61 +157,63 @@ struct ReceiverState {
   bool watched = false, silent = false, unsolved = false, uncertain = false;
   bool is_good() const { return watched && !silent && !unsolved && !uncertain; }
 };
-ReceiverState receiver(const Finder& f, std::size_t unit) {
+ReceiverState receiver(const CauseCollector& f, std::size_t unit) {
   constexpr std::array kPosition{Stream::kGnss0Position, Stream::kGnss1Position};
   constexpr std::array kSolution{Stream::kGnss0Solution, Stream::kGnss1Solution};
-  const WatchdogOutput& dog = f.in.watchdog;
-  ReceiverState out{.watched = dog[kPosition[unit]].health != Health::kUnwatched};
-  out.silent = out.watched && is_down(dog[kPosition[unit]]);
-  out.unsolved = out.watched && is_down(dog[kSolution[unit]]);
-  out.uncertain = out.watched && dog.sigma_m[unit] > f.params.gnss_sigma_max_m;  // unset: false
+  const WatchdogOutput& watchdog = f.in.watchdog;
+  ReceiverState out{.watched = watchdog[kPosition[unit]].health != Health::kUnwatched};
+  out.silent = out.watched && is_down(watchdog[kPosition[unit]]);
+  out.unsolved = out.watched && is_down(watchdog[kSolution[unit]]);
+  out.uncertain =
+      out.watched && watchdog.sigma_m[unit] > f.params.gnss_sigma_max_m;  // unset: false
   return out;
 }
 
 // The paper's rules; where each unit is lost in its own way, each way is a cause.
-void gnss(Finder& f) {
-  const WatchdogOutput& dog = f.in.watchdog;
+void gnss(CauseCollector& f) {
+  const WatchdogOutput& watchdog = f.in.watchdog;
   const ReceiverState a = receiver(f, 0), b = receiver(f, 1);
   const bool has_any = a.watched || b.watched;
   const bool none_good = has_any && !a.is_good() && !b.is_good();
   bool linked = true;
   for (const Stream link : {Stream::kGnss0Link, Stream::kGnss1Link}) {
-    linked = linked && !is_down(dog[link]);
-    f.add(Monitor::kStreamAge, Cause::kGnssUnitDisconnected, is_down(dog[link]),
-          dog[link].age.seconds());
+    linked = linked && !is_down(watchdog[link]);
+    f.add(Monitor::kStreamAge, Cause::kGnssUnitDisconnected, is_down(watchdog[link]),
+          watchdog[link].age.seconds());
   }
   f.add(Monitor::kStreamAge, Cause::kGnssRateLost,
-        both_down(dog, Stream::kGnss0Position, Stream::kGnss1Position),
-        age_s(dog, Stream::kGnss0Position, Stream::kGnss1Position));
+        both_down(watchdog, Stream::kGnss0Position, Stream::kGnss1Position),
+        age_s(watchdog, Stream::kGnss0Position, Stream::kGnss1Position));
   f.add(Monitor::kSolution, Cause::kGnssSolutionLost, none_good && (a.unsolved || b.unsolved),
-        age_s(dog, Stream::kGnss0Solution, Stream::kGnss1Solution));
+        age_s(watchdog, Stream::kGnss0Solution, Stream::kGnss1Solution));
   f.add(Monitor::kSolution, Cause::kGnssRtkLost, none_good && (a.uncertain || b.uncertain),
-        std::fmin(dog.sigma_m[0], dog.sigma_m[1]));
-  f.add(Monitor::kStreamAge, Cause::kImuLost, both_down(dog, Stream::kImu0, Stream::kImu1),
-        age_s(dog, Stream::kImu0, Stream::kImu1));
+        std::fmin(watchdog.sigma_m[0], watchdog.sigma_m[1]));
+  f.add(Monitor::kStreamAge, Cause::kImuLost, both_down(watchdog, Stream::kImu0, Stream::kImu1),
+        age_s(watchdog, Stream::kImu0, Stream::kImu1));
   const bool one_bad = has_any && ((a.watched && !a.is_good()) || (b.watched && !b.is_good()));
   f.add(Monitor::kStreamAge, Cause::kGnssDegraded, one_bad && !none_good && linked,
         a.is_good() ? 1.0 : 0.0);
 }
 
-void streams(Finder& f) {
-  const WatchdogOutput& dog = f.in.watchdog;
-  const auto is_late = [&](Stream s) { return dog[s].health == Health::kWarning; };
-  const StreamRow& plan = dog[Stream::kPlanner];
+void streams(CauseCollector& f) {
+  const WatchdogOutput& watchdog = f.in.watchdog;
+  const auto is_late = [&](Stream s) { return watchdog[s].health == Health::kWarning; };
+  const StreamRow& plan = watchdog[Stream::kPlanner];
   f.add(Monitor::kModule, Cause::kPlanLost, is_down(plan), plan.age.seconds());
   f.add(Monitor::kModule, Cause::kPlanLate, is_late(Stream::kPlanner), plan.age.seconds());
 
-  const StreamRow& race = dog[Stream::kRaceControl];
+  const StreamRow& race = watchdog[Stream::kRaceControl];
   if (f.params.race_control_required)
     f.add(Monitor::kRaceControl, Cause::kRaceControlLost, is_down(race), race.age.seconds());
   f.see(Monitor::kRaceControl, is_late(Stream::kRaceControl));
   if (f.params.radio_loss_stops)
-    f.add(Monitor::kRadioLink, Cause::kRadioLost, f.in.radio_stop || is_down(dog[Stream::kRadio]),
-          dog[Stream::kRadio].age.seconds());
+    f.add(Monitor::kRadioLink, Cause::kRadioLost,
+          f.in.radio_stop || is_down(watchdog[Stream::kRadio]),
+          watchdog[Stream::kRadio].age.seconds());
   f.see(Monitor::kRadioLink, f.in.radio_fades || is_late(Stream::kRadio));
 }
 
-void flags(Finder& f) {
+void flags(CauseCollector& f) {
   const world::RaceControl& race = f.in.race_control;
   const bool unknown =
       race.track == world::TrackFlag::kUnknown || race.vehicle == VehicleFlag::kUnknown;
@@ -217,13 +222,13 @@ void flags(Finder& f) {
 }
 
 // While the car rolls and nobody but us tells its actuators what to do.
-bool follows_commands(const Finder& f) {
+bool follows_commands(const CauseCollector& f) {
   const auto& misc = f.in.signals.misc;
   const auto& diagnostics = f.in.signals.diagnostics;
   const bool drives = misc.received && misc.value.sys_state == SysState::kDriving;
-  const bool own_will = diagnostics.received && (diagnostics.value.emergency_brake ||
-                                                 diagnostics.value.computer_heartbeat_lost);
-  return f.in.moves && drives && !own_will && f.in.speed_mps > f.params.following.moving_mps;
+  const bool brakes_itself = diagnostics.received && (diagnostics.value.emergency_brake ||
+                                                      diagnostics.value.computer_heartbeat_lost);
+  return f.in.moves && drives && !brakes_itself && f.in.speed_mps > f.params.following.moving_mps;
 }
 
 template <class T, class Part>
@@ -233,7 +238,7 @@ world::Received<double> part_of(const world::Received<T>& whole, Part part) {
 
 // A rod that is bent or a motor that slips on its shaft turns the wheels elsewhere than its sensor
 // says: the car shows it. Where the sensor itself is outside its bounds, that is the finding.
-void turning(Finder& f, FaultState& state, Instant now) {
+void turning(CauseCollector& f, FaultState& state, Instant now) {
   const ActuatorParams& p = f.params.following;
   const double excess_rad =
       std::abs(f.in.innovation_rad) - f.in.innovation_sigma_rad - p.unexplained_max_rad;
@@ -241,11 +246,11 @@ void turning(Finder& f, FaultState& state, Instant now) {
   if (!follows || !(excess_rad > 0.0)) state.last_explained = now;  // not a number is explained
   f.out.steering_biased =
       now - state.last_explained >= p.steering.persist && !f.is_off(Monitor::kSteeringFollows);
-  f.add(Monitor::kSteeringFollows, Cause::kSteeringStrays, f.out.steering_biased,
+  f.add(Monitor::kSteeringFollows, Cause::kSteeringDeviates, f.out.steering_biased,
         excess_rad * f.in.steering_ratio);
 }
 
-void actuators(Finder& f, FaultState& state, Instant now) {
+void actuators(CauseCollector& f, FaultState& state, Instant now) {
   const ActuatorParams& p = f.params.following;
   const world::VehicleSignals& s = f.in.signals;
   const world::ActuatorCommand& reported = f.in.reported;
@@ -257,21 +262,21 @@ void actuators(Finder& f, FaultState& state, Instant now) {
   const auto judge = [&](Monitor monitor, Cause cause, const FollowLimits& limits,
                          FollowState& follow, double command,
                          const world::Received<double>& received) {
-    const double excess = straying(limits, follow, command, received, now);
+    const double excess = excess_deviation(limits, follow, command, received, now);
     f.add(monitor, cause, excess > 0.0, excess);
   };
-  judge(Monitor::kSteeringFollows, Cause::kSteeringStrays, p.steering, state.steering,
+  judge(Monitor::kSteeringFollows, Cause::kSteeringDeviates, p.steering, state.steering,
         reported.road_wheel_rad * f.in.steering_ratio, s.steering_motor_rad);
   turning(f, state, now);
-  judge(Monitor::kBrakeFollows, Cause::kBrakeStrays, p.brake, state.brake_front, reported.brake_kpa,
-        part_of(s.brake, &world::BrakePressure::front_kpa));
-  judge(Monitor::kBrakeFollows, Cause::kBrakeStrays, p.brake, state.brake_rear, reported.brake_kpa,
-        part_of(s.brake, &world::BrakePressure::rear_kpa));
-  judge(Monitor::kThrottleFollows, Cause::kThrottleStrays, p.throttle, state.throttle,
+  judge(Monitor::kBrakeFollows, Cause::kBrakeDeviates, p.brake, state.brake_front,
+        reported.brake_kpa, part_of(s.brake, &world::BrakePressure::front_kpa));
+  judge(Monitor::kBrakeFollows, Cause::kBrakeDeviates, p.brake, state.brake_rear,
+        reported.brake_kpa, part_of(s.brake, &world::BrakePressure::rear_kpa));
+  judge(Monitor::kThrottleFollows, Cause::kThrottleDeviates, p.throttle, state.throttle,
         reported.throttle_fraction, s.throttle_fraction);
 }
 
-void rear_axle(Finder& f, FaultState& state, Instant now) {
+void rear_axle(CauseCollector& f, FaultState& state, Instant now) {
   constexpr Duration kAge = milliseconds(50);
   const world::VehicleSignals& s = f.in.signals;
   const bool located = f.in.ego.validity == Validity::kGood;
@@ -285,7 +290,7 @@ void rear_axle(Finder& f, FaultState& state, Instant now) {
   f.add(Monitor::kOversteer, Cause::kOversteer, f.in.moves && worst > 0.0, worst);
 }
 
-void computer(Finder& f, FaultState& state, Instant now) {
+void computer(CauseCollector& f, FaultState& state, Instant now) {
   const world::ComputerHealth& health = f.in.computer;
   const ComputerVerdict v = judge_computer(f.params.computer, state.computer, health, now);
   f.add(Monitor::kTiming, Cause::kTicksMissed, v.missed, v.gap.seconds());
@@ -295,7 +300,7 @@ void computer(Finder& f, FaultState& state, Instant now) {
   f.add(Monitor::kTiming, Cause::kComputerHot, v.hot, health.temperature_c);
 }
 
-void clocks(Finder& f, FaultState& state, Instant now) {
+void clocks(CauseCollector& f, FaultState& state, Instant now) {
   if (f.in.sensors == nullptr) return;
   const ClockOutput v = watch_clock(f.params.clock, state.clock, *f.in.sensors, now);
   f.add(Monitor::kClock, Cause::kClockStepped, v.stepped, v.step_s);
@@ -306,21 +311,21 @@ void clocks(Finder& f, FaultState& state, Instant now) {
 
 FaultOutput detect(const FaultParams& params, FaultState& state, const FaultInputs& inputs,
                    Instant now) {
-  Finder finder{params, inputs, {}};
-  operators(finder);
-  drive_by_wire(finder);
-  bus(finder);
-  dead_bus(finder, state, now);
-  counts(finder, state);
-  localization(finder, state, now);
-  gnss(finder);
-  streams(finder);
-  flags(finder);
-  actuators(finder, state, now);
-  rear_axle(finder, state, now);
-  computer(finder, state, now);
-  clocks(finder, state, now);
-  return finder.out;
+  CauseCollector collector{params, inputs, {}};
+  operators(collector);
+  drive_by_wire(collector);
+  bus(collector);
+  dead_bus(collector, state, now);
+  counts(collector, state);
+  localization(collector, state, now);
+  gnss(collector);
+  streams(collector);
+  flags(collector);
+  actuators(collector, state, now);
+  rear_axle(collector, state, now);
+  computer(collector, state, now);
+  clocks(collector, state, now);
+  return collector.out;
 }
 
 double wheel_speed_mps(const world::VehicleSignals& signals, Instant now, Duration limit) {

@@ -42,7 +42,7 @@ struct FaultLog {
     ++total;
     if (stops && first.cause == Cause::kNone) first = fault;
   }
-  constexpr void forget_first() { first = FaultEntry{}; }
+  constexpr void clear_first() { first = FaultEntry{}; }
 };
 static_assert(std::is_trivially_copyable_v<FaultLog>);
 

@@ -23,8 +23,8 @@ void advance(const FollowLimits& limits, FollowState& state, double reported, do
 
 }  // namespace
 
-double straying(const FollowLimits& limits, FollowState& state, double reported,
-                const world::Received<double>& received, Instant now) {
+double excess_deviation(const FollowLimits& limits, FollowState& state, double reported,
+                        const world::Received<double>& received, Instant now) {
   const Duration dt = now - state.at;
   if (!std::isfinite(state.low) || dt > kFollowPause || !std::isfinite(reported)) {
     begin(state, reported, received, now);

@@ -42,7 +42,7 @@ static_assert(std::is_trivially_copyable_v<FollowState>);
 inline constexpr Duration kFeedbackAgeMax = milliseconds(50);
 inline constexpr Duration kFollowPause = milliseconds(25);  // two ticks missed
 
-double straying(const FollowLimits& limits, FollowState& state, double reported,
-                const world::Received<double>& received, Instant now);
+double excess_deviation(const FollowLimits& limits, FollowState& state, double reported,
+                        const world::Received<double>& received, Instant now);
 
 }  // namespace pitwall::safety

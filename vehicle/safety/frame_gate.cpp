@@ -19,19 +19,20 @@ constexpr double kCtStateLast = 12.0, kCtStateDefault = 255.0;
 constexpr double kControlledShutdown = 11.0, kEmergencyShutdown = 12.0;
 constexpr double kTractionSwitchLast = 4.0;  // the most aggressive of the database's 0..4
 
-struct Gated {
+struct GatedMessage {
   std::uint32_t id;
   bool actuator;  // passes while armed only
 };
 // The whitelist, the gate's own.
-constexpr std::array<Gated, kGatedMessages> kGated{{{av21::BrakePressureCmd::kId, true},
-                                                    {av21::AcceleratorCmd::kId, true},
-                                                    {av21::SteeringCmd::kId, true},
-                                                    {av21::GearShiftCmd::kId, true},
-                                                    {av21::CtReport::kId, false},
-                                                    {av21::CtReport2::kId, false},
-                                                    {av21::DashSwitchesCmd::kId, false},
-                                                    {av21::CtVehicleAccFeedback::kId, false}}};
+constexpr std::array<GatedMessage, kGatedMessages> kGated{
+    {{av21::BrakePressureCmd::kId, true},
+     {av21::AcceleratorCmd::kId, true},
+     {av21::SteeringCmd::kId, true},
+     {av21::GearShiftCmd::kId, true},
+     {av21::CtReport::kId, false},
+     {av21::CtReport2::kId, false},
+     {av21::DashSwitchesCmd::kId, false},
+     {av21::CtVehicleAccFeedback::kId, false}}};
 
 constexpr std::size_t kNotFound = kGatedMessages;
 
@@ -196,8 +197,8 @@ Verdict judge_report(const Bench& b, const can::Frame& frame) {
   const bool listed =
       (m.ct_state >= 1.0 && m.ct_state <= kCtStateLast) || m.ct_state == kCtStateDefault;
   if (!listed) return Verdict::kOutOfRange;
-  const bool shuts = m.ct_state == kControlledShutdown || m.ct_state == kEmergencyShutdown;
-  return !shuts || engine_may_stop(b, m.ct_state) ? Verdict::kPass : Verdict::kEngineOff;
+  const bool shuts_down = m.ct_state == kControlledShutdown || m.ct_state == kEmergencyShutdown;
+  return !shuts_down || engine_may_stop(b, m.ct_state) ? Verdict::kPass : Verdict::kEngineOff;
 }
 
 Verdict judge_switches(const can::Frame& frame) {
@@ -228,7 +229,7 @@ Verdict judge_value(Bench& b, const can::Frame& frame, std::uint8_t length) {
 }
 
 // What an id that is not on the whitelist is: one that others send, or nobody's.
-Verdict stranger(std::uint32_t id) {
+Verdict judge_unlisted(std::uint32_t id) {
   return database_row(id) < av21::kMessages.size() ? Verdict::kWrongDirection : Verdict::kUnknownId;
 }
 
@@ -242,7 +243,7 @@ bool too_often(PassWindow& window, Instant now) {
 Verdict judge(Bench& b, const can::Frame& frame) {
   if (frame.extended || frame.remote || frame.fd) return Verdict::kNotClassic;
   const std::size_t i = gated_index(frame.id);
-  if (i == kNotFound) return stranger(frame.id);
+  if (i == kNotFound) return judge_unlisted(frame.id);
   const can::MessageRow& row = kRows[i];
   if (kGated[i].actuator) {
     if (!b.context.armed) return Verdict::kNotArmed;

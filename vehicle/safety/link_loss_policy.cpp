@@ -6,12 +6,12 @@
 namespace pitwall::safety {
 namespace {
 
-RadioRung rung_at(const LinkLossParams& p, const StreamRow& link) {
-  if (link.health == Health::kUnwatched) return RadioRung::kFull;  // this car has no radio
-  if (link.health == Health::kNever || link.health == Health::kBad) return RadioRung::kStop;
-  if (link.age > p.no_comm) return RadioRung::kNoComm;
-  if (link.age > p.override_gone) return RadioRung::kOverrideGone;
-  return link.age > p.joystick_dropped ? RadioRung::kJoystickDropped : RadioRung::kFull;
+LinkLossLevel level_of(const LinkLossParams& p, const StreamRow& link) {
+  if (link.health == Health::kUnwatched) return LinkLossLevel::kFull;  // this car has no radio
+  if (link.health == Health::kNever || link.health == Health::kBad) return LinkLossLevel::kStop;
+  if (link.age > p.no_comm) return LinkLossLevel::kNoComm;
+  if (link.age > p.override_gone) return LinkLossLevel::kOverrideGone;
+  return link.age > p.joystick_dropped ? LinkLossLevel::kJoystickDropped : LinkLossLevel::kFull;
 }
 
 // How much of the joystick's word still counts: all of it while it is fresh, nothing when the
@@ -24,10 +24,11 @@ double weight(const LinkLossParams& p, Duration age) {
 
 }  // namespace
 
-LinkLossOutput descend(const LinkLossParams& params, LinkLossState& state, const StreamRow& link,
-                       const std::optional<world::Joystick>& joystick, Instant now) {
+LinkLossOutput apply_link_loss_policy(const LinkLossParams& params, LinkLossState& state,
+                                      const StreamRow& link,
+                                      const std::optional<world::Joystick>& joystick, Instant now) {
   LinkLossOutput out;
-  out.rung = rung_at(params, link);
+  out.level = level_of(params, link);
   if (joystick) state.joystick = joystick;
   if (state.joystick) {
     const double applied_weight = weight(params, now - state.joystick->at);
@@ -36,11 +37,11 @@ LinkLossOutput descend(const LinkLossParams& params, LinkLossState& state, const
     out.brake = applied_weight * std::clamp(state.joystick->brake, 0.0, 1.0);
     if (applied_weight == 0.0) state.joystick.reset();
   }
-  const bool silent = out.rung >= RadioRung::kNoComm;
+  const bool silent = out.level >= LinkLossLevel::kNoComm;
   const bool ever = link.health != Health::kNever;  // else there is nothing that was lost
   if (silent && ever && params.no_comm_drives) out.speed_limit_mps = params.no_comm_speed_mps;
   state.speed_limit_mps = out.speed_limit_mps;
-  out.stop = out.rung == RadioRung::kStop || (silent && !params.no_comm_drives);
+  out.stop = out.level == LinkLossLevel::kStop || (silent && !params.no_comm_drives);
   return out;
 }
 

@@ -2,12 +2,12 @@
 // newest authentic packet (watchdog row "radio") and on the age of the newest joystick sample.
 //
 //   age of the link    0 s .. joystick_dropped .. override_gone .. no_comm ....... stop (watchdog)
-//   rung               full | joystick dropped | override gone   | no-comm        | controlled stop
+//   level              full | joystick dropped | override gone   | no-comm        | controlled stop
 //   joystick           full | fades out        | none            | none           | none
 //   speed                                                          capped, or stop
 //
 //   in     watchdog row of the link, the newest joystick sample if there is one, the time
-//   out    the rung, the remaining joystick inputs, a speed limit, whether the car must stop
+//   out    the level, the remaining joystick inputs, a speed limit, whether the car must stop
 //   invariants
 //          the result is never faster than without a radio. A joystick sample that arrives after
 //          the joystick was dropped acts at once; without new samples the joystick fades out
@@ -37,7 +37,7 @@ struct LinkLossParams {
   double no_comm_speed_mps = 60.0;  // [1, 120]
 };
 
-enum class RadioRung : std::uint8_t { kFull, kJoystickDropped, kOverrideGone, kNoComm, kStop };
+enum class LinkLossLevel : std::uint8_t { kFull, kJoystickDropped, kOverrideGone, kNoComm, kStop };
 
 struct LinkLossState {
   std::optional<world::Joystick> joystick;  // the newest that was applied
@@ -46,13 +46,14 @@ struct LinkLossState {
 static_assert(std::is_trivially_copyable_v<LinkLossState>);
 
 struct LinkLossOutput {
-  RadioRung rung = RadioRung::kFull;
+  LinkLossLevel level = LinkLossLevel::kFull;
   bool stop = false;
   double throttle_cap = 1.0, brake = 0.0;
   double speed_limit_mps = kUnset;  // unset: no limit
 };
 
-LinkLossOutput descend(const LinkLossParams& params, LinkLossState& state, const StreamRow& link,
-                       const std::optional<world::Joystick>& joystick, Instant now);
+LinkLossOutput apply_link_loss_policy(const LinkLossParams& params, LinkLossState& state,
+                                      const StreamRow& link,
+                                      const std::optional<world::Joystick>& joystick, Instant now);
 
 }  // namespace pitwall::safety

@@ -16,11 +16,11 @@ constexpr double kAdvanceMax_s = 0.1;  // a longer pause does not jump along the
 double finite_or(double value, double fallback) { return std::isfinite(value) ? value : fallback; }
 
 // What the trajectory asks at a distance: of its first point before it, of its last behind it.
-struct Wanted {
+struct PlannedMotion {
   double curvature_per_m, bank_rad, accel_mps2;
 };
 
-Wanted wanted_at(const Trajectory& path, double s_m) {
+PlannedMotion planned_at(const Trajectory& path, double s_m) {
   const auto& points = path.points;
   std::size_t i = 1;
   while (i < points.size() && points[i].s_m < s_m) ++i;
@@ -35,7 +35,7 @@ Wanted wanted_at(const Trajectory& path, double s_m) {
 }
 
 double feedforward_rad(const SafeStopParams& params, const steering::Learned& learned,
-                       double speed_mps, const Wanted& w) {
+                       double speed_mps, const PlannedMotion& w) {
   return steering::angle_rad(params.steering.bicycle, learned,
                              {speed_mps, w.curvature_per_m, w.bank_rad});
 }
@@ -56,7 +56,7 @@ SafeStopState begin(const SafeStopParams& params, const SafeStopInputs& in,
     s.speed_mps = std::max(0.0, finite_or(in.stop.points[0].speed_mps, 0.0));
   s.travelled_m = std::max(0.0, (now - in.stop.at).seconds()) * s.speed_mps;
   if (followed.path_at == in.stop.at && followed.begun) s.travelled_m = followed.s_m;
-  const Wanted w = wanted_at(in.stop, s.travelled_m);
+  const PlannedMotion w = planned_at(in.stop, s.travelled_m);
   s.learned_rad = followed.begun ? followed.steering.trim_rad + followed.steering.unknown_rad : 0.0;
   s.steer_offset_rad =
       last_good_rad - feedforward_rad(params, in.learned, s.speed_mps, w) - s.learned_rad;
@@ -71,7 +71,7 @@ void advance(const SafeStopParams& params, SafeStopState& s, double measured_mps
   s.travelled_m += s.speed_mps * dt_s;
 }
 
-double decel_of(const SafeStopParams& params, const SafeStopInputs& in, const Wanted& w) {
+double decel_of(const SafeStopParams& params, const SafeStopInputs& in, const PlannedMotion& w) {
   if (in.kind == StopKind::kEmergency) return params.emergency_decel_mps2;
   if (in.stop.points.empty()) return params.decel_without_plan_mps2;
   return std::clamp(-w.accel_mps2, params.decel_min_mps2, params.decel_max_mps2);
@@ -115,7 +115,8 @@ ActuatorCommand with_feedback(const FollowingParams& params, SafeStopState& s,
 ActuatorCommand open_loop(const SafeStopParams& params, SafeStopState& state,
                           const SafeStopInputs& in, double dt_s, Instant now) {
   const bool planned = !in.stop.points.empty();
-  const Wanted w = planned ? wanted_at(in.stop, state.travelled_m) : Wanted{0.0, 0.0, 0.0};
+  const PlannedMotion w =
+      planned ? planned_at(in.stop, state.travelled_m) : PlannedMotion{0.0, 0.0, 0.0};
   const double settled = planned ? std::exp(-(now - state.begun).seconds() / params.steer_settle_s)
                                  : 1.0;  // nothing to settle to: hold
   const double angle_rad =

@@ -113,20 +113,23 @@ world::ActuatorCommand follow_stop(const FollowingParams& params, FollowingState
   const double dt_s = std::clamp((now - state.last).seconds(), 0.0, kTickMax_s);
   state.last = now;
   world::ActuatorCommand& command = state.command;
-  const bool strays = std::isfinite(state.steered_rad);
+  const bool deviates = std::isfinite(state.steered_rad);
   steering::follow_command(p.steering.learning, state.learned,
-                           strays ? state.steered_rad : command.road_wheel_rad, from_seconds(dt_s));
-  const PathPoint turn =
-      path_at(path, state.segment, state.s_m + v_mps * preview_s(p.steering, state.learned));
+                           deviates ? state.steered_rad : command.road_wheel_rad,
+                           from_seconds(dt_s));
+  const auto road_at = [&](double ahead_m) -> steering::RoadPoint {
+    const PathPoint point = path_at(path, state.segment, state.s_m + ahead_m);
+    return {point.curvature_per_m, point.bank_rad};
+  };
   const double wanted_rad = steering::steer(
       p.steering, state.learned, state.steering,
       {.deviation = {state.lateral_m, state.course_rad, state.curvature_per_m, state.bank_rad},
-       .ahead = {turn.curvature_per_m, turn.bank_rad},
+       .ahead = path_ahead(p.steering, state.learned, v_mps, road_at),
        .speed_mps = v_mps,
        .yaw_rate_rad_per_s = pose.yaw_rate_rad_per_s,
        .last_angle_rad = command.road_wheel_rad,
        .angle_max_rad = stop_angle_max_rad(params.gate, params.steering_ratio, v_mps),
-       .bandwidth_share = strays ? p.strayed_bandwidth_share : 1.0},
+       .bandwidth_share = deviates ? p.strayed_bandwidth_share : 1.0},
       from_seconds(dt_s));
   const double slew_rad = params.slew_rad_per_s * dt_s;
   command.road_wheel_rad =

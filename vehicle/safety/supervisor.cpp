@@ -16,7 +16,7 @@ using world::VehicleFlag;
 
 constexpr double kEgoStanding_mps = 1.0;  // wheels that lock at speed are no standstill
 
-bool seems_to_stand(const Tick& t) {
+bool is_at_standstill(const Tick& t) {
   const bool located = is_located(t.in.ego) && std::isfinite(t.in.ego.vx_mps);
   const double ego_mps = std::abs(t.in.ego.vx_mps);
   if (std::isfinite(t.speed_mps))
@@ -28,9 +28,9 @@ bool seems_to_stand(const Tick& t) {
 
 bool stands(const Tick& t) {
   SupervisorState& s = t.state;
-  const bool now_standing = seems_to_stand(t);
-  if (now_standing && !s.standing) s.standing_since = t.now;
-  s.standing = now_standing;
+  const bool at_standstill = is_at_standstill(t);
+  if (at_standstill && !s.standing) s.standing_since = t.now;
+  s.standing = at_standstill;
   return s.standing && t.now - s.standing_since >= t.params.standstill_dwell;
 }
 
@@ -42,11 +42,11 @@ bool has(const CauseSet& causes, Reaction reaction) {
 
 bool bars_arming(const CauseSet& causes) {
   for (const CauseRow& row : kCauseTable)
-    if (row.arms != Arms::kAnyway && causes.has(row.cause)) return true;
+    if (row.arms != ArmingEffect::kAllows && causes.has(row.cause)) return true;
   return false;
 }
 
-bool flags_let_roll(const Tick& t) {
+bool flags_allow_motion(const Tick& t) {
   const world::RaceControl& rc = t.in.race_control;
   if (!rc.ever_received) return !t.params.faults.race_control_required;
   const bool track = rc.track == TrackFlag::kYellow || rc.track == TrackFlag::kGreen ||
@@ -68,19 +68,19 @@ bool may_go(const Tick& t, const CauseSet& causes) {
   const bool driving_state = misc.received && misc.value.sys_state == world::SysState::kDriving;
   const bool healthy = causes.at_least(Reaction::kCoast).empty();
   return healthy && t.in.operator_requests.arm && t.in.drive_available &&
-         (driving_state || !t.params.go_needs_driving_state) && flags_let_roll(t);
+         (driving_state || !t.params.go_needs_driving_state) && flags_allow_motion(t);
 }
 
-bool voids_arming(const CauseSet& causes) {
+bool revokes_arming(const CauseSet& causes) {
   for (const CauseRow& row : kCauseTable)
-    if (row.arms == Arms::kVoids && causes.has(row.cause)) return true;
+    if (row.arms == ArmingEffect::kRevokes && causes.has(row.cause)) return true;
   return false;
 }
 
 // Of a request that is held while the car is disarmed and has not been spent.
 Arming judge_request(const Tick& t, const CauseSet& causes) {
   if (t.in.last_run_armed && !t.state.arm_released) return Arming::kLastRunArmed;
-  if (t.speed_mps >= t.params.standstill_mps) return Arming::kMoves;
+  if (t.speed_mps >= t.params.standstill_mps) return Arming::kCarMoves;
   return bars_arming(causes) ? Arming::kBarred : Arming::kArmed;
 }
 
@@ -91,21 +91,21 @@ bool judge_arming(const Tick& t, const CauseSet& causes) {
   if (!asked) {
     s.arm_used = false;
     s.arm_released = true;
-    s.arming = Arming::kNotAsked;
+    s.arming = Arming::kNotRequested;
   } else if (s.mode != Mode::kDisarmed) {
     s.arming = Arming::kArmed;
   } else if (!s.arm_used) {
     s.arming = judge_request(t, causes);
     s.arm_used = is_refused(s.arming);
   } else if (!is_refused(s.arming)) {
-    s.arming = Arming::kSpent;
+    s.arming = Arming::kUsed;
   }
   return asked && !s.arm_used && s.arming == Arming::kArmed;
 }
 
 // What may pass: is it there, has it passed, has it lasted too long?
 struct Coasting {
-  bool begins = false, passed = false, lasts = false;
+  bool begins = false, passed = false, too_long = false;
 };
 Coasting coasting(const Tick& t, const CauseSet& causes) {
   SupervisorState& s = t.state;
@@ -114,7 +114,7 @@ Coasting coasting(const Tick& t, const CauseSet& causes) {
   if (out.begins) s.coast_last = t.now;
   if (s.mode != Mode::kCoast) return out;
   out.passed = t.now - s.coast_last >= t.params.coast_dwell;
-  out.lasts = !out.passed && t.now - s.mode_since >= t.params.coast_max;
+  out.too_long = !out.passed && t.now - s.mode_since >= t.params.coast_max;
   return out;
 }
 
@@ -132,11 +132,11 @@ Events events_of(const Tick& t, const FaultOutput& found, bool standstill) {
   };
   set(Event::kDriveByWireGone, found.drive_by_wire_gone);
   set(Event::kEmergency, emergency);
-  set(Event::kStop, has(causes, Reaction::kControlledStop) || coast.lasts);
+  set(Event::kStop, has(causes, Reaction::kControlledStop) || coast.too_long);
   set(Event::kCoast, coast.begins);
   set(Event::kPassed, coast.passed);
   set(Event::kStandstill, standstill);
-  set(Event::kDisarm, !op.arm || voids_arming(causes));
+  set(Event::kDisarm, !op.arm || revokes_arming(causes));
   set(Event::kReset, reset_edge && !emergency);
   set(Event::kArm, judge_arming(t, causes));
   set(Event::kGo, may_go(t, causes));
@@ -173,16 +173,16 @@ void enter(const Tick& t, Mode to, bool drive_by_wire_gone) {
   if (to == Mode::kDisarmed) {
     s.last_known = false;
     // A car that disarmed by itself still says why.
-    if (!drive_by_wire_gone) s.log.forget_first();
+    if (!drive_by_wire_gone) s.log.clear_first();
   }
   if (to == Mode::kStandby) {
-    s.log.forget_first();
+    s.log.clear_first();
     s.arm_used = true;
     s.last_shift = t.now;  // the gate counts the first gear that it sees as a shift
   }
   if (to == Mode::kStandby || to == Mode::kDriving) {
     s.safe_stop = {};
-    s.engine_off = s.steering_strayed = s.was_blind = false;
+    s.engine_off = s.steering_deviated = s.had_no_guidance = false;
     s.steering_bias_rad = 0.0;
     s.coasts = {};
   }
@@ -195,10 +195,10 @@ void enter(const Tick& t, Mode to, bool drive_by_wire_gone) {
 
 // A stop tells the throttle to close. Where it stays open the brakes fight the engine, and lose in
 // the low gears.
-bool pushes_on(const Tick& t, const FaultOutput& found) {
+bool throttle_stuck_open(const Tick& t, const FaultOutput& found) {
   const SupervisorState& s = t.state;
   const auto& throttle = t.in.signals.throttle_fraction;
-  return stops(s.mode) && found.causes.has(Cause::kThrottleStrays) && s.last_known &&
+  return stops(s.mode) && found.causes.has(Cause::kThrottleDeviates) && s.last_known &&
          throttle.value > s.last.throttle_fraction + t.params.faults.following.throttle.tolerance;
 }
 
@@ -206,11 +206,11 @@ void note_lost_guidance(const Tick& t, const FaultOutput& found) {
   SupervisorState& s = t.state;
   if (!stops(s.mode)) return;
   const bool placed = t.in.ego.validity == Validity::kGood;
-  s.was_blind = s.was_blind || (found.causes.has(Cause::kImuLost) && !placed);
+  s.had_no_guidance = s.had_no_guidance || (found.causes.has(Cause::kImuLost) && !placed);
   if (found.steering_biased && s.steering_bias_rad == 0.0)
     s.steering_bias_rad = t.in.learned.innovation_rad;
-  s.steering_strayed = s.steering_strayed ||
-                       (found.causes.has(Cause::kSteeringStrays) && s.steering_bias_rad == 0.0);
+  s.steering_deviated = s.steering_deviated ||
+                        (found.causes.has(Cause::kSteeringDeviates) && s.steering_bias_rad == 0.0);
 }
 
 Follow follow_of(Mode mode) {
@@ -222,17 +222,17 @@ Follow follow_of(Mode mode) {
 
 const char* text_of(Arming arming) {
   switch (arming) {
-    case Arming::kNotAsked:
+    case Arming::kNotRequested:
       return "not asked";
     case Arming::kArmed:
       return "armed";
     case Arming::kBarred:
       return "waits for a fault to pass";
-    case Arming::kMoves:
+    case Arming::kCarMoves:
       return "REFUSED: the car moves";
     case Arming::kLastRunArmed:
       return "REFUSED: the last run ended while armed";
-    case Arming::kSpent:
+    case Arming::kUsed:
       return "SPENT: release and arm anew";
   }
   return "?";
@@ -256,7 +256,7 @@ SupervisorOutput supervise(const SupervisorParams& params, SupervisorState& stat
                                     .gate_refused = inputs.gate_refused,
                                     .driving = follows_the_drive(state.mode),
                                     .moves = follows_the_drive(state.mode) || stops(state.mode),
-                                    .radio_fades = inputs.radio.rung != RadioRung::kFull,
+                                    .radio_fades = inputs.radio.level != LinkLossLevel::kFull,
                                     .engine_off = state.engine_off,
                                     .sensors = inputs.sensors,
                                     .computer = inputs.computer,
@@ -271,11 +271,11 @@ SupervisorOutput supervise(const SupervisorParams& params, SupervisorState& stat
   const Mode before = state.mode;
   const Mode to = next(before, events_of(tick, found, standstill));
   if (to != before) enter(tick, to, found.drive_by_wire_gone);
-  state.engine_off = state.engine_off || pushes_on(tick, found);
+  state.engine_off = state.engine_off || throttle_stuck_open(tick, found);
   note_lost_guidance(tick, found);
 
   SupervisorOutput out;
-  const Chosen chosen = choose(tick);
+  const ChosenCommand chosen = choose(tick);
   if (chosen.source != CommandSource::kNone) {
     out.command = shape(tick, chosen.command);
     out.limited = out.command.road_wheel_rad != chosen.command.road_wheel_rad ||

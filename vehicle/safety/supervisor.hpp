@@ -96,15 +96,15 @@ inline constexpr auto kSupervisorTimes = std::to_array<world::NamedTime<Supervis
 enum class Follow : std::uint8_t { kNone, kDrive, kStop };
 // State of the operator's arm request.
 enum class Arming : std::uint8_t {
-  kNotAsked,
+  kNotRequested,
   kArmed,
   kBarred,        // waits for a fault to pass
-  kMoves,         // refused
+  kCarMoves,      // refused
   kLastRunArmed,  // refused
-  kSpent          // has armed once
+  kUsed           // has armed once
 };
 constexpr bool is_refused(Arming arming) {
-  return arming == Arming::kMoves || arming == Arming::kLastRunArmed;
+  return arming == Arming::kCarMoves || arming == Arming::kLastRunArmed;
 }
 const char* text_of(Arming arming);
 enum class CommandSource : std::uint8_t { kNone, kHold, kControl, kSafeStop };
@@ -145,11 +145,11 @@ struct SupervisorState {
   bool engine_off = false;  // stays set until the car is armed again
   // Set in a stop, until the car is armed again: the steering did not follow; neither position nor
   // inertial unit was available.
-  bool steering_strayed = false, was_blind = false;
+  bool steering_deviated = false, had_no_guidance = false;
   double steering_bias_rad = 0.0;  // likewise: road-wheel angle that the sensor does not show
   bool arm_used = false;           // an arm request arms once; cleared when it is withdrawn
   bool arm_released = false;       // the request was absent at least once since the start
-  Arming arming = Arming::kNotAsked;
+  Arming arming = Arming::kNotRequested;
   world::ActuatorCommand last;  // the last command that was chosen
   bool last_known = false;
   Instant last_chosen{};
@@ -165,7 +165,7 @@ struct SupervisorOutput {
   Follow follow = Follow::kNone;   // trajectory for the next tick
   world::ActuatorCommand command;  // unset while disarmed
   CommandSource source = CommandSource::kNone;
-  Arming arming = Arming::kNotAsked;
+  Arming arming = Arming::kNotRequested;
   bool actuate = false;       // armed: outbound sends actuator frames and the gate lets them pass
   double speed_mps = kUnset;  // from the wheels
   bool standstill = false;

@@ -42,22 +42,23 @@ void note(StreamHistory& history, Duration gap, Duration latency, Instant now) {
   history.latency[slot] = std::max(history.latency[slot], latency);
 }
 
-// `delayed`: between true and heard. The car's own sleep is no gap of the stream.
-void seen(WatchdogState& state, Stream stream, Instant when, Duration delayed, Duration slept,
-          Instant now) {
+// `delayed`: from the time of the sample to its arrival. A pause of the process is no gap of the
+// stream.
+void record_arrival(WatchdogState& state, Stream stream, Instant when, Duration delayed,
+                    Duration pause, Instant now) {
   const std::size_t i = at(stream);
   if (state.ever[i] && when <= state.last[i]) return;
   if (!state.ever[i]) state.history[i].began = now;
-  const Duration own = std::max(state.pardoned[i], slept);
+  const Duration own = std::max(state.discounted[i], pause);
   const Duration gap = state.ever[i] ? when - state.last[i] - own : Duration{};
   note(state.history[i], std::max(gap, Duration{}), delayed, now);
   state.last[i] = when;
-  state.pardoned[i] = {};
+  state.discounted[i] = {};
   state.ever[i] = true;
 }
 
 // Slots that have begun since the last tick are empty.
-void turn(WatchdogState& state, Instant now) {
+void clear_begun_slots(WatchdogState& state, Instant now) {
   const std::int64_t passed = slot_number(now) - slot_number(state.watched_at);
   const auto fresh = std::clamp<std::int64_t>(passed, 0, kFigureSlots);
   for (std::int64_t k = 0; k < fresh; ++k) {
@@ -69,17 +70,19 @@ void turn(WatchdogState& state, Instant now) {
   }
 }
 
-// Of a sleep that is over, what lies after a stream's newest.
-void pardon(WatchdogState& state, Instant now, Duration slept) {
+// Discounts the part of a pause that lies after the newest sample of each stream.
+void discount_pause(WatchdogState& state, Instant now, Duration pause) {
   for (std::size_t i = 0; i < kStreams; ++i) {
-    const Duration of_this = std::min(slept, now - state.last[i]) - kTick;
-    state.pardoned[i] = std::clamp(state.pardoned[i] + of_this, state.pardoned[i], kPardonMax);
+    const Duration of_this = std::min(pause, now - state.last[i]) - kTick;
+    state.discounted[i] =
+        std::clamp(state.discounted[i] + of_this, state.discounted[i], kDiscountMax);
   }
 }
 
-// What the car makes itself was not made while it slept: it counts as just often enough.
-void credit(StreamHistory& history, const RateLimit& rate, Duration slept, Instant now) {
-  const double missed = std::ceil(rate.warning_hz * slept.seconds());
+// The car's own stream had no samples during the pause: as many are counted as just suffice.
+void count_paused_samples(StreamHistory& history, const RateLimit& rate, Duration pause,
+                          Instant now) {
+  const double missed = std::ceil(rate.warning_hz * pause.seconds());
   constexpr double kMost = 1'000.0;
   history.samples[slot_of(now)] += static_cast<std::uint16_t>(std::clamp(missed, 0.0, kMost));
 }
@@ -91,30 +94,31 @@ bool is_solved(const world::GnssPosition& p) {
          (p.satellites == 0 || p.satellites >= kSatellitesLeast);
 }
 
-// What of a delay is not the car's own sleep.
-struct Ear {
+// Records arrivals without the part of their delay in which the process was paused.
+struct ArrivalRecorder {
   WatchdogState& state;
   Instant now;
-  Duration slept;
+  Duration pause;
 
-  void hears(Stream stream, Instant when) const {
-    seen(state, stream, when, now - when - slept, slept, now);
+  void record(Stream stream, Instant when) const {
+    record_arrival(state, stream, when, now - when - pause, pause, now);
   }
   template <class T>
-  void hears(Stream stream, const world::Received<T>& signal) const {
-    if (signal.received) hears(stream, signal.at);
+  void record(Stream stream, const world::Received<T>& signal) const {
+    if (signal.received) record(stream, signal.at);
   }
 };
 
 template <class Sample>
-void samples(const Ear& ear, const WatchdogInputs& inputs, const Sample& sample, Stream unit_0) {
+void record_sample(const ArrivalRecorder& recorder, const WatchdogInputs& inputs,
+                   const Sample& sample, Stream unit_0) {
   if (sample.unit >= world::kGnssUnits) return;  // not a unit of this car
-  ear.hears(of_unit(unit_0, sample.unit), sample.at);
+  recorder.record(of_unit(unit_0, sample.unit), sample.at);
   if (!inputs.gnss_byte_at[sample.unit])
-    ear.hears(of_unit(Stream::kGnss0Link, sample.unit), sample.at);
+    recorder.record(of_unit(Stream::kGnss0Link, sample.unit), sample.at);
 }
 
-void take_sigma(WatchdogState& state, const world::GnssPosition& p) {
+void store_sigma(WatchdogState& state, const world::GnssPosition& p) {
   if (p.unit >= world::kGnssUnits) return;
   const double sigma_m = std::max(p.latitude_sigma_m, p.longitude_sigma_m);
   const bool reported = p.latitude_sigma_m >= 0.0 && p.longitude_sigma_m >= 0.0;
@@ -123,18 +127,20 @@ void take_sigma(WatchdogState& state, const world::GnssPosition& p) {
       reported ? sigma_m : std::numeric_limits<double>::infinity();
 }
 
-void sensors(const Ear& ear, const WatchdogInputs& inputs) {
+void record_sensors(const ArrivalRecorder& recorder, const WatchdogInputs& inputs) {
   for (const auto& p : inputs.sensors.positions) {
-    samples(ear, inputs, p, Stream::kGnss0Position);
-    if (is_solved(p)) samples(ear, inputs, p, Stream::kGnss0Solution);
-    take_sigma(ear.state, p);
+    record_sample(recorder, inputs, p, Stream::kGnss0Position);
+    if (is_solved(p)) record_sample(recorder, inputs, p, Stream::kGnss0Solution);
+    store_sigma(recorder.state, p);
   }
-  for (const auto& v : inputs.sensors.velocities) samples(ear, inputs, v, Stream::kGnss0Velocity);
-  for (const auto& h : inputs.sensors.headings) samples(ear, inputs, h, Stream::kGnss0Heading);
-  for (const auto& i : inputs.sensors.imu) samples(ear, inputs, i, Stream::kImu0);
+  for (const auto& v : inputs.sensors.velocities)
+    record_sample(recorder, inputs, v, Stream::kGnss0Velocity);
+  for (const auto& h : inputs.sensors.headings)
+    record_sample(recorder, inputs, h, Stream::kGnss0Heading);
+  for (const auto& i : inputs.sensors.imu) record_sample(recorder, inputs, i, Stream::kImu0);
   for (std::uint8_t unit = 0; unit < world::kGnssUnits; ++unit)
     if (inputs.gnss_byte_at[unit])
-      ear.hears(of_unit(Stream::kGnss0Link, unit), *inputs.gnss_byte_at[unit]);
+      recorder.record(of_unit(Stream::kGnss0Link, unit), *inputs.gnss_byte_at[unit]);
 }
 
 Health grade(Duration value, const DurationLimit& limit) {
@@ -166,7 +172,7 @@ StreamRow judge(const StreamLimit& limit, const WatchdogState& state, Instant no
   if (!limit.watched) return row;
   row.health = Health::kNever;
   if (!state.ever[i]) return row;
-  row.age = std::max(Duration{}, now - state.last[i] - state.pardoned[i]);
+  row.age = std::max(Duration{}, now - state.last[i] - state.discounted[i]);
   figures(state.history[i], now, row);
   const DurationLimit age{limit.warning, limit.bad};
   const DurationLimit gap = limit.gap.bad == Duration{} ? age : limit.gap;
@@ -176,7 +182,7 @@ StreamRow judge(const StreamLimit& limit, const WatchdogState& state, Instant no
   return row;
 }
 
-// Whether the operator has told the car not to believe the sensor behind it.
+// Whether the operator has excluded the sensor of the stream.
 bool is_excluded(const world::SensorUse& use, Stream stream) {
   using enum world::Excludable;
   if (stream < Stream::kImu0) {
@@ -196,30 +202,31 @@ constexpr bool is_of_localization(Stream stream) { return stream <= Stream::kWhe
 
 WatchdogOutput watch(const WatchdogParams& params, WatchdogState& state,
                      const WatchdogInputs& inputs, Instant now) {
-  turn(state, now);
-  const Duration slept = now - state.watched_at;
-  const bool overslept = state.watched_at != Instant{} && slept > kOverslept;
-  const Ear ear{state, now, overslept ? slept : Duration{}};
-  sensors(ear, inputs);
+  clear_begun_slots(state, now);
+  const Duration pause = now - state.watched_at;
+  const bool paused = state.watched_at != Instant{} && pause > kPauseMin;
+  const ArrivalRecorder recorder{state, now, paused ? pause : Duration{}};
+  record_sensors(recorder, inputs);
   const world::VehicleSignals& s = inputs.signals;
-  ear.hears(Stream::kWheelSpeed, s.wheel_speed_mps);
-  ear.hears(Stream::kBrake, s.brake);
-  ear.hears(Stream::kThrottle, s.throttle_fraction);
-  ear.hears(Stream::kSteering, s.steering_motor_rad);
-  ear.hears(Stream::kMisc, s.misc);
-  ear.hears(Stream::kPowertrain, s.powertrain);
-  ear.hears(Stream::kDiagnostics, s.diagnostics);
+  recorder.record(Stream::kWheelSpeed, s.wheel_speed_mps);
+  recorder.record(Stream::kBrake, s.brake);
+  recorder.record(Stream::kThrottle, s.throttle_fraction);
+  recorder.record(Stream::kSteering, s.steering_motor_rad);
+  recorder.record(Stream::kMisc, s.misc);
+  recorder.record(Stream::kPowertrain, s.powertrain);
+  recorder.record(Stream::kDiagnostics, s.diagnostics);
   if (inputs.race_control.ever_received)
-    ear.hears(Stream::kRaceControl, inputs.race_control.last_heartbeat_change);
-  if (inputs.planner_at) ear.hears(Stream::kPlanner, *inputs.planner_at);
-  if (inputs.radio_at) ear.hears(Stream::kRadio, *inputs.radio_at);
+    recorder.record(Stream::kRaceControl, inputs.race_control.last_heartbeat_change);
+  if (inputs.planner_at) recorder.record(Stream::kPlanner, *inputs.planner_at);
+  if (inputs.radio_at) recorder.record(Stream::kRadio, *inputs.radio_at);
 
   // A stamp from the future keeps nothing alive.
   for (Instant& last : state.last) last = std::min(last, now);
-  if (overslept) {
-    pardon(state, now, slept);
-    credit(state.history[at(Stream::kPlanner)], params.limits[at(Stream::kPlanner)].rate,
-           std::min(slept, kPardonMax), now);
+  if (paused) {
+    discount_pause(state, now, pause);
+    count_paused_samples(state.history[at(Stream::kPlanner)],
+                         params.limits[at(Stream::kPlanner)].rate, std::min(pause, kDiscountMax),
+                         now);
   }
   state.watched_at = now;
   WatchdogOutput out;

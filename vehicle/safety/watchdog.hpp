@@ -2,8 +2,8 @@
 // last second its rate, its longest gap and its longest delay from measurement to arrival. Each
 // figure is good, warning or bad by the limits of the row; the row takes the worst of them, but a
 // gap alone, which is over, is at most a warning. Time in which the car's own process did not run
-// is subtracted from the ages, up to kPardonMax, because the silence may be its own; the next ticks
-// show which streams are alive.
+// is subtracted from the ages, up to kDiscountMax, because the silence may be its own; the next
+// ticks show which streams are alive.
 //   in     the samples of this tick, the signals and flags received so far, the instants of the
 //          planner and of the radio; the sensors that the operator has excluded
 //   out    one row per stream: good, warning, bad, never received, or not watched; for each
@@ -115,8 +115,8 @@ struct WatchdogParams {
   constexpr StreamLimit& operator[](Stream s) { return limits[static_cast<std::size_t>(s)]; }
 };
 
-inline constexpr Duration kOverslept = milliseconds(25);  // two ticks missed
-inline constexpr Duration kPardonMax = milliseconds(250);
+inline constexpr Duration kPauseMin = milliseconds(25);  // two ticks missed
+inline constexpr Duration kDiscountMax = milliseconds(250);
 
 // Recent samples in slots of a tenth of a second. One slot more than the output covers: the running
 // one.
@@ -131,7 +131,7 @@ struct StreamHistory {
 struct WatchdogState {
   std::array<Instant, kStreams> last{};
   std::array<bool, kStreams> ever{};
-  std::array<Duration, kStreams> pardoned{};  // since its last sample; [0, kPardonMax]
+  std::array<Duration, kStreams> discounted{};  // since its last sample; [0, kDiscountMax]
   std::array<StreamHistory, kStreams> history{};
   // Reported standard deviations of the last three positions of each receiver.
   std::array<std::array<double, 3>, world::kGnssUnits> sigmas_m{};

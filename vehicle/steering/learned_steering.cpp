@@ -79,6 +79,28 @@ void correct(Learned& learned, const Numbers& h, double residual_rad, double var
   }
 }
 
+// Of the rear axle's slip gradient [rad/(m/s^2)].
+constexpr double kSlipLeast = -0.0014, kSlipMost = 0.004;
+constexpr double kSlipSigma = 0.0008;     // of any car, before something is learned
+constexpr double kSlipDrift = 0.0002;     // within kDriftOver_s
+constexpr double kSlipNoise_rad = 0.004;  // of a slip angle by localization
+
+void learn_rear_slip(const Bicycle& car, Learned& learned, const Turning& at, double dt_s) {
+  const double a_mps2 = lateral_mps2(at);
+  const double slip_rad = (car.cg_to_rear_m * at.yaw_rate_rad_per_s - at.slip_mps) / at.speed_mps;
+  const double missing_rad =
+      slip_rad - (car.rear_slip_rad_per_mps2 + learned.rear_slip_rad_per_mps2) * a_mps2;
+  if (!std::isfinite(missing_rad)) return;
+  double& variance = learned.rear_slip_variance;
+  if (!std::isfinite(variance)) variance = square(kSlipSigma);
+  variance += square(kSlipDrift) / kDriftOver_s * dt_s;
+  const double gain = variance * a_mps2 /
+                      (variance * square(a_mps2) + square(kSlipNoise_rad) * kCorrelation_s / dt_s);
+  learned.rear_slip_rad_per_mps2 =
+      std::clamp(learned.rear_slip_rad_per_mps2 + gain * missing_rad, kSlipLeast, kSlipMost);
+  variance = std::max(variance * (1.0 - gain * a_mps2), 0.0);
+}
+
 }  // namespace
 
 double lateral_mps2(const Turning& at) {
@@ -110,6 +132,11 @@ double angle_rad(const Bicycle& car, const Learned& learned, const RoadLoad& at)
 double residual_rad(const Bicycle& car, const Learned& learned, const Turning& at) {
   return turned_rad(learned) -
          angle_rad(car, learned, at.yaw_rate_rad_per_s / at.speed_mps, lateral_mps2(at));
+}
+
+double slip_rad(const Bicycle& car, const Learned& learned, const RoadLoad& at) {
+  return car.cg_to_rear_m * turn_per_m(at) -
+         (car.rear_slip_rad_per_mps2 + learned.rear_slip_rad_per_mps2) * lateral_demand_mps2(at);
 }
 
 double yaw_rate_rad_per_s(const Bicycle& car, const Learned& learned, double angle_rad,
@@ -159,6 +186,7 @@ void learn(const LearningParams& params, const Bicycle& car, Learned& learned, c
       std::sqrt(std::max(product(h, product(learned.covariance, h)), 0.0) +
                 square(params.residual_sigma_rad) + square(kLagDoubt_s * turning));
   correct(learned, h, missing_rad, variance);
+  learn_rear_slip(car, learned, at, dt_s);
 }
 
 }  // namespace pitwall::steering

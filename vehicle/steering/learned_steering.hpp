@@ -1,9 +1,10 @@
 // Learned steering correction: the steering angle that this car on these tyres needs beyond the
 // steady-state bicycle model of its file, estimated from the commanded angles and the yaw rate,
 // for every controller that steers.
-//   in     the last commanded angle, speed, yaw rate, banking of the road
+//   in     the last commanded angle, speed, slip, yaw rate, banking of the road
 //   out    Learned: a constant angle, an understeer gradient, its change with the lateral
-//          acceleration, and a lag, each in addition to the model; their covariance
+//          acceleration, and a lag, each in addition to the model; their covariance; the slip
+//          gradient of the rear axle
 //   units  rad, rad/(m/s2), rad/(m/s2)^3, s; lateral acceleration in the plane of the road,
 //          positive left
 //   invariants
@@ -15,6 +16,8 @@
 //          noise is that of the steady-state bicycle: residual_sigma with a correlation time, and a
 //          share of the rate of the wheel angle. All four stay within their limits. They do not
 //          change at low speed or if a value is not a number
+//          with beta the slip angle, lr r / v - beta = (G + G') a + noise: G' is a random walk,
+//          estimated by another filter
 //   errors none
 //   cost   O(1), no allocation
 //   source Rajamani, Vehicle Dynamics and Control, 2nd ed., eq. 3.12 (steady-state bicycle);
@@ -38,6 +41,8 @@ inline constexpr double kTickMax_s = 0.05;  // a longer pause counts as this
 struct Bicycle {
   double wheelbase_m = 2.971;
   double understeer_rad_per_mps2 = 0.0002;
+  double cg_to_rear_m = 1.247;
+  double rear_slip_rad_per_mps2 = 0.0014;  // slip angle of the rear axle per lateral acceleration
 };
 
 inline constexpr world::Range kUndersteer_rad_per_mps2{-0.002, 0.01};
@@ -51,10 +56,12 @@ inline constexpr auto kBicycleRanges = std::to_array<world::NamedRange<Bicycle>>
 inline constexpr std::size_t kLearnedNumbers = 4;
 
 struct Learned {
-  double commanded_rad = 0.0;      // command after the lag of params: angle that has taken effect
+  double commanded_rad = 0.0;      // command after the lag of params: the angle in effect
   double turning_rad_per_s = 0.0;  // rate of commanded_rad
   double offset_rad = 0.0, understeer_rad_per_mps2 = 0.0, bend_rad_s6_per_m3 = 0.0, lag_s = 0.0;
-  // Covariance of these four, the upper triangle row by row; unset before the first measurement.
+  double rear_slip_rad_per_mps2 = 0.0;  // in addition to the model
+  double rear_slip_variance = kUnset;
+  // Covariance of the first four, upper triangle by rows; unset before the first measurement.
   std::array<double, kLearnedNumbers*(kLearnedNumbers + 1) / 2> covariance{kUnset};
   // Innovation of this tick's update (the residual before it), and its standard deviation by the
   // covariance and the noise; unset where nothing is learned.
@@ -80,9 +87,10 @@ inline constexpr auto kLearningRanges = std::to_array<world::NamedRange<Learning
     {"residual_sigma_rad", &LearningParams::residual_sigma_rad, 0.0001, 0.02},
 });
 
-// Motion of the car: speed forward, yaw rate about body z.
+// Motion of the centre of gravity: speed forward, yaw rate about body z, slip to the left.
 struct Turning {
   double speed_mps = kUnset, yaw_rate_rad_per_s = kUnset, bank_rad = 0.0;
+  double slip_mps = kUnset;
 };
 
 double lateral_mps2(const Turning& at);
@@ -108,6 +116,9 @@ inline double turned_rad(const Learned& learned) {
 // Difference between the effective angle and the angle that the yaw rate needs by the model with
 // the learned correction.
 double residual_rad(const Bicycle& car, const Learned& learned, const Turning& at);
+
+// Steady-state slip angle of the centre of gravity, lr k - (G + G') a.
+double slip_rad(const Bicycle& car, const Learned& learned, const RoadLoad& at);
 
 // Steady-state yaw rate of an angle, for use without a gyroscope.
 double yaw_rate_rad_per_s(const Bicycle& car, const Learned& learned, double angle_rad,

@@ -37,8 +37,14 @@ double stray_m_rad_per_s2(const Params& p) {
          (1.0 - p.observer_share);
 }
 
-double preview_s(const Params& p, const Learned& learned) {
-  return p.learning.lag_s + learned.lag_s + p.preview_s;
+double lag_s(const Params& p, const Learned& learned) { return p.learning.lag_s + learned.lag_s; }
+
+double yaw_per_m(const Params& p, const Learned& learned, double speed_mps, const RoadPoint& at,
+                 const RoadPoint& before, const RoadPoint& after, double span_m) {
+  const auto slip_at = [&](const RoadPoint& point) {
+    return slip_rad(p.bicycle, learned, {speed_mps, point.curvature_per_m, point.bank_rad});
+  };
+  return at.curvature_per_m - (slip_at(after) - slip_at(before)) / (2.0 * span_m);
 }
 
 double steer(const Params& p, const Learned& learned, State& s, const SteeringInputs& in,
@@ -50,7 +56,7 @@ double steer(const Params& p, const Learned& learned, State& s, const SteeringIn
   observe(p, learned, s, {speed_mps, in.yaw_rate_rad_per_s, at.bank_rad}, dt_s);
   // A slow car turns at once, and its gyroscopes' noise would reach the wheel.
   const double lead_s = p.lead_s * std::min(v_mps / kLeadFrom_mps, 1.0);
-  const double path_rate = v_mps * at.curvature_per_m;
+  const double path_rate = v_mps * in.ahead.yaw_per_m_here;
   const double excess_rad_per_s = std::isfinite(in.yaw_rate_rad_per_s)
                                       ? in.yaw_rate_rad_per_s / std::cos(at.bank_rad) - path_rate
                                       : 0.0;
@@ -63,9 +69,9 @@ double steer(const Params& p, const Learned& learned, State& s, const SteeringIn
   const double feedback_per_m =
       -(w * w * lateral_m + 2.0 * p.damping * w * v_mps * course_rad) / (v_mps * v_mps);
   const double forward_rad =
-      angle_rad(p.bicycle, learned, {speed_mps, in.ahead.curvature_per_m, in.ahead.bank_rad});
+      angle_rad(p.bicycle, learned, {speed_mps, in.ahead.yaw_per_m, in.ahead.bank_rad});
   const double known_rad = forward_rad + per_curvature_m * feedback_per_m + s.unknown_rad;
-  if (!std::isfinite(known_rad)) return in.last_angle_rad;
+  if (!std::isfinite(known_rad + at.curvature_per_m)) return in.last_angle_rad;
   if (speed_mps < p.hold_speed_mps) {  // the wheels would turn on the spot
     s.begun = false;
     return in.last_angle_rad;

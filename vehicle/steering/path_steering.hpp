@@ -5,10 +5,12 @@
 //   in     position and course relative to the path, yaw rate, the path at the preview distance
 //   out    road-wheel angle [rad], left positive
 //   invariants
-//          angle = L k + K a + d' + A k_fb + d + trim + bump, with k = kappa cos(bank) and a of
-//          steering/road_load.hpp for the path ahead, and with the learned gradient K'
+//          angle = L k + K a + d' + A k_fb + d + trim + bump, with k = k_yaw cos(bank) and a of
+//          steering/road_load.hpp for the path a lag ahead, and with the learned gradient K'
+//            k_yaw = kappa - dbeta/ds: the car yaws along its path as its steady-state slip angle
+//                   beta changes
 //            K    = model's + K',  A = L + (model's + gain_share K') v^2
-//            k_fb = -(w^2 (e + T v chi) + 2 z w v (chi + T (r / cos(bank) - v kappa))) / v^2
+//            k_fb = -(w^2 (e + T v chi) + 2 z w v (chi + T (r / cos(bank) - v k_yaw))) / v^2
 //                   e to the left of the path, chi the course relative to it, T = lead_s
 //            d    = low-pass over observer_s of observer_share times the residual of
 //                   learned_steering.hpp
@@ -23,6 +25,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <type_traits>
 
@@ -34,10 +37,9 @@ namespace pitwall::steering {
 struct Params {
   Bicycle bicycle;
   LearningParams learning;
-  double bandwidth_rad_per_s = 1.2;  // w
-  double damping = 1.0;              // z
+  double bandwidth_rad_per_s = 1.4;  // w
+  double damping = 0.85;             // z
   double lead_s = 0.3;               // T
-  double preview_s = 0.15;           // in addition to the lag of the steering
   double gain_share = 0.3;           // of the learned gradient in A
   double observer_s = 0.5, observer_share = 0.5;
   double trim_per_s = 0.05;
@@ -52,7 +54,6 @@ inline constexpr auto kRanges = std::to_array<world::NamedRange<Params>>({
     {"bandwidth_rad_per_s", &Params::bandwidth_rad_per_s, 0.5, 4.0},
     {"damping", &Params::damping, 0.5, 1.5},
     {"lead_s", &Params::lead_s, 0.0, 0.5},
-    {"preview_s", &Params::preview_s, 0.0, 0.5},
     {"gain_share", &Params::gain_share, 0.0, 1.0},
     {"observer_s", &Params::observer_s, 0.1, 5.0},
     {"observer_share", &Params::observer_share, 0.0, 0.9},
@@ -77,8 +78,16 @@ struct Deviation {
   double curvature_per_m = kUnset, bank_rad = kUnset;  // of the path at the car, Map
 };
 
+// Point of the path: curvature and bank, Map.
+struct RoadPoint {
+  double curvature_per_m = kUnset, bank_rad = kUnset;
+};
+
+// The road that the car turns on, with the curvature of its yaw: where a turn begins or ends the
+// slip angle changes, and the yaw rate is not that of the path.
 struct PathAhead {
-  double curvature_per_m = kUnset, bank_rad = kUnset;  // at the preview distance, Map
+  double yaw_per_m = kUnset, bank_rad = kUnset;  // at the preview distance
+  double yaw_per_m_here = kUnset;                // at the car
 };
 
 struct SteeringInputs {
@@ -94,8 +103,29 @@ struct SteeringInputs {
 // d v^2 / (L w^2). Returns d v^2 for a deviation of stray_max_m.
 double stray_m_rad_per_s2(const Params& params);
 
-// Preview time of the feed-forward.
-double preview_s(const Params& params, const Learned& learned);
+// Lag from a command to its yaw rate: the preview time of the feed-forward.
+double lag_s(const Params& params, const Learned& learned);
+
+// Curvature of the yaw at a point: kappa - dbeta/ds, with beta the steady-state slip angle, by the
+// points `span_m` before and after it.
+double yaw_per_m(const Params& params, const Learned& learned, double speed_mps,
+                 const RoadPoint& at, const RoadPoint& before, const RoadPoint& after,
+                 double span_m);
+
+// `road_at` gives the RoadPoint of the path at a distance ahead of the car [m].
+template <typename RoadAt>
+PathAhead path_ahead(const Params& params, const Learned& learned, double speed_mps,
+                     const RoadAt& road_at) {
+  constexpr double kSpan_s = 0.05;
+  const double v_mps = std::max(speed_mps, params.gain_speed_least_mps);
+  const double span_m = kSpan_s * v_mps, ahead_m = speed_mps * lag_s(params, learned);
+  const RoadPoint ahead = road_at(ahead_m);
+  return {.yaw_per_m = yaw_per_m(params, learned, v_mps, ahead, road_at(ahead_m - span_m),
+                                 road_at(ahead_m + span_m), span_m),
+          .bank_rad = ahead.bank_rad,
+          .yaw_per_m_here = yaw_per_m(params, learned, v_mps, road_at(0.0), road_at(-span_m),
+                                      road_at(span_m), span_m)};
+}
 
 double steer(const Params& params, const Learned& learned, State& state, const SteeringInputs& in,
              Duration dt);

@@ -1,5 +1,5 @@
 // Path with a planned speed at every point: output of planning, input of control.
-//   units  in the names: m, rad, m/s, m/s^2
+//   units  in the names: m, rad, m/s, m/s^2, s
 //   frames Map; yaw and curvature positive to the left; banking positive where the left side is
 //          lower (towards the inside of a left-hand oval)
 // SPDX-License-Identifier: Apache-2.0
@@ -20,6 +20,8 @@ struct TrajectoryPoint {
   double bank_rad = kUnset;
   double speed_mps = kUnset;
   double accel_mps2 = kUnset;  // planned, along the path
+  double time_s = kUnset;      // from the first point; infinite where the car never arrives
+  double room_left_m = kUnset, room_right_m = kUnset;  // from the path to the walls
 };
 
 inline constexpr std::size_t kTrajectoryPoints = 128;

@@ -126,7 +126,7 @@ describe("snapshot", () => {
     }
     expect(refused(new Uint8Array([...bytes, 0]))).toBe(true);
     for (const [at, value] of [
-      [0, 3],
+      [0, 4],
       [0, 0],
       [1, 2],
     ]) {

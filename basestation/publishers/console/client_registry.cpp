@@ -93,6 +93,10 @@ std::optional<Request> ClientRegistry::receive_text(ClientId client, std::string
     send_history(client, *ask, source, now);
     return std::nullopt;
   }
+  if (const auto* ask = std::get_if<AskLap>(&*request)) {
+    send_lap(client, *ask, source, now);
+    return std::nullopt;
+  }
   if (const auto* ask = std::get_if<AskPing>(&*request)) {
     send(only(client),
          Object{}.text("type", "pong").number("at", ask->at).number("time_ns", now.ns).str());
@@ -113,6 +117,16 @@ void ClientRegistry::send_history(ClientId client, const AskHistory& ask, const 
                                   now - from_seconds(ask.to_s), ask.points);
   out_.push_back({only(client), std::make_shared<const Message>(
                                     Message{.frame = web::history_frame(ask.field, points, now)})});
+}
+
+void ClientRegistry::send_lap(ClientId client, const AskLap& ask, const StateSource& source,
+                              Instant now) {
+  const state::LapLog* const laps = source.laps();
+  const state::Lap* const lap = laps != nullptr ? laps->find(ask.lap) : nullptr;
+  if (lap == nullptr) return send_error(client, {"lap.lap", "no such lap"});
+  greet_new_clients();
+  out_.push_back({only(client), std::make_shared<const Message>(
+                                    Message{.frame = web::lap_frame(*lap, laps->step_m(), now)})});
 }
 
 void ClientRegistry::send_error(ClientId client, const Problem& problem) {

@@ -16,10 +16,10 @@
 #include <string_view>
 #include <vector>
 
-#include "basestation/command/person.hpp"
+#include "basestation/command/audit.hpp"
 #include "basestation/publishers/console/requests.hpp"
 #include "basestation/publishers/console/snapshots.hpp"
-#include "basestation/publishers/web/client.hpp"
+#include "basestation/publishers/web/admission/client.hpp"
 #include "basestation/publishers/web/client_queue.hpp"
 #include "basestation/service/messages/message_log.hpp"
 #include "basestation/service/messages/message_text.hpp"
@@ -85,6 +85,7 @@ class ClientRegistry {
   // called before anything else is sent.
   void greet_new_clients();
   std::string hello(ClientId client, Instant now) const;
+  void send_lap(ClientId client, const AskLap& ask, const StateSource& source, Instant now);
   void send_history(ClientId client, const AskHistory& ask, const StateSource& source, Instant now);
 
   std::string catalogue_;

@@ -50,6 +50,7 @@ class ConsoleService : public service::Publisher, private StateSource {
   alarms::Evaluation evaluate(state::FieldId field, const state::FieldView& v) const override;
   std::vector<state::TrendPoint> past(state::FieldId field, Instant from, Instant to,
                                       std::size_t points) const override;
+  const state::LapLog* laps() const override { return car_.laps(); }
 
   void execute(web::ClientId client, const Request& request, Instant now);
   Result<bool, Problem> ask_bench(const AskBench& ask, const command::Person& by, Instant now);

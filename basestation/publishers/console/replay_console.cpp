@@ -8,6 +8,7 @@
 
 #include "basestation/publishers/console/catalogue_text.hpp"
 #include "basestation/service/messages/evaluator_text.hpp"
+#include "basestation/service/messages/lap_text.hpp"
 #include "protocol/json/json_text.hpp"
 #include "protocol/transport/clock.hpp"
 #include "protocol/transport/readiness.hpp"
@@ -20,9 +21,10 @@ constexpr Duration kTurn = milliseconds(40);  // 25 pictures a second at most
 }  // namespace
 
 ReplayConsole::ReplayConsole(service::ServiceConfig config, replay::Player player,
-                             web::WebServer& server)
+                             service::RecordingIndex index, web::WebServer& server)
     : config_(std::move(config)),
       player_(std::move(player)),
+      index_(std::move(index)),
       server_(server),
       clients_(catalogue_text(
                    [this](state::FieldId id) -> const alarms::Limit& {
@@ -33,6 +35,7 @@ ReplayConsole::ReplayConsole(service::ServiceConfig config, replay::Player playe
   messages_.subscribe([this](std::string_view, std::string_view text, Instant) {
     clients_.send_to_all(std::string{text});
   });
+  if (laps() != nullptr) messages_.set_state("laps", service::laps_text(*laps()), player_.begin());
   restart(player_.begin());
   jumps_ = 0;
   clients_.identify(
@@ -115,7 +118,7 @@ alarms::Evaluation ReplayConsole::evaluate(state::FieldId id, const state::Field
 std::vector<state::TrendPoint> ReplayConsole::past(state::FieldId id, Instant from, Instant to,
                                                    std::size_t points) const {
   if (state::is_base(id)) return {};
-  return trends_->range(id, from, to, points);
+  return index_.trends().range(id, from, to, points);
 }
 
 void ReplayConsole::state(const telemetry::Snapshot& state, telemetry::GroupSet groups,
@@ -125,7 +128,6 @@ void ReplayConsole::state(const telemetry::Snapshot& state, telemetry::GroupSet 
   evaluator_->advance(vehicle_, received);
   evaluator_->receive(received);
   vehicle_.update(state, groups);
-  trends_->note(state, groups);
   received_ = received;
   clients_.receive();
 }
@@ -175,11 +177,10 @@ void ReplayConsole::apply_judge_input(Instant at, std::string_view json) {
 void ReplayConsole::restart(Instant to) {
   for (replay::Listener* const other : others_) other->restart(to);
   vehicle_ = {};
-  trends_.emplace();
   evaluator_.emplace(config_.evaluator);
   settings_pending_ = true;
   received_.reset();
-  messages_.clear();
+  messages_.clear("laps");
   clients_.want_full();
   ++jumps_;
   // Before anything is told anew: who hears of the jump afterwards would forget that, too.

@@ -5,6 +5,7 @@
 //   invariants
 //          every console shows the same moment; every client, also a viewer, may play, pause and
 //          jump
+//          history and laps are those of the whole recording, whatever was played of it
 //          ages, judgements and derived values are computed as of the recording's time
 //   errors commands, stops, authority and alarms are refused with a reason
 // SPDX-License-Identifier: Apache-2.0
@@ -19,13 +20,15 @@
 #include "basestation/publishers/console/client_registry.hpp"
 #include "basestation/publishers/web/web_server.hpp"
 #include "basestation/replay/player.hpp"
-#include "basestation/state/trends.hpp"
+#include "basestation/service/recorded/recording_index.hpp"
 
 namespace pitwall::publishers::console {
 
 class ReplayConsole : private StateSource, private replay::Listener {
  public:
-  ReplayConsole(service::ServiceConfig config, replay::Player player, web::WebServer& server);
+  // `index`: of the recording that the player plays.
+  ReplayConsole(service::ServiceConfig config, replay::Player player, service::RecordingIndex index,
+                web::WebServer& server);
 
   void serve(Duration passed);
   // Adds a listener for all that the consoles get. control_playback(): playback control by a tool.
@@ -40,6 +43,7 @@ class ReplayConsole : private StateSource, private replay::Listener {
   alarms::Evaluation evaluate(state::FieldId field, const state::FieldView& v) const override;
   std::vector<state::TrendPoint> past(state::FieldId field, Instant from, Instant to,
                                       std::size_t points) const override;
+  const state::LapLog* laps() const override { return index_.laps(); }
   void state(const telemetry::Snapshot& state, telemetry::GroupSet groups,
              Instant received) override;
   void text(recorder::Topic topic, Instant at, std::string_view json) override;
@@ -54,9 +58,9 @@ class ReplayConsole : private StateSource, private replay::Listener {
 
   service::ServiceConfig config_;
   replay::Player player_;
+  service::RecordingIndex index_;
   web::WebServer& server_;
   state::VehicleState vehicle_;
-  std::optional<state::Trends> trends_;
   std::optional<alarms::Evaluator> evaluator_;
   service::MessageLog messages_;
   ClientRegistry clients_;

@@ -90,6 +90,8 @@ Request history(Reader& read) {
   return ask;
 }
 
+Request lap(Reader& read) { return AskLap{read.whole<std::uint32_t>("lap", 0, kIdMax)}; }
+
 Request acknowledge(Reader& read) {
   command::AcknowledgeAlarms ask;
   if (!read.has("all")) {
@@ -286,8 +288,9 @@ struct Kind {
   std::string_view name;
   Request (*read)(Reader&);
 };
-constexpr std::array<Kind, 22> kKinds{
+constexpr std::array<Kind, 23> kKinds{
     {{"history", history},
+     {"lap", lap},
      {"ping", ping},
      {"mark", mark},
      {"ack", acknowledge},
@@ -328,8 +331,9 @@ Result<Request, Problem> parse_request(std::string_view text) {
 
 Role role_for(const Request& request) {
   const bool looks =
-      std::holds_alternative<AskHistory>(request) || std::holds_alternative<AskPing>(request) ||
-      std::holds_alternative<AskMark>(request) || std::holds_alternative<AskPlayback>(request);
+      std::holds_alternative<AskHistory>(request) || std::holds_alternative<AskLap>(request) ||
+      std::holds_alternative<AskPing>(request) || std::holds_alternative<AskMark>(request) ||
+      std::holds_alternative<AskPlayback>(request);
   return looks ? Role::kViewer : Role::kOperator;
 }
 

@@ -14,7 +14,7 @@
 
 #include "basestation/command/request.hpp"
 #include "basestation/publishers/bench/bench_link.hpp"
-#include "basestation/publishers/web/client.hpp"
+#include "basestation/publishers/web/admission/client.hpp"
 #include "protocol/vocabulary/result.hpp"
 
 namespace pitwall::publishers::console {
@@ -28,6 +28,9 @@ struct AskHistory {
   std::uint16_t field = 0;
   double from_s = 0.0, to_s = 0.0;  // seconds before now; from_s is the larger
   std::size_t points = kPointsMax;
+};
+struct AskLap {
+  std::uint32_t lap = 0;
 };
 struct AskSend {
   std::uint32_t ticket = 0;
@@ -49,8 +52,8 @@ struct AskPlayback {
   std::optional<double> to_ms;  // on the clock of time_ns
 };
 
-using Request =
-    std::variant<AskHistory, AskPing, AskMark, AskSend, AskBench, AskPlayback, command::Request>;
+using Request = std::variant<AskHistory, AskLap, AskPing, AskMark, AskSend, AskBench, AskPlayback,
+                             command::Request>;
 
 Result<Request, Problem> parse_request(std::string_view text);
 Role role_for(const Request& request);

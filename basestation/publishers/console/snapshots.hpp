@@ -19,6 +19,7 @@
 #include <vector>
 
 #include "basestation/publishers/web/frame.hpp"
+#include "basestation/state/laps/lap_log.hpp"
 #include "basestation/state/station_field.hpp"
 #include "protocol/vocabulary/time.hpp"
 
@@ -35,6 +36,7 @@ class StateSource {
   virtual alarms::Evaluation evaluate(state::FieldId field, const state::FieldView& v) const = 0;
   virtual std::vector<state::TrendPoint> past(state::FieldId field, Instant from, Instant to,
                                               std::size_t points) const = 0;
+  virtual const state::LapLog* laps() const = 0;  // nullptr: without a course
 };
 
 class Snapshots {

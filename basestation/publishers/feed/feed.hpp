@@ -25,7 +25,7 @@
 
 #include "basestation/publishers/ros_view/diagnostics.hpp"
 #include "protocol/recorder/channels.hpp"
-#include "protocol/telemetry/registry/snapshot.hpp"
+#include "protocol/telemetry/registry/registry.hpp"
 #include "protocol/transport/posix_call.hpp"
 #include "protocol/vocabulary/time.hpp"
 

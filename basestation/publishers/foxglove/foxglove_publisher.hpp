@@ -30,7 +30,7 @@ class FoxglovePublisher : public service::Publisher {
                                                                    ReadStatus read_status = {});
   ~FoxglovePublisher() override;
 
-  transport::UdpAddress local() const { return server_->local(); }
+  UdpAddress local() const { return server_->local(); }
   void packet(const service::CarService& car, const telemetry::Arrival& arrival) override;
   void publish(const service::CarService& car, Instant now) override;
   Instant due() const override { return read_status_ ? polled_at_ + kPollPeriod : Instant::max(); }

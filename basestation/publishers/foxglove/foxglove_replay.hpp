@@ -28,7 +28,7 @@ class FoxgloveReplay : public replay::Listener {
   static Result<std::unique_ptr<FoxgloveReplay>, Problem> start(ServerConfig config,
                                                                 const replay::Player& player);
 
-  transport::UdpAddress local() const { return server_->local(); }
+  UdpAddress local() const { return server_->local(); }
   service::PublisherFigures figures() const { return server_->figures(); }
   void state(const telemetry::Snapshot& state, telemetry::GroupSet groups,
              Instant received) override;

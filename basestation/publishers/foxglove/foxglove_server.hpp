@@ -24,8 +24,8 @@
 namespace pitwall::publishers::foxglove {
 
 struct ServerConfig {
-  transport::UdpAddress listen{};  // port 0: any that is free
-  web::AccessRules access{};       // pages of this machine are admitted in any case
+  UdpAddress listen{};        // port 0: any that is free
+  web::AccessRules access{};  // pages of this machine are admitted in any case
   std::shared_ptr<ssl_ctx_st> tls{};
   std::string name{};  // of the server, as clients show it
   std::optional<TimeRange> playback{};
@@ -40,7 +40,7 @@ class FoxgloveServer {
 
   static Result<std::unique_ptr<FoxgloveServer>, Problem> start(ServerConfig config);
 
-  transport::UdpAddress local() const { return server_->local(); }
+  UdpAddress local() const { return server_->local(); }
   int fd() const { return server_->fd(); }  // readable while messages of clients wait
   std::vector<PlaybackControl> receive();
   void take(const feed::Item& item);

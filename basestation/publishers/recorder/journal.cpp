@@ -23,7 +23,7 @@ void Journal::publish(const service::CarService& /*car*/, Instant now) {
 }
 
 link::Station::Observer observer_of_datagrams(Recorder& recorder) {
-  return [&recorder](bool down, telemetry::PathId path, telemetry::Address other, Instant at,
+  return [&recorder](bool down, telemetry::PathId path, UdpAddress other, Instant at,
                      std::span<const std::uint8_t> bytes) {
     recorder.datagram(down, at, {.path = path, .ip = other.ip, .port = other.port, .bytes = bytes});
   };

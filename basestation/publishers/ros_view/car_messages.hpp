@@ -20,7 +20,7 @@
 #include "protocol/ros/messages/nav.hpp"
 #include "protocol/ros/messages/sensor.hpp"
 #include "protocol/ros/messages/visualization.hpp"
-#include "protocol/telemetry/registry/snapshot.hpp"
+#include "protocol/telemetry/registry/registry.hpp"
 
 namespace pitwall::publishers::ros_view {
 

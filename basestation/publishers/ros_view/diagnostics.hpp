@@ -15,7 +15,7 @@
 
 #include "basestation/state/station_field.hpp"
 #include "protocol/ros/messages/diagnostic.hpp"
-#include "protocol/telemetry/registry/snapshot.hpp"
+#include "protocol/telemetry/registry/registry.hpp"
 
 namespace pitwall::publishers::ros_view {
 

@@ -26,7 +26,7 @@
 #include "basestation/publishers/ros_view/car_messages.hpp"
 #include "basestation/publishers/ros_view/diagnostics.hpp"
 #include "basestation/state/course.hpp"
-#include "protocol/telemetry/registry/snapshot.hpp"
+#include "protocol/telemetry/registry/registry.hpp"
 
 namespace pitwall::publishers::ros_view {
 

@@ -54,11 +54,8 @@ std::string link_line(const service::CarService& car, const LinkReport& report, 
   return text;
 }
 
-std::string address_text(telemetry::Address address) {
-  if (!address.known()) return "no address";
-  constexpr unsigned kByte = 0xFF;
-  return formatted("%u.%u.%u.%u:%u", address.ip >> 24 & kByte, address.ip >> 16 & kByte,
-                   address.ip >> 8 & kByte, address.ip & kByte, unsigned{address.port});
+std::string address_text(const UdpAddress& address) {
+  return address.known() ? to_string(address) : "no address";
 }
 
 // What the car told of this path, and how long ago.

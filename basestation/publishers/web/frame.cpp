@@ -93,4 +93,18 @@ Frame history_frame(std::uint16_t field, std::span<const state::TrendPoint> poin
   return frame;
 }
 
+Frame lap_frame(const state::Lap& lap, double step_m, Instant at) {
+  Frame frame{.kind = FrameKind::kLap, .count = 1, .at = at};
+  const std::size_t points = lap.columns.front().size();
+  frame.entries.reserve(kLapHead + state::kLapColumns * points * sizeof(float));
+  put(frame.entries, lap.id);
+  put(frame.entries, static_cast<std::uint32_t>(state::kLapColumns));
+  put(frame.entries, static_cast<std::uint32_t>(points));
+  put(frame.entries, std::bit_cast<std::uint32_t>(static_cast<float>(step_m)));
+  for (const std::vector<float>& column : lap.columns) {
+    for (const float value : column) put(frame.entries, std::bit_cast<std::uint32_t>(value));
+  }
+  return frame;
+}
+
 }  // namespace pitwall::publishers::web

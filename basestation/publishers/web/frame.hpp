@@ -13,16 +13,18 @@
 #include <vector>
 
 #include "basestation/alarms/limits.hpp"
+#include "basestation/state/laps/lap.hpp"
 #include "basestation/state/trends.hpp"
 #include "basestation/state/vehicle_state.hpp"
 #include "protocol/vocabulary/time.hpp"
 
 namespace pitwall::publishers::web {
 
-enum class FrameKind : std::uint8_t { kSnapshot = 1, kHistory = 2 };
+enum class FrameKind : std::uint8_t { kSnapshot = 1, kHistory = 2, kLap = 3 };
 inline constexpr std::uint8_t kFrameVersion = 1;
 inline constexpr std::uint8_t kAtOnce = 1, kFullPicture = 2;  // flags
-inline constexpr std::size_t kFrameHeader = 24, kSnapshotEntry = 8, kHistoryPoint = 16;
+inline constexpr std::size_t kFrameHeader = 24, kSnapshotEntry = 8, kHistoryPoint = 16,
+                             kLapHead = 16;
 
 struct Frame {
   FrameKind kind = FrameKind::kSnapshot;
@@ -48,5 +50,6 @@ Entry entry_of(std::uint16_t field, const state::FieldView& view, alarms::Evalua
 
 void append(Frame& frame, const Entry& entry);
 Frame history_frame(std::uint16_t field, std::span<const state::TrendPoint> points, Instant at);
+Frame lap_frame(const state::Lap& lap, double step_m, Instant at);
 
 }  // namespace pitwall::publishers::web

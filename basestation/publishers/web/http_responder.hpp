@@ -27,7 +27,7 @@
 #include <vector>
 
 #include "basestation/publishers/web/admission/access.hpp"
-#include "basestation/publishers/web/client.hpp"
+#include "basestation/publishers/web/admission/client.hpp"
 #include "basestation/publishers/web/client_queue.hpp"
 #include "basestation/publishers/web/console_files.hpp"
 #include "protocol/transport/clock.hpp"

@@ -200,8 +200,7 @@ ClientId WebServer::Engine::free_number(Role role) {
   return newest;
 }
 
-Result<std::unique_ptr<WebServer>, Problem> WebServer::start(transport::UdpAddress listen,
-                                                             HttpConfig config) {
+Result<std::unique_ptr<WebServer>, Problem> WebServer::start(UdpAddress listen, HttpConfig config) {
   const Tcp::endpoint endpoint{asio::ip::address_v4{listen.ip}, listen.port};
   if (config.cars.size() > kCars) {
     return Unexpected{Problem{"--web", "expected at most " + std::to_string(kCars) + " cars"}};
@@ -239,7 +238,7 @@ WebServer::~WebServer() {
   engine_->sockets = {};
 }
 
-transport::UdpAddress WebServer::local() const {
+UdpAddress WebServer::local() const {
   const Tcp::endpoint at = engine_->acceptor.local_endpoint();
   return {.ip = at.address().to_v4().to_uint(), .port = at.port()};
 }

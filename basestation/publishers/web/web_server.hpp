@@ -27,7 +27,7 @@
 #include <string>
 #include <vector>
 
-#include "basestation/publishers/web/client.hpp"
+#include "basestation/publishers/web/admission/client.hpp"
 #include "basestation/publishers/web/client_queue.hpp"
 #include "basestation/publishers/web/http_responder.hpp"
 #include "protocol/transport/udp_socket.hpp"
@@ -76,13 +76,12 @@ class WebServer {
   static constexpr std::size_t kCars = 4;
   static constexpr std::size_t kPostsMax = 4'096;  // messages that wait for the web thread
 
-  static Result<std::unique_ptr<WebServer>, Problem> start(transport::UdpAddress listen,
-                                                           HttpConfig config);
+  static Result<std::unique_ptr<WebServer>, Problem> start(UdpAddress listen, HttpConfig config);
   ~WebServer();
   WebServer(const WebServer&) = delete;
   WebServer& operator=(const WebServer&) = delete;
 
-  transport::UdpAddress local() const;
+  UdpAddress local() const;
   // For the consoles of one car, in the order of HttpConfig::cars: readable while news wait. News
   // of operators come before those of viewers; those of one client stay in order.
   int fd(std::size_t car = 0) const;

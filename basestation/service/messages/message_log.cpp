@@ -21,8 +21,8 @@ void MessageLog::add_line(std::string_view type, std::string text, Instant at) {
   if (log.size() > kLines) log.pop_front();
 }
 
-void MessageLog::clear() {
-  states_.clear();
+void MessageLog::clear(std::string_view kept) {
+  std::erase_if(states_, [kept](const auto& state) { return state.first != kept; });
   lines_.clear();
 }
 

@@ -32,7 +32,8 @@ class MessageLog {
   void add_line(std::string_view type, std::string text, Instant at);
   // Gives the text to the subscribers without keeping it.
   void pass(std::string_view type, std::string_view text, Instant at) const;
-  void clear();
+  // Forgets all but the state of this type.
+  void clear(std::string_view kept = {});
 
   const std::map<std::string, std::string, std::less<>>& states() const { return states_; }
   const std::map<std::string, std::deque<std::string>, std::less<>>& lines() const {

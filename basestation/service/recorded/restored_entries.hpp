@@ -16,7 +16,7 @@
 
 #include "basestation/command/request_executor.hpp"
 #include "basestation/state/derived/fuel_estimate.hpp"
-#include "protocol/telemetry/registry/snapshot.hpp"
+#include "protocol/telemetry/registry/registry.hpp"
 
 namespace pitwall::service {
 

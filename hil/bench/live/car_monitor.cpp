@@ -8,7 +8,7 @@ namespace pitwall::bench {
 using transport::UdpSocket;
 
 Result<CarMonitor, Problem> CarMonitor::open(std::uint16_t port) {
-  auto socket = UdpSocket::bind({.ip = transport::kLoopbackIp, .port = port});
+  auto socket = UdpSocket::bind({.ip = kLoopbackIp, .port = port});
   if (!socket) return Unexpected{socket.error()};
   return CarMonitor{*std::move(socket)};
 }

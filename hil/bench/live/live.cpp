@@ -193,7 +193,7 @@ class Live {
   }
 
   void judge(Instant now) {
-    const double offset_m = setup_.params.planning.line.offset_m;
+    const double offset_m = line_offset_m(setup_, place_of(parts_.rig));
     const RadioChannel& channel = parts_.radio.channel();
     const CarReport& car = parts_.monitor.report();
     const double off_m = path_deviation_.off_path_m(

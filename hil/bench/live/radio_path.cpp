@@ -8,7 +8,6 @@
 namespace pitwall::bench {
 
 using telemetry::PathId;
-using transport::kLoopbackIp;
 using transport::UdpSocket;
 
 Result<RadioPath, Problem> RadioPath::open(std::span<const RadioPorts> ports,

@@ -55,7 +55,7 @@ class RadioPath {
   struct Lane {
     transport::UdpSocket to_car, to_base;
     std::uint16_t onward = 0;
-    std::optional<transport::UdpAddress> car;
+    std::optional<UdpAddress> car;
   };
 
   RadioPath(std::vector<Lane> lanes, RadioChannel channel);

@@ -13,8 +13,7 @@ Result<ReceiverPort, Problem> ReceiverPort::open(std::vector<std::uint16_t> firs
 void ReceiverPort::send(const world::SensorInput& samples, Instant now) {
   encoder_.encode(samples, now, [&](std::uint8_t unit, std::span<const std::uint8_t> bytes) {
     for (const std::uint16_t first : first_ports_)
-      socket_.send_to(
-          {.ip = transport::kLoopbackIp, .port = static_cast<std::uint16_t>(first + unit)}, bytes);
+      socket_.send_to({.ip = kLoopbackIp, .port = static_cast<std::uint16_t>(first + unit)}, bytes);
   });
 }
 

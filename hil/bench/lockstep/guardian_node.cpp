@@ -19,7 +19,7 @@ GuardianNode::GuardianNode(const pipeline::CarParams& params,
       processes_(std::move(processes)),
       present_(present || !processes_.empty()),
       state_(std::make_unique<guardian::State>()),
-      reported_(std::make_unique<pipeline::Reported>()) {
+      reported_(std::make_unique<pipeline::GuardianRecord>()) {
   inbox_.reserve(kReceivedFrames);
 }
 

@@ -17,7 +17,7 @@
 
 #include "hil/faults/bench_fault.hpp"
 #include "protocol/can/frame.hpp"
-#include "vehicle/pipeline/guarding.hpp"
+#include "vehicle/pipeline/guardian_interface.hpp"
 
 namespace pitwall::bench {
 
@@ -51,7 +51,7 @@ class GuardianNode {
   std::vector<faults::BenchFault> processes_;
   bool present_, was_killed_ = false;
   std::unique_ptr<guardian::State> state_;
-  std::unique_ptr<pipeline::Reported> reported_;
+  std::unique_ptr<pipeline::GuardianRecord> reported_;
   guardian::Status published_;  // stays as it is when the guardian dies
   std::vector<can::ReceivedFrame> inbox_;
   guardian::Output output_;

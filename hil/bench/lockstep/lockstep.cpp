@@ -207,7 +207,7 @@ class Lockstep {
                            .cause = static_cast<double>(out.chosen.cause),
                            .operator_limit_mps = out.speed_limit_mps,
                            .seen = out.seen};
-    const double offset_m = setup_.params.planning.line.offset_m;
+    const double offset_m = line_offset_m(setup_, place_of(rig_));
     const double off_m = path_deviation_.off_path_m(rig_.truth(), cross_track_m(rig_, offset_m),
                                                     report.mode, report.silent, now);
     grader_.observe(now, observe({.rig = rig_,

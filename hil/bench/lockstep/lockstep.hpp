@@ -21,7 +21,7 @@
 #include "hil/bench/rig.hpp"
 #include "hil/scenario/scenario.hpp"
 #include "protocol/recording/mcap_writer.hpp"
-#include "protocol/telemetry/registry/snapshot.hpp"
+#include "protocol/telemetry/registry/registry.hpp"
 #include "protocol/vocabulary/result.hpp"
 #include "vehicle/pipeline/step.hpp"
 

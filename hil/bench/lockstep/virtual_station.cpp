@@ -10,7 +10,6 @@ namespace pitwall::bench {
 namespace {
 
 using faults::BenchFaultKind;
-using telemetry::Address;
 using telemetry::PathId;
 
 constexpr std::uint32_t kHere = 0x7F000001;
@@ -21,7 +20,7 @@ std::uint8_t paths_of(const scenario::Scenario& scenario) {
   return static_cast<std::uint8_t>(std::max<std::size_t>(1, scenario.radio.size()));
 }
 
-Address on_path(std::uint16_t port, PathId path) {
+UdpAddress on_path(std::uint16_t port, PathId path) {
   return {kHere, static_cast<std::uint16_t>(port + path)};
 }
 
@@ -97,7 +96,7 @@ void VirtualStation::start_base() {
   base_ = std::make_unique<service::CarService>(service::ServiceConfig{}, config(base_keys_),
                                                 randomness_);
   operator_ = inputs::TextOperator{inputs::kScriptPerson};
-  issued_ = events_received_ = paths_reported_ = 0;
+  issued_ = events_received_ = 0;
   advanced_ = {};
 }
 
@@ -107,7 +106,7 @@ void VirtualStation::stop_base() {
   to_base_.clear();
 }
 
-Address VirtualStation::base_address(PathId path, Instant at) const {
+UdpAddress VirtualStation::base_address(PathId path, Instant at) const {
   if (spare_) return on_path(kSparePort, path);
   return on_path(active(BenchFaultKind::kBaseMoved, at) ? kMovedPort : kBasePort, path);
 }
@@ -175,9 +174,6 @@ void VirtualStation::collect_news() {
   const auto fresh = static_cast<std::ptrdiff_t>(radio.events_received() - events_received_);
   events_.insert(events_.end(), radio.events().end() - fresh, radio.events().end());
   events_received_ = radio.events_received();
-  const std::uint64_t paths =
-      radio.bulk()[static_cast<std::size_t>(telemetry::BulkKind::kPath)].objects;
-  paths_received_ += paths - std::exchange(paths_reported_, paths);
 }
 
 void VirtualStation::receive(pipeline::Inputs& in) {

@@ -71,8 +71,6 @@ class VirtualStation {
   const std::vector<std::string>& refusals() const { return refusals_; }
   const std::vector<telemetry::CommandId>& commands() const { return commands_; }
   const std::vector<telemetry::Event>& events() const { return events_; }  // received by the base
-  // planned paths of the car that the base received
-  std::uint64_t paths_received() const { return paths_received_; }
 
  private:
   static constexpr Duration kBaseAhead = seconds(12'345);
@@ -88,7 +86,7 @@ class VirtualStation {
   telemetry::LinkEndpointConfig config(const telemetry::KeyFile& keys) const;
   void start_base();
   void stop_base();
-  telemetry::Address base_address(telemetry::PathId path, Instant at) const;
+  UdpAddress base_address(telemetry::PathId path, Instant at) const;
   void collect(Way way, std::deque<Waiting>& queue, Instant at);
   void serve_base(Instant at);
   void run_text_commands(Instant at);
@@ -103,7 +101,7 @@ class VirtualStation {
   std::optional<telemetry::CarEndpoint> car_;
   std::unique_ptr<service::CarService> base_;
   inputs::TextOperator operator_{inputs::kScriptPerson};
-  std::uint64_t issued_ = 0, events_received_ = 0, paths_reported_ = 0;  // of the present base
+  std::uint64_t issued_ = 0, events_received_ = 0;  // of the present base
   std::optional<pipeline::RadioAdapter> adapter_;
   pipeline::TickLog log_;
   std::deque<Waiting> to_car_, to_base_;
@@ -115,7 +113,6 @@ class VirtualStation {
   std::vector<std::string> refusals_;
   std::vector<telemetry::CommandId> commands_;
   std::vector<telemetry::Event> events_;
-  std::uint64_t paths_received_ = 0;
 };
 
 }  // namespace pitwall::bench

@@ -9,6 +9,7 @@
 #include "vehicle/io/black_box.hpp"
 #include "vehicle/io/tick_inputs.hpp"
 #include "vehicle/parameters/car_file.hpp"
+#include "vehicle/parameters/car_setup.hpp"
 #include "vehicle/parameters/track_file.hpp"
 #include "vehicle/pipeline/telemetry_mapper.hpp"
 
@@ -123,15 +124,20 @@ Result<pipeline::Setup, Problem> setup_of(const RecordedRun& run, const RunFiles
                                           std::vector<std::string>& remarks) {
   const auto car_file = file_of(run, "car", files.car, remarks);
   if (!car_file) return Unexpected{car_file.error()};
-  const auto car = parameters::read_car(car_file->text, car_file->path);
+  auto car = parameters::read_car(car_file->text, car_file->path);
   if (!car) return Unexpected{car.error()};
   const auto track_file = file_of(run, "track", files.track, remarks);
   if (!track_file) return Unexpected{track_file.error()};
   const auto track = parameters::read_track(track_file->text, track_file->path);
   if (!track) return Unexpected{track.error()};
-  pipeline::CarParams params = car->params;
-  if (!has_base(run)) params.watchdog[safety::Stream::kRadio].watched = false;
-  return pipeline::prepare(params, *track);
+  if (!has_base(run)) car->params.watchdog[safety::Stream::kRadio].watched = false;
+  const auto read_bank = [&](const std::string& path) -> Result<std::string, Problem> {
+    const bool is_recorded = !run.metadata("bank_file").empty();
+    auto bank = file_of(run, "bank", is_recorded ? "" : path, remarks);
+    if (!bank) return Unexpected{bank.error()};
+    return std::move(bank->text);
+  };
+  return parameters::set_up(*car, *track, read_bank);
 }
 
 }  // namespace pitwall::bench

@@ -161,8 +161,7 @@ replay::TimelineOptions options_of(const traffic::Recording& recording, const Li
         std::ranges::find(recording.sources, kReceiverSources[unit], &traffic::Source::name);
     if (source == recording.sources.end() || source->records == 0) continue;
     const auto port = static_cast<std::uint16_t>(plan.gnss_port + unit);
-    options.receivers.emplace_back(source->name,
-                                   transport::UdpAddress{transport::kLoopbackIp, port});
+    options.receivers.emplace_back(source->name, UdpAddress{kLoopbackIp, port});
   }
   return options;
 }

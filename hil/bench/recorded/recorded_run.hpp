@@ -24,7 +24,7 @@
 #include "protocol/recorder/channels.hpp"
 #include "protocol/recorder/tick_record.hpp"
 #include "protocol/recording/mcap_reader.hpp"
-#include "protocol/telemetry/registry/snapshot.hpp"
+#include "protocol/telemetry/registry/registry.hpp"
 #include "protocol/vocabulary/result.hpp"
 
 namespace pitwall::bench {

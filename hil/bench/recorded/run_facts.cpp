@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "hil/bench/recorded/operator_texts.hpp"
+#include "hil/bench/signals.hpp"
 #include "protocol/vocabulary/units.hpp"
 #include "vehicle/io/tick_inputs.hpp"
 
@@ -65,7 +66,7 @@ class Collector {
   void note_start(double s_m, double n_m, double speed_mps) {
     if (!std::isfinite(s_m) || !std::isfinite(n_m) || !std::isfinite(speed_mps)) return;
     facts_.speed_max_mps = std::max(facts_.speed_max_mps, speed_mps);
-    const double off_m = std::abs(n_m - setup_.params.planning.line.offset_m);
+    const double off_m = std::abs(n_m - line_offset_m(setup_, {s_m, n_m}));
     facts_.off_line_max_m = std::max(facts_.off_line_max_m, off_m);
     if (is_placed_) return;
     is_placed_ = true;

@@ -11,7 +11,6 @@ namespace pitwall::replay {
 namespace {
 
 using transport::SerialDevice;
-using transport::UdpAddress;
 
 bool take_front(std::string_view& text, std::string_view front) {
   if (!text.starts_with(front)) return false;
@@ -66,9 +65,8 @@ Result<RosTopic, Problem> ros_topic(std::string_view topic, std::string_view typ
 
 std::string to_string(const ByteTarget& target) {
   if (const auto* ros = std::get_if<RosTopic>(&target)) return ros->topic;
-  if (const auto* udp = std::get_if<UdpAddress>(&target)) return transport::to_string(*udp);
-  if (const auto* tcp = std::get_if<TcpPort>(&target))
-    return "tcp:" + transport::to_string(tcp->local);
+  if (const auto* udp = std::get_if<UdpAddress>(&target)) return to_string(*udp);
+  if (const auto* tcp = std::get_if<TcpPort>(&target)) return "tcp:" + to_string(tcp->local);
   const auto& device = std::get<SerialDevice>(target);
   return "serial:" + device.path + ":" + std::to_string(device.baud);
 }

@@ -31,7 +31,7 @@ struct RosTopic {
 
   bool operator==(const RosTopic&) const = default;
 };
-using ByteTarget = std::variant<transport::UdpAddress, TcpPort, transport::SerialDevice, RosTopic>;
+using ByteTarget = std::variant<UdpAddress, TcpPort, transport::SerialDevice, RosTopic>;
 
 Result<ByteTarget, Problem> parse_receiver_target(std::string_view text);
 // From topic and type as ROS 2 names them: "/imu", "sensor_msgs/msg/Imu".

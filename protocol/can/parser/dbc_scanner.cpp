@@ -109,14 +109,6 @@ std::string_view DbcScanner::word() {
   return found;
 }
 
-void DbcScanner::skip_token() {
-  if (peek() == '"') {
-    (void)quoted();
-  } else if (!at_end()) {
-    at_ += std::max<std::size_t>(next_word().size(), 1);
-  }
-}
-
 double DbcScanner::real() {
   skip_space();
   const bool has_plus = at_ + 1 < text_.size() && text_[at_] == '+' && text_[at_ + 1] != '-';

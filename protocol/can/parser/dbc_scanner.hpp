@@ -33,8 +33,6 @@ class DbcScanner {
   std::string_view word();
   // The word that word() would return, without taking it; empty if there is none.
   std::string_view next_word();
-  // Skips a word, a string or one other character.
-  void skip_token();
   double real();
   // Also accepts numbers up to `accepted` if that is larger; a Stop names min and max.
   std::int64_t integer(std::int64_t min, std::int64_t max, std::int64_t accepted = 0);

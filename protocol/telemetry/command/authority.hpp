@@ -19,8 +19,8 @@
 #include <optional>
 
 #include "protocol/telemetry/command/command_table.hpp"
-#include "protocol/telemetry/packet/received.hpp"
-#include "protocol/telemetry/registry/snapshot.hpp"
+#include "protocol/telemetry/packet/body.hpp"
+#include "protocol/telemetry/registry/registry.hpp"
 #include "protocol/vocabulary/time.hpp"
 
 namespace pitwall::telemetry {

@@ -27,7 +27,6 @@
 #include "protocol/telemetry/command/command_record.hpp"
 #include "protocol/telemetry/command/command_table.hpp"
 #include "protocol/telemetry/packet/body.hpp"
-#include "protocol/telemetry/packet/received.hpp"
 #include "protocol/vocabulary/time.hpp"
 
 namespace pitwall::telemetry {

@@ -23,7 +23,6 @@
 
 #include "protocol/telemetry/command/command_table.hpp"
 #include "protocol/telemetry/packet/body.hpp"
-#include "protocol/telemetry/packet/received.hpp"
 #include "protocol/vocabulary/fixed_vector.hpp"
 #include "protocol/vocabulary/time.hpp"
 

@@ -17,8 +17,8 @@
 #include <cstdint>
 #include <optional>
 
-#include "protocol/telemetry/packet/received.hpp"
-#include "protocol/telemetry/registry/snapshot.hpp"
+#include "protocol/telemetry/packet/body.hpp"
+#include "protocol/telemetry/registry/registry.hpp"
 #include "protocol/vocabulary/time.hpp"
 #include "protocol/vocabulary/units.hpp"
 

@@ -22,7 +22,7 @@
 #include <optional>
 
 #include "protocol/telemetry/command/command_table.hpp"
-#include "protocol/telemetry/registry/snapshot.hpp"
+#include "protocol/telemetry/registry/registry.hpp"
 #include "protocol/vocabulary/time.hpp"
 
 namespace pitwall::telemetry {

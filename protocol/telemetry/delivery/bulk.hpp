@@ -22,7 +22,6 @@
 #include <vector>
 
 #include "protocol/telemetry/packet/body.hpp"
-#include "protocol/telemetry/packet/received.hpp"
 #include "protocol/vocabulary/time.hpp"
 
 namespace pitwall::telemetry {

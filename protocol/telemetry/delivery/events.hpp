@@ -18,7 +18,6 @@
 #include <optional>
 
 #include "protocol/telemetry/packet/body.hpp"
-#include "protocol/telemetry/packet/received.hpp"
 #include "protocol/vocabulary/fixed_vector.hpp"
 #include "protocol/vocabulary/time.hpp"
 

@@ -111,7 +111,7 @@ CarEndpoint::~CarEndpoint() = default;
 CarEndpoint::CarEndpoint(CarEndpoint&&) noexcept = default;
 CarEndpoint& CarEndpoint::operator=(CarEndpoint&&) noexcept = default;
 
-void CarEndpoint::feed(std::span<const std::uint8_t> datagram, PathId path, Address from,
+void CarEndpoint::feed(std::span<const std::uint8_t> datagram, PathId path, UdpAddress from,
                        Instant at) {
   const LinkEndpoint::Fed fed = parts_->endpoint.feed(datagram, path, from, at);
   if (fed.new_session) parts_->begin_session(fed.peer_restarted);

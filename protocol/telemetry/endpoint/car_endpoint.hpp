@@ -22,7 +22,7 @@
 #include "protocol/telemetry/delivery/events.hpp"
 #include "protocol/telemetry/endpoint/link_endpoint.hpp"
 #include "protocol/telemetry/endpoint/link_report.hpp"
-#include "protocol/telemetry/registry/snapshot.hpp"
+#include "protocol/telemetry/registry/registry.hpp"
 
 namespace pitwall::telemetry {
 
@@ -45,7 +45,7 @@ class CarEndpoint {
   CarEndpoint(CarEndpoint&&) noexcept;
   CarEndpoint& operator=(CarEndpoint&&) noexcept;
 
-  void feed(std::span<const std::uint8_t> datagram, PathId path, Address from, Instant at);
+  void feed(std::span<const std::uint8_t> datagram, PathId path, UdpAddress from, Instant at);
   // The next datagram that is due; call until it is empty. The snapshot is read when a packet is
   // made.
   std::optional<Outgoing> poll(const Snapshot& snapshot, Instant now);

@@ -53,7 +53,7 @@ Duration LinkEndpoint::round_trip() const {
 }
 
 LinkEndpoint::Fed LinkEndpoint::feed(std::span<const std::uint8_t> datagram, PathId path,
-                                     Address from, Instant at) {
+                                     UdpAddress from, Instant at) {
   CHECK(path < paths_);
   const auto opened = association_.feed(datagram, path, from, at, plain_);
   Fed fed;
@@ -132,7 +132,7 @@ void LinkEndpoint::take_ack(const Ack& ack, Instant peer_sent, Instant at) {
   lanes_[0].rate.delivered(news.newest->sent, peer_received, bytes, at);
 }
 
-void LinkEndpoint::take_path_records(PathId path, Address from, Instant at) {
+void LinkEndpoint::take_path_records(PathId path, UdpAddress from, Instant at) {
   const Instant peer_sent = clock_.peer_time(received_.body.tx_time_100us, at);
   for (const Record& record : received_.body.records) {
     const bool token = record.payload.size() == kTokenSize;
@@ -313,7 +313,7 @@ std::uint64_t LinkEndpoint::send(const BodyWriter& body, const PacketPlan& plan,
 
 void LinkEndpoint::queue_datagram(PathId path, std::span<const std::uint8_t> datagram,
                                   const PacketPlan& plan, std::size_t safety, Instant now) {
-  const Address to =
+  const UdpAddress to =
       plan.trial ? association_.targets(path, datagram.size()).back() : association_.proved(path);
   lanes_[path].spend(datagram.size(), safety, now);
   association_.note_sent(path, to, datagram.size());

@@ -31,7 +31,6 @@
 #include "protocol/telemetry/flow/clock_sync.hpp"
 #include "protocol/telemetry/flow/link_stats.hpp"
 #include "protocol/telemetry/packet/body.hpp"
-#include "protocol/telemetry/packet/received.hpp"
 #include "protocol/telemetry/session/association.hpp"
 #include "protocol/telemetry/session/link_threats.hpp"
 #include "protocol/vocabulary/fixed_vector.hpp"
@@ -54,7 +53,7 @@ enum class Waits : std::uint8_t { kNothing, kContent, kStop };
 
 struct Outgoing {
   PathId path = 0;
-  Address to;
+  UdpAddress to;
   std::span<const std::uint8_t> bytes;  // valid until the next call
 };
 
@@ -81,7 +80,7 @@ class LinkEndpoint {
     bool peer_restarted = false;
     const ReceivedBody* body = nullptr;  // valid until the next call
   };
-  Fed feed(std::span<const std::uint8_t> datagram, PathId path, Address from, Instant at);
+  Fed feed(std::span<const std::uint8_t> datagram, PathId path, UdpAddress from, Instant at);
 
   // Sending: call take() until it is empty, then plan(). For each plan call begin(), fill the body,
   // call send(), and start again.
@@ -136,7 +135,7 @@ class LinkEndpoint {
   std::span<PathLane> lanes() { return std::span(lanes_).first(paths_); }
   const ReceivedBody* open(const Opened& opened, std::size_t size, PathId path, Instant at);
   void take_ack(const Ack& ack, Instant peer_sent, Instant at);
-  void take_path_records(PathId path, Address from, Instant at);
+  void take_path_records(PathId path, UdpAddress from, Instant at);
   void note_duplicate(std::uint64_t sequence, std::size_t size, PathId path, Instant at);
   bool note_session(bool& peer_restarted, Instant at);
   void exchange(Instant now);

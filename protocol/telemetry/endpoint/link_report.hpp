@@ -25,7 +25,7 @@ struct PathReport {
   double budget_use = 0.0;  // traffic sent in the last second, 0 .. 1 of the whole rate
   double rate_factor = 1.0;
   Duration queue_delay{};
-  Address peer;
+  UdpAddress peer;
   bool validated = false;
 };
 

@@ -16,7 +16,6 @@
 #include <string_view>
 
 #include "protocol/telemetry/packet/body.hpp"
-#include "protocol/telemetry/packet/layout.hpp"
 
 namespace pitwall::telemetry {
 

@@ -17,7 +17,7 @@
 #include "protocol/telemetry/endpoint/link_report.hpp"
 #include "protocol/telemetry/flow/scheduler.hpp"
 #include "protocol/telemetry/packet/body.hpp"
-#include "protocol/telemetry/registry/snapshot.hpp"
+#include "protocol/telemetry/registry/registry.hpp"
 #include "protocol/vocabulary/time.hpp"
 
 namespace pitwall::telemetry {

@@ -128,7 +128,7 @@ StationEndpoint::StationEndpoint(StationEndpoint&&) noexcept = default;
 StationEndpoint& StationEndpoint::operator=(StationEndpoint&&) noexcept = default;
 
 std::optional<Arrival> StationEndpoint::feed(std::span<const std::uint8_t> datagram, PathId path,
-                                             Address from, Instant at) {
+                                             UdpAddress from, Instant at) {
   const LinkEndpoint::Fed fed = parts_->endpoint.feed(datagram, path, from, at);
   if (fed.new_session) parts_->begin_session(fed.peer_restarted, at);
   if (!fed.body) return {};

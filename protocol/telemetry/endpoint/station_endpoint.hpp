@@ -25,7 +25,7 @@
 #include "protocol/telemetry/delivery/events.hpp"
 #include "protocol/telemetry/endpoint/link_endpoint.hpp"
 #include "protocol/telemetry/endpoint/link_report.hpp"
-#include "protocol/telemetry/registry/snapshot.hpp"
+#include "protocol/telemetry/registry/registry.hpp"
 
 namespace pitwall::telemetry {
 
@@ -45,7 +45,7 @@ class StationEndpoint {
   StationEndpoint& operator=(StationEndpoint&&) noexcept;
 
   // The groups of the state that the datagram updates; an empty optional if there are none.
-  std::optional<Arrival> feed(std::span<const std::uint8_t> datagram, PathId path, Address from,
+  std::optional<Arrival> feed(std::span<const std::uint8_t> datagram, PathId path, UdpAddress from,
                               Instant at);
   std::optional<Outgoing> poll(Instant now);
   Instant due() const;

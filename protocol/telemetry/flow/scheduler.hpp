@@ -19,7 +19,7 @@
 #include <array>
 #include <cstdint>
 
-#include "protocol/telemetry/registry/snapshot.hpp"
+#include "protocol/telemetry/registry/registry.hpp"
 #include "protocol/vocabulary/fixed_vector.hpp"
 #include "protocol/vocabulary/time.hpp"
 

@@ -2,6 +2,7 @@
 #include "protocol/telemetry/packet/body.hpp"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 
 #include "protocol/telemetry/little_endian.hpp"
@@ -36,7 +37,22 @@ std::uint16_t hold_code(Duration hold) {
   return static_cast<std::uint16_t>(std::clamp<std::int64_t>(ticks, 0, kHoldMax));
 }
 
+constexpr Layout layout_of(Direction direction) {
+  Layout layout;
+  for (const GroupRow& row : kGroupTable) {
+    if (row.direction != direction) continue;
+    const auto bits = static_cast<std::uint16_t>(group_bits(row.group));
+    CHECK(layout.push({row.group, bits}));
+  }
+  return layout;
+}
+constexpr std::array kOwnLayouts{layout_of(Direction::kDown), layout_of(Direction::kUp)};
+
 }  // namespace
+
+const Layout& own_layout(Direction direction) {
+  return kOwnLayouts[static_cast<std::size_t>(direction)];
+}
 
 BodyWriter::BodyWriter(std::span<std::uint8_t> buffer, std::size_t room, const Layout& layout)
     : buffer_(buffer), room_(room), layout_(&layout) {

@@ -20,14 +20,30 @@
 
 #include "protocol/telemetry/packet/group_codec.hpp"
 #include "protocol/telemetry/packet/header.hpp"
-#include "protocol/telemetry/packet/layout.hpp"
-#include "protocol/telemetry/registry/group_row.hpp"
-#include "protocol/telemetry/registry/snapshot.hpp"
+#include "protocol/telemetry/registry/registry.hpp"
 #include "protocol/vocabulary/fixed_vector.hpp"
 #include "protocol/vocabulary/result.hpp"
 #include "protocol/vocabulary/time.hpp"
 
 namespace pitwall::telemetry {
+
+// Layout of a sender's packets: the groups of its direction in the order of the bits of their set,
+// as its registry defines them. Place k is bit k of the set; a place with a group of our registry
+// has that group's size. Two ends whose registries differ read each other's packets by the sender's
+// layout and skip unknown groups.
+struct GroupPlace {
+  std::optional<Group> own;  // empty: our registry does not have the group, or defines it otherwise
+  std::uint16_t bits = 0;    // size of its values
+};
+
+inline constexpr std::size_t kMaxPlaces = 64;
+using Layout = FixedVector<GroupPlace, kMaxPlaces>;
+
+// Size of the set in bytes.
+constexpr std::size_t set_size(const Layout& layout) { return (layout.size() + 7) / 8; }
+
+// Layout of our own registry.
+const Layout& own_layout(Direction direction);
 
 inline constexpr std::size_t kPaths = 2;
 using PathId = std::uint8_t;  // 0 .. kPaths - 1
@@ -125,5 +141,16 @@ inline Result<Body, BodyError> parse_body(std::span<const std::uint8_t> bytes,
                                           Direction direction) {
   return parse_body(bytes, own_layout(direction));
 }
+
+// Times and path of the packet that carried a record, for the modules that take records. On the own
+// clock; `sent_earliest` is the sender's time of sending minus the bound of the clock comparison:
+// never too late. Empty while the clocks have not been compared.
+struct Received {
+  Instant at{};
+  std::optional<Instant> sent_earliest;
+  std::uint32_t tx_time_100us = 0;  // of the packet; times in its records are relative to it
+  std::uint64_t sequence = 0;
+  PathId path = 0;
+};
 
 }  // namespace pitwall::telemetry

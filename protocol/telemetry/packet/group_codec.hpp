@@ -14,8 +14,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "protocol/bits/bit_reader.hpp"
-#include "protocol/bits/bit_writer.hpp"
+#include "protocol/bits/bit_stream.hpp"
 #include "protocol/telemetry/registry/registry.hpp"
 #include "protocol/vocabulary/time.hpp"
 

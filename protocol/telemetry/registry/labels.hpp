@@ -34,7 +34,7 @@ inline constexpr std::string_view kArmings =
     "not asked|armed|waits for a fault to pass|REFUSED: the car moves|"
     "REFUSED: the last run ended while armed|SPENT: release and arm anew";
 inline constexpr std::string_view kNoYes = "no|yes";
-inline constexpr std::string_view kLadderRungs =
+inline constexpr std::string_view kLinkLossLevels =
     "full|joystick dropped|override gone|no-comm|controlled stop";
 inline constexpr std::string_view kShiftStates =
     "not initialised|ready|locked out|shifts up|shifts down";

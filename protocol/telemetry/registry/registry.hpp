@@ -8,15 +8,17 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <string_view>
 #include <tuple>
 
-#include "protocol/telemetry/registry/field_row.hpp"
+#include "protocol/telemetry/registry/rows.hpp"
 #include "protocol/telemetry/registry/rows_autonomy.hpp"
 #include "protocol/telemetry/registry/rows_chassis.hpp"
 #include "protocol/telemetry/registry/rows_health.hpp"
 #include "protocol/telemetry/registry/rows_motion.hpp"
 #include "protocol/telemetry/registry/rows_safety.hpp"
+#include "protocol/vocabulary/time.hpp"
 #include "protocol/vocabulary/units.hpp"
 
 namespace pitwall::telemetry {
@@ -67,6 +69,23 @@ struct Values {
 
   constexpr double& operator[](FieldIndex i) { return at[i]; }
   constexpr double operator[](FieldIndex i) const { return at[i]; }
+};
+
+inline constexpr Instant kNeverSampled{std::numeric_limits<std::int64_t>::min()};
+
+// Snapshot of one end's own state: the value of each field and the sample time of each group, on
+// the clock of that end. A packet is made from the newest snapshot at the moment of sending.
+struct Snapshot {
+  Values values;
+  std::array<Instant, kGroups> sampled_at = [] {
+    std::array<Instant, kGroups> never{};
+    never.fill(kNeverSampled);
+    return never;
+  }();
+
+  constexpr Instant& at(Group g) { return sampled_at[index_of(g)]; }
+  constexpr Instant at(Group g) const { return sampled_at[index_of(g)]; }
+  constexpr bool ever(Group g) const { return at(g) != kNeverSampled; }
 };
 
 // Range of a group's fields in the table.

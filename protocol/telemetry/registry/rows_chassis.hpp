@@ -10,7 +10,7 @@
 
 #include <array>
 
-#include "protocol/telemetry/registry/field_row.hpp"
+#include "protocol/telemetry/registry/rows.hpp"
 
 namespace pitwall::telemetry::rows {
 

@@ -6,7 +6,7 @@
 
 #include <array>
 
-#include "protocol/telemetry/registry/field_row.hpp"
+#include "protocol/telemetry/registry/rows.hpp"
 
 namespace pitwall::telemetry::rows {
 
@@ -111,7 +111,7 @@ inline constexpr auto kHealthRows = [] {
       large_count(kBus, "database"),  // upper half of its fingerprint
 
       choice(kRadio, "base", kBaseStates, 6),
-      choice(kRadio, "rung", kLadderRungs, 6),
+      choice(kRadio, "rung", kLinkLossLevels, 6),
       {kRadio, "silence", "s", 0, 50, 0.05},
       {kRadio, "round_trip", "ms", 0, 2'000, 0.5},
       count(kRadio, "heartbeats"),          // packets of the base that were accepted

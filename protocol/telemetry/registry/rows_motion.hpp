@@ -11,7 +11,7 @@
 
 #include <array>
 
-#include "protocol/telemetry/registry/field_row.hpp"
+#include "protocol/telemetry/registry/rows.hpp"
 
 namespace pitwall::telemetry::rows {
 

@@ -7,8 +7,8 @@
 
 #include <array>
 
-#include "protocol/telemetry/registry/field_row.hpp"
 #include "protocol/telemetry/registry/labels.hpp"
+#include "protocol/telemetry/registry/rows.hpp"
 
 namespace pitwall::telemetry::rows {
 

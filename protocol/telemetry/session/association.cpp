@@ -30,7 +30,7 @@ Association::Association(const AssociationConfig& config, Randomness& randomness
   }
 }
 
-std::optional<Opened> Association::feed(Bytes datagram, PathId path, Address from, Instant now,
+std::optional<Opened> Association::feed(Bytes datagram, PathId path, UdpAddress from, Instant now,
                                         std::span<std::uint8_t> plain) {
   CHECK(path < config_.paths && plain.size() >= kMaxBody);
   ++counters_.received;
@@ -60,7 +60,7 @@ std::optional<Opened> Association::feed(Bytes datagram, PathId path, Address fro
 // ---- data
 
 std::optional<Opened> Association::open_data(const Header& header, Bytes datagram, PathId path,
-                                             Address from, Instant now,
+                                             UdpAddress from, Instant now,
                                              std::span<std::uint8_t> plain) {
   if (datagram.size() < kHeaderSize + kTagSize) return refuse(Refusal::kHeader), std::nullopt;
   auto* const pending = responder_.pending(header.receiver, now);
@@ -96,7 +96,7 @@ Opener* Association::opener_of(std::uint16_t number, Responder::Pending* pending
 }
 
 std::optional<Opened> Association::accept(const Opener::Opening& opening, Bytes datagram,
-                                          PathId path, Address from, Instant now,
+                                          PathId path, UdpAddress from, Instant now,
                                           std::span<std::uint8_t> plain) {
   hinted_ = false;  // the other end lives and has our keys
   // A late packet with the keys before is not newer than what came with the present ones.
@@ -113,7 +113,7 @@ std::optional<Opened> Association::accept(const Opener::Opening& opening, Bytes 
                 .session = sessions_};
 }
 
-void Association::take_duplicate(std::uint64_t number, Bytes datagram, PathId path, Address from,
+void Association::take_duplicate(std::uint64_t number, Bytes datagram, PathId path, UdpAddress from,
                                  Instant now) {
   last_duplicate_ = number;
   const Path& state = paths_[path];
@@ -124,7 +124,7 @@ void Association::take_duplicate(std::uint64_t number, Bytes datagram, PathId pa
   paths_[path].addresses.receive({.from = from, .number = number}, now, *randomness_);
 }
 
-void Association::receive(std::uint64_t number, std::size_t size, PathId path, Address from,
+void Association::receive(std::uint64_t number, std::size_t size, PathId path, UdpAddress from,
                           Instant now) {
   Path& state = paths_[path];
   const bool newest = number > state.newest;
@@ -137,7 +137,7 @@ void Association::receive(std::uint64_t number, std::size_t size, PathId path, A
 }
 
 // False where the peer in use lives, and where it should renew a session that is no longer in use.
-bool Association::confirm(Responder::Pending& pending, PathId path, Address from, Instant now) {
+bool Association::confirm(Responder::Pending& pending, PathId path, UdpAddress from, Instant now) {
   const Session session = pending.session;
   const bool renews = pending.renews != 0;
   const bool reaches = pending.answered[path] == from;
@@ -181,7 +181,7 @@ void Association::begin_session(const Session& session, bool renews, Instant now
 }
 
 // A base that lost its keys tells the car so; never more bytes than it was sent.
-void Association::hint(const Header& header, Bytes datagram, PathId path, Address from,
+void Association::hint(const Header& header, Bytes datagram, PathId path, UdpAddress from,
                        Instant now) {
   const auto& waits = paths_[path].hint;
   if (car() || datagram.size() < kUnknownSize || (waits && waits->to == from)) return;
@@ -207,7 +207,7 @@ std::optional<Association::Sealed> Association::seal(Bytes body, Instant now,
 
 // ---- the base's side of the exchange
 
-void Association::take_opening(Bytes datagram, PathId path, Address from, Instant now) {
+void Association::take_opening(Bytes datagram, PathId path, UdpAddress from, Instant now) {
   if (car()) return refuse(Refusal::kBadExchange);
   if (const auto refusal = responder_.take(datagram, path, from, now)) return refuse(*refusal);
   answer_openings(now);
@@ -284,14 +284,14 @@ bool Association::opening_due(PathId path, Instant now) const {
 // The proved one alone while it answers; then the configured ones, too.
 Association::Targets Association::opening_targets(PathId path, Instant now) const {
   Targets targets;
-  const auto add = [&](Address address) {
+  const auto add = [&](UdpAddress address) {
     const bool there = std::find(targets.begin(), targets.end(), address) != targets.end();
     if (address.known() && !there) CHECK(targets.push(address));
   };
   add(paths_[path].addresses.proved());
   if (!silent(path, now)) return targets;
   add(config_.peer[path]);
-  for (const Address spare : config_.spare[path]) add(spare);
+  for (const UdpAddress spare : config_.spare[path]) add(spare);
   return targets;
 }
 
@@ -299,7 +299,7 @@ Association::Due Association::open(PathId path, Instant now, std::span<std::uint
   Path& state = paths_[path];
   if (!state.received) state.received = now;
   const Targets targets = opening_targets(path, now);
-  const Address to = targets[state.turn++ % targets.size()];
+  const UdpAddress to = targets[state.turn++ % targets.size()];
   const std::uint16_t number =
       initiator_.attempt_over(now) ? fresh_number() : initiator_.number().value();
   const Bytes opening = initiator_.opening(path, to, number, in_use(), now);
@@ -345,11 +345,11 @@ std::optional<Association::Due> Association::poll(PathId path, Instant now,
   return open(path, now, out);
 }
 
-FixedVector<Address, 2> Association::targets(PathId path, std::size_t size) const {
+FixedVector<UdpAddress, 2> Association::targets(PathId path, std::size_t size) const {
   return paths_[path].addresses.targets(size);
 }
 
-void Association::note_sent(PathId path, Address to, std::size_t size) {
+void Association::note_sent(PathId path, UdpAddress to, std::size_t size) {
   paths_[path].addresses.note_sent(to, size);
 }
 
@@ -357,7 +357,7 @@ std::optional<std::uint64_t> Association::probe(PathId path) const {
   return paths_[path].addresses.token();
 }
 
-void Association::take_proof(PathId path, Address from, std::uint64_t token, Instant now) {
+void Association::take_proof(PathId path, UdpAddress from, std::uint64_t token, Instant now) {
   if (paths_[path].addresses.take_proof(from, token, now)) ++counters_.roams;
 }
 

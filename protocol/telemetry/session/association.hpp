@@ -36,7 +36,6 @@
 
 #include "protocol/telemetry/packet/body.hpp"
 #include "protocol/telemetry/packet/header.hpp"
-#include "protocol/telemetry/session/address.hpp"
 #include "protocol/telemetry/session/crypto/keys.hpp"
 #include "protocol/telemetry/session/exchange.hpp"
 #include "protocol/telemetry/session/initiator.hpp"
@@ -48,6 +47,7 @@
 #include "protocol/telemetry/session/session.hpp"
 #include "protocol/vocabulary/fixed_vector.hpp"
 #include "protocol/vocabulary/time.hpp"
+#include "protocol/vocabulary/udp_address.hpp"
 
 namespace pitwall::telemetry {
 
@@ -71,9 +71,9 @@ struct AssociationConfig {
   KeyFile keys{};
   Greeting greeting{};
   // Car: address of the base on each path. Base: unknown until the car sends.
-  std::array<Address, kPaths> peer{};
+  std::array<UdpAddress, kPaths> peer{};
   // Car: further addresses of a base.
-  std::array<FixedVector<Address, kSpares>, kPaths> spare{};
+  std::array<FixedVector<UdpAddress, kSpares>, kPaths> spare{};
   std::uint8_t paths = 1;
   std::uint64_t first_sequence = 1;  // tests begin close to the wrap of 32 bits
   KeyLog key_log{};                  // empty on a real car: see key_log.hpp
@@ -108,7 +108,7 @@ class Association {
 
   // `plain` holds at least kMaxBody bytes. Returns an empty optional for a message of the exchange
   // and for a datagram that is refused and counted.
-  std::optional<Opened> feed(std::span<const std::uint8_t> datagram, PathId path, Address from,
+  std::optional<Opened> feed(std::span<const std::uint8_t> datagram, PathId path, UdpAddress from,
                              Instant now, std::span<std::uint8_t> plain);
   // The packet that the last feed() refused as an authentic duplicate, of the session in use.
   std::optional<std::uint64_t> last_duplicate() const { return last_duplicate_; }
@@ -116,7 +116,7 @@ class Association {
   // A datagram of the exchange, or a hint, that is due on a path, with its destination.
   struct Due {
     std::span<const std::uint8_t> bytes;
-    Address to;
+    UdpAddress to;
   };
   std::optional<Due> poll(PathId path, Instant now, std::span<std::uint8_t> out);
   // Largest size of the next poll() of the path, to check its budget first; 0: nothing is due.
@@ -133,18 +133,18 @@ class Association {
 
   // Destinations of packets of this path: the validated address, and the address on trial if
   // `size` more bytes may be sent there.
-  FixedVector<Address, 2> targets(PathId path, std::size_t size) const;
-  void note_sent(PathId path, Address to, std::size_t size);
+  FixedVector<UdpAddress, 2> targets(PathId path, std::size_t size) const;
+  void note_sent(PathId path, UdpAddress to, std::size_t size);
   // Payload of the kPathProbe for the next packet to the address on trial.
   std::optional<std::uint64_t> probe(PathId path) const;
-  void take_proof(PathId path, Address from, std::uint64_t token, Instant now);
+  void take_proof(PathId path, UdpAddress from, std::uint64_t token, Instant now);
 
   const std::optional<Greeting>& peer() const { return peer_; }  // of the session in use
   std::uint64_t session() const { return sessions_; }  // serial number of the one in use; 0: none
   const AssociationCounters& counters() const { return counters_; }
   // Base: the greatest stamp of an opening, for its next start.
   Stamp newest_stamp() const { return responder_.newest_stamp(); }
-  Address proved(PathId path) const { return paths_[path].addresses.proved(); }
+  UdpAddress proved(PathId path) const { return paths_[path].addresses.proved(); }
   bool on_trial(PathId path) const { return paths_[path].addresses.token().has_value(); }
 
  private:
@@ -158,7 +158,7 @@ class Association {
     std::uint64_t newest = 0;         // number of the newest packet received on this path
     struct Sender {
       std::uint64_t number = 0;
-      Address from;
+      UdpAddress from;
     };
     std::array<Sender, 32> senders{};  // senders of the latest newest packets
   };
@@ -169,20 +169,21 @@ class Association {
     Opener opener;
     std::optional<Instant> until;
   };
-  using Targets = FixedVector<Address, 2 + kSpares>;
+  using Targets = FixedVector<UdpAddress, 2 + kSpares>;
 
-  std::optional<Opened> open_data(const Header& header, Bytes datagram, PathId path, Address from,
-                                  Instant now, std::span<std::uint8_t> plain);
+  std::optional<Opened> open_data(const Header& header, Bytes datagram, PathId path,
+                                  UdpAddress from, Instant now, std::span<std::uint8_t> plain);
   Opener* opener_of(std::uint16_t number, Responder::Pending* pending, Instant now);
   std::optional<Opened> accept(const Opener::Opening& opening, Bytes datagram, PathId path,
-                               Address from, Instant now, std::span<std::uint8_t> plain);
-  void take_duplicate(std::uint64_t number, Bytes datagram, PathId path, Address from, Instant now);
-  void receive(std::uint64_t number, std::size_t size, PathId path, Address from, Instant now);
-  bool confirm(Responder::Pending& pending, PathId path, Address from, Instant now);
+                               UdpAddress from, Instant now, std::span<std::uint8_t> plain);
+  void take_duplicate(std::uint64_t number, Bytes datagram, PathId path, UdpAddress from,
+                      Instant now);
+  void receive(std::uint64_t number, std::size_t size, PathId path, UdpAddress from, Instant now);
+  bool confirm(Responder::Pending& pending, PathId path, UdpAddress from, Instant now);
   void begin_session(const Session& session, bool renews, Instant now);
-  void hint(const Header& header, Bytes datagram, PathId path, Address from, Instant now);
+  void hint(const Header& header, Bytes datagram, PathId path, UdpAddress from, Instant now);
 
-  void take_opening(Bytes datagram, PathId path, Address from, Instant now);
+  void take_opening(Bytes datagram, PathId path, UdpAddress from, Instant now);
   void answer_openings(Instant now);
   void take_answer(const Header& header, Bytes datagram, Instant now);
   void take_newer_stamp(Bytes datagram, Instant now);

@@ -26,7 +26,7 @@ std::optional<std::uint16_t> Initiator::number() const {
   return attempt_->number;
 }
 
-Bytes Initiator::opening(PathId path, Address to, std::uint16_t number, const Session* in_use,
+Bytes Initiator::opening(PathId path, UdpAddress to, std::uint16_t number, const Session* in_use,
                          Instant now) {
   if (attempt_over(now)) begin(number, in_use, now);
   const Stamp stamp = stamps_.next(now);

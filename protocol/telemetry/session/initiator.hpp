@@ -19,13 +19,13 @@
 #include <optional>
 #include <span>
 
-#include "protocol/telemetry/packet/received.hpp"
-#include "protocol/telemetry/session/address.hpp"
+#include "protocol/telemetry/packet/body.hpp"
 #include "protocol/telemetry/session/exchange.hpp"
 #include "protocol/telemetry/session/refusal.hpp"
 #include "protocol/telemetry/session/session.hpp"
 #include "protocol/telemetry/session/stamp.hpp"
 #include "protocol/vocabulary/result.hpp"
+#include "protocol/vocabulary/udp_address.hpp"
 
 namespace pitwall::telemetry {
 
@@ -38,7 +38,8 @@ class Initiator {
 
   // The opening for one address of a path. `in_use`: the session to renew, or nullptr. `number`:
   // number of the new session if the attempt is over.
-  Bytes opening(PathId path, Address to, std::uint16_t number, const Session* in_use, Instant now);
+  Bytes opening(PathId path, UdpAddress to, std::uint16_t number, const Session* in_use,
+                Instant now);
   // True if the next opening() starts a fresh attempt.
   bool attempt_over(Instant now) const;
 
@@ -46,7 +47,7 @@ class Initiator {
     Session session;
     bool renews;  // the session in use continues with new keys
     PathId path;
-    Address reached;  // destination of the answered opening
+    UdpAddress reached;  // destination of the answered opening
   };
   Result<Agreed, Refusal> take_answer(const Header& header, Bytes datagram, const Session* in_use,
                                       Instant now);
@@ -68,7 +69,7 @@ class Initiator {
   struct SentOpening {
     Stamp stamp = 0;
     PathId path = 0;
-    Address to;
+    UdpAddress to;
   };
   struct Answered {
     OpeningBytes opening;

@@ -6,7 +6,7 @@
 
 namespace pitwall::telemetry {
 
-void PathAddresses::prove(Address at) {
+void PathAddresses::prove(UdpAddress at) {
   proved_ = at;
   trial_.reset();
 }
@@ -31,15 +31,15 @@ void PathAddresses::receive(const Arrival& arrival, Instant now, Randomness& ran
                  .first = arrival.number};
 }
 
-bool PathAddresses::take_proof(Address from, std::uint64_t token, Instant now) {
+bool PathAddresses::take_proof(UdpAddress from, std::uint64_t token, Instant now) {
   if (!trial_ || trial_->address != from || trial_->token != token) return false;
   if (trial_->opposed && now - *trial_->opposed < kInUse) return false;
   prove(from);
   return true;
 }
 
-FixedVector<Address, 2> PathAddresses::targets(std::size_t size) const {
-  FixedVector<Address, 2> targets;
+FixedVector<UdpAddress, 2> PathAddresses::targets(std::size_t size) const {
+  FixedVector<UdpAddress, 2> targets;
   if (proved_.known()) CHECK(targets.push(proved_));
   if (trial_ && trial_->sent + size <= kTrust * trial_->received) {
     CHECK(targets.push(trial_->address));
@@ -47,7 +47,7 @@ FixedVector<Address, 2> PathAddresses::targets(std::size_t size) const {
   return targets;
 }
 
-void PathAddresses::note_sent(Address to, std::size_t size) {
+void PathAddresses::note_sent(UdpAddress to, std::size_t size) {
   if (trial_ && trial_->address == to) trial_->sent += size;
 }
 

@@ -17,10 +17,10 @@
 #include <cstdint>
 #include <optional>
 
-#include "protocol/telemetry/session/address.hpp"
 #include "protocol/telemetry/session/crypto/randomness.hpp"
 #include "protocol/vocabulary/fixed_vector.hpp"
 #include "protocol/vocabulary/time.hpp"
+#include "protocol/vocabulary/udp_address.hpp"
 
 namespace pitwall::telemetry {
 
@@ -31,34 +31,34 @@ class PathAddresses {
   // jitter of a loop.
   static constexpr Duration kInUse = milliseconds(60);
 
-  void prove(Address at);  // sets a validated address: from the car's file, or by the exchange
+  void prove(UdpAddress at);  // sets a validated address: from the car's file, or by the exchange
   // Arrival of an authentic packet or of a copy of one.
   struct Arrival {
-    Address from;
+    UdpAddress from;
     std::size_t size = 0;
     std::uint64_t number = 0;
     bool newest = false;  // the newest of all packets on this path
   };
   void receive(const Arrival& arrival, Instant now, Randomness& randomness);
   // Returns true if the token validates the address on trial.
-  bool take_proof(Address from, std::uint64_t token, Instant now);
+  bool take_proof(UdpAddress from, std::uint64_t token, Instant now);
 
-  FixedVector<Address, 2> targets(std::size_t size) const;
-  void note_sent(Address to, std::size_t size);
+  FixedVector<UdpAddress, 2> targets(std::size_t size) const;
+  void note_sent(UdpAddress to, std::size_t size);
   std::optional<std::uint64_t> token() const;
-  Address proved() const { return proved_; }
+  UdpAddress proved() const { return proved_; }
 
  private:
   friend struct Fingerprint;  // for the exhaustive state exploration of the tests
   struct Trial {
-    Address address;
+    UdpAddress address;
     std::uint64_t token = 0, received = 0, sent = 0;
     std::uint64_t first = 0;  // number of the packet that began it
     // Time of the last packet from the validated address that is not older than the trial.
     std::optional<Instant> opposed{};
   };
 
-  Address proved_;
+  UdpAddress proved_;
   std::optional<Trial> trial_;
 };
 

@@ -11,8 +11,8 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "protocol/telemetry/session/address.hpp"
 #include "protocol/vocabulary/time.hpp"
+#include "protocol/vocabulary/udp_address.hpp"
 
 namespace pitwall::telemetry {
 
@@ -46,7 +46,7 @@ class ReplyLimiter {
   constexpr ReplyLimiter(std::int64_t per_source, std::int64_t in_all)
       : per_source_(per_source), in_all_(in_all) {}
 
-  constexpr bool take(Address to, Instant now) {
+  constexpr bool take(UdpAddress to, Instant now) {
     Source& source = source_of(to);
     source.used = now;
     return source.allowance.take(now) && in_all_.take(now);
@@ -54,13 +54,13 @@ class ReplyLimiter {
 
  private:
   struct Source {
-    Address address;
+    UdpAddress address;
     Allowance allowance{1};
     Instant used{};
   };
 
   // The entry of this address; a new address replaces the least recently used entry.
-  constexpr Source& source_of(Address to) {
+  constexpr Source& source_of(UdpAddress to) {
     Source* oldest = &sources_[0];
     for (Source& source : sources_) {
       if (source.address == to) return source;

@@ -11,7 +11,7 @@ Responder::Responder(const SessionTerms& terms, const Greeting& own, const Stand
                      Stamp newest, Randomness& randomness)
     : terms_(terms), own_(own), standing_(&standing), randomness_(&randomness), newest_(newest) {}
 
-std::optional<Refusal> Responder::take(Bytes opening, PathId path, Address from, Instant now) {
+std::optional<Refusal> Responder::take(Bytes opening, PathId path, UdpAddress from, Instant now) {
   if (!standing_->usable() || !standing_->opening_fits(opening)) return Refusal::kBadExchange;
   const Stamp stamp = stamp_of(opening);
   if (stamp > newest_ && same(ephemeral_part(opening), done_)) {
@@ -35,7 +35,7 @@ std::optional<Refusal> Responder::take(Bytes opening, PathId path, Address from,
   return std::nullopt;
 }
 
-void Responder::send_newer_stamp(Bytes opening, PathId path, Address from, Instant now) {
+void Responder::send_newer_stamp(Bytes opening, PathId path, UdpAddress from, Instant now) {
   if (!stamp_limit_.take(from, now)) return;
   Reply reply{.to = from};
   reply.size = standing_->write_newer_stamp(newest_, ephemeral_part(opening), reply.bytes);

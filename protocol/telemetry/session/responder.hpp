@@ -24,14 +24,14 @@
 #include <optional>
 #include <span>
 
-#include "protocol/telemetry/packet/received.hpp"
-#include "protocol/telemetry/session/address.hpp"
+#include "protocol/telemetry/packet/body.hpp"
 #include "protocol/telemetry/session/exchange.hpp"
 #include "protocol/telemetry/session/refusal.hpp"
 #include "protocol/telemetry/session/reply_limiter.hpp"
 #include "protocol/telemetry/session/session.hpp"
 #include "protocol/telemetry/session/stamp.hpp"
 #include "protocol/vocabulary/fixed_vector.hpp"
+#include "protocol/vocabulary/udp_address.hpp"
 
 namespace pitwall::telemetry {
 
@@ -39,7 +39,7 @@ namespace pitwall::telemetry {
 struct Reply {
   std::array<std::uint8_t, kMaxExchangeSize> bytes{};
   std::size_t size = 0;
-  Address to;
+  UdpAddress to;
 };
 
 class Responder {
@@ -58,14 +58,14 @@ class Responder {
   struct Pending {
     OpeningBytes opening;  // the first of its attempt
     AnswerBytes answer;
-    std::array<Address, kPaths> answered{};
+    std::array<UdpAddress, kPaths> answered{};
     Session session;
     std::uint16_t renews = 0;  // own number of the session that it renews; 0: none
     Instant touched;
   };
 
   // An empty optional: the opening is accepted and waits for work(), which the caller calls next.
-  std::optional<Refusal> take(Bytes opening, PathId path, Address from, Instant now);
+  std::optional<Refusal> take(Bytes opening, PathId path, UdpAddress from, Instant now);
   // Answers one waiting opening if the rate limit allows. `number`: a free session number.
   struct Worked {
     std::optional<Refusal> refusal;
@@ -92,11 +92,11 @@ class Responder {
   struct Waiting {
     OpeningBytes opening;
     PathId path;
-    Address from;
+    UdpAddress from;
   };
   static constexpr std::size_t kPendings = 4, kSourcesPerStamp = 2;
 
-  void send_newer_stamp(Bytes opening, PathId path, Address from, Instant now);
+  void send_newer_stamp(Bytes opening, PathId path, UdpAddress from, Instant now);
   void send_answer(Pending& pending, const Waiting& to, Instant now);
   Worked agree(const Waiting& opening, std::uint16_t number, const Session* in_use, Instant now);
   std::optional<Pending>& room();
@@ -106,8 +106,8 @@ class Responder {
   const StandingKeys* standing_;
   Randomness* randomness_;
   Stamp newest_;
-  FixedVector<Waiting, kSourcesPerStamp> waiting_;         // openings with the newest stamp
-  FixedVector<Address, kSourcesPerStamp> newest_sources_;  // sources of that stamp
+  FixedVector<Waiting, kSourcesPerStamp> waiting_;            // openings with the newest stamp
+  FixedVector<UdpAddress, kSourcesPerStamp> newest_sources_;  // sources of that stamp
   StaleStamps stale_;
   Allowance allowed_{kAnswersPerSecond, kAnswersAtOnce};  // rate limit of the openings processed
   ReplyLimiter stamp_limit_{kStampRepliesPerSource, kStampRepliesPerSecond};

@@ -38,7 +38,7 @@ TEST(Station, IsOverheardInBothDirectionsWhateverComes) {
   RadioRig rig;
   std::uint64_t down = 0, up = 0, noise = 0;
   const std::array<std::uint8_t, 3> nonsense{1, 2, 3};
-  rig.station->observe([&](bool from_car, telemetry::PathId, telemetry::Address other, Instant at,
+  rig.station->observe([&](bool from_car, telemetry::PathId, UdpAddress other, Instant at,
                            std::span<const std::uint8_t> bytes) {
     EXPECT_LE(at, rig.now);
     if (from_car && std::ranges::equal(bytes, nonsense)) {

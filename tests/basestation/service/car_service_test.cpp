@@ -3,8 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <map>
 
+#include "tests/basestation/oval_course.hpp"
 #include "tests/basestation/radio_rig.hpp"
 
 namespace pitwall::service {
@@ -74,6 +76,33 @@ TEST(CarService, ACommandPassesTheGatesOfThisMoment) {
   ASSERT_EQ(pit.reported.size(), 1U);
   EXPECT_NEAR(pit.reported[0].command.argument, 40.0, 0.05);
   EXPECT_GE(pit.messages["command"], 3);
+}
+
+// By the radio, with a second of loss over the line at the end of the second lap.
+TEST(CarService, TimesTheLapsOfItsCourse) {
+  const Oval oval{.straight_m = 100.0, .radius_m = 50.0};
+  RigOptions options;
+  options.service.evaluator.course = oval.course();
+  Pit pit{options};
+  constexpr double kSpeed_mps = 50.0;
+  const double lap_s = oval.length_m() / kSpeed_mps;
+  double way_m = 0.8 * oval.length_m();
+  while (way_m < 4.5 * oval.length_m()) {
+    const bool lost = std::abs(way_m - 3.0 * oval.length_m()) < 25.0;
+    pit.loses = [lost](bool to_base, telemetry::PathId) { return to_base && lost; };
+    pit.set(field("track.station"), std::fmod(way_m, oval.length_m()));
+    pit.run(RadioRig::kTick);
+    way_m += kSpeed_mps * RadioRig::kTick.seconds();
+  }
+  const auto& laps = pit.base->laps()->laps();
+  ASSERT_EQ(laps.size(), 5U);
+  // A station is rounded to 0.1 m, a tick is a millisecond: at either end of the lap.
+  EXPECT_NEAR(laps[1].time_s(), lap_s, 2.0 * (0.05 / kSpeed_mps + 0.001));
+  EXPECT_TRUE(laps[2].start_seen && !laps[2].finish_seen);
+  EXPECT_TRUE(!laps[3].start_seen && laps[3].finish_seen);
+  EXPECT_EQ(pit.base->laps()->best(), &laps[1]);
+  EXPECT_EQ(pit.messages["laps"], 5) << "at each line, and at the first sample";
+  EXPECT_NE(pit.newest["laps"].find("\"best\": 2"), std::string::npos);
 }
 
 TEST(CarService, AStopIsInTheNextPacketWhoeverSaysIt) {

@@ -53,8 +53,8 @@ class EventLoop : public ::testing::Test {
     telemetry::LinkEndpointConfig config;
     config.association.keys = keys_.car;
     config.association.greeting.real_car = true;
-    const transport::UdpAddress base = radio_.front()->local();
-    config.association.peer[0] = {.ip = base.ip, .port = base.port};
+    const UdpAddress base = radio_.front()->local();
+    config.association.peer[0] = base;
     telemetry::CarEndpoint car(config, randomness);
     telemetry::Snapshot snapshot;
     snapshot.values[telemetry::field("ego.x")] = 12.0;
@@ -63,12 +63,11 @@ class EventLoop : public ::testing::Test {
       const Instant now = transport::monotonic_now();
       const std::size_t n = car_socket_->receive(batch);
       for (std::size_t i = 0; i < n; ++i) {
-        car.feed(batch[i].payload(), 0, {.ip = batch[i].from.ip, .port = batch[i].from.port},
-                 batch[i].at);
+        car.feed(batch[i].payload(), 0, batch[i].from, batch[i].at);
       }
       snapshot.at(telemetry::Group::kEgo) = now;
       while (const auto out = car.poll(snapshot, now)) {
-        car_socket_->send_to({.ip = out->to.ip, .port = out->to.port}, out->bytes);
+        car_socket_->send_to(out->to, out->bytes);
       }
       const int watched[] = {car_socket_->fd()};
       transport::wait_readable(watched, now + milliseconds(2));

@@ -26,17 +26,17 @@ class Car {
  public:
   static constexpr telemetry::Stamp kStamp = 1'795'000'000'000'000'000;
 
-  Car(const std::string& key_file, transport::UdpAddress base) : base_(base) {
+  Car(const std::string& key_file, UdpAddress base) : base_(base) {
     telemetry::LinkEndpointConfig config;
     config.association.keys = *link::read_keys(key_file, telemetry::Role::kCar);
-    config.association.peer[0] = {.ip = base.ip, .port = base.port};
+    config.association.peer[0] = base;
     config.association.to_utc = Instant{kStamp} - transport::monotonic_now();
     end_.emplace(config, randomness_);
   }
   void turn() {
     std::vector<transport::UdpDatagram> inbox(transport::UdpSocket::kBatch);
     for (const auto& d : std::span(inbox).first(socket_->receive(inbox))) {
-      end_->feed(d.payload(), 0, {.ip = d.from.ip, .port = d.from.port}, d.at);
+      end_->feed(d.payload(), 0, d.from, d.at);
     }
     while (const auto out = end_->poll({}, transport::monotonic_now())) {
       socket_->send_to(base_, out->bytes);
@@ -44,7 +44,7 @@ class Car {
   }
 
  private:
-  transport::UdpAddress base_;
+  UdpAddress base_;
   telemetry::SystemRandomness randomness_;
   std::optional<telemetry::CarEndpoint> end_;
   Result<transport::UdpSocket, Problem> socket_ = transport::UdpSocket::bind({});
@@ -83,9 +83,9 @@ class Session : public testing::Test {
     while (waits()) {
       car.turn();
       for (const auto& d : std::span(inbox).first(loop.radio[0].receive(inbox))) {
-        session->service().receive(d.payload(), 0, {.ip = d.from.ip, .port = d.from.port}, d.at);
+        session->service().receive(d.payload(), 0, d.from, d.at);
         while (const auto out = session->service().poll(transport::monotonic_now())) {
-          loop.radio[0].send_to({.ip = out->to.ip, .port = out->to.port}, out->bytes);
+          loop.radio[0].send_to(out->to, out->bytes);
         }
       }
       for (service::Publisher* const publisher : loop.publishers) {

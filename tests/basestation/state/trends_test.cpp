@@ -63,10 +63,30 @@ TEST(Trends, WhatIsOlderThanTenMinutesKeepsItsSpikes) {
 
 TEST(Trends, MemoryIsBoundedHoweverLongItRuns) {
   const TrendTable two_hours = wave(360'000, 0);
-  const std::size_t most = TrendTable::kFineRows * 12 + 7'200 * 16;
+  const std::size_t most = TrendCapacity{}.fine_rows * 12 + 7'200 * 16;
   EXPECT_LE(two_hours.filled_bytes(), most);
   const auto points = two_hours.range(0, kStart, kStart + seconds(7'200), 20'000, kTarget);
   EXPECT_NEAR(points.front().time_s, 1'000.0 + 3'600.0, 1.0) << "the last hour";
+}
+
+TEST(Trends, OfAWholeRecordingNothingIsDropped) {
+  // Two hours and a half: the spans have become twice as long once.
+  constexpr std::size_t kSamples = 450'000;
+  TrendTable table(1, kWholeRecording);
+  for (std::size_t i = 0; i < kSamples; ++i) {
+    const double value = i == 7 ? 100.0 : i == 300'001 ? -50.0 : 1.0;
+    table.note(kStart + static_cast<std::int64_t>(i) * kTick, {&value, 1});
+  }
+  EXPECT_LE(table.filled_bytes(), 36'000U * 16U + 12U);
+  const auto all = table.range(0, kStart, kStart + seconds(9'000), 100'000, kTarget);
+  EXPECT_TRUE(in_order(all));
+  EXPECT_EQ(largest(all), 100.0F);
+  EXPECT_NEAR(all.front().time_s, 1'000.0, 1e-9);
+  EXPECT_NEAR(all.back().time_s, 1'000.0 + 9'000.0 - 0.02, 0.4);
+  const auto spike = std::ranges::find(all, -50.0F, &TrendPoint::value);
+  ASSERT_NE(spike, all.end());
+  EXPECT_NEAR(spike->time_s, 1'000.0 + 6'000.02, 0.4) << "a span long now";
+  EXPECT_TRUE(std::ranges::none_of(all, [](const TrendPoint& p) { return std::isnan(p.value); }));
 }
 
 TEST(Trends, AGapIsNoLine) {

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "protocol/telemetry/registry/registry.hpp"
+#include "protocol/vocabulary/units.hpp"
 
 namespace pitwall::state {
 namespace {
@@ -38,6 +39,20 @@ TEST(ValueText, SetsOfFaultsAreNamedUpToThree) {
 TEST(ValueText, UnsetIsADash) { EXPECT_EQ(value_text(kFields[field("ego.x")], kUnset), "-"); }
 
 TEST(ValueText, PathsAreGroupAndName) { EXPECT_EQ(path_of(kFields[field("ego.vx")]), "ego.vx"); }
+
+TEST(ValueText, SaysANumberWithItsUnitOrThatThereIsNone) {
+  EXPECT_EQ(number_text(12.34, "m/s"), "12.3 m/s");
+  EXPECT_EQ(number_text(-0.06, "V"), "-0.1 V");
+  EXPECT_EQ(number_text(6.0, ""), "6.0");
+  EXPECT_EQ(number_text(kUnset, "m/s"), "no data");
+}
+
+TEST(ValueText, SaysALabelWhereTheValueHasOne) {
+  EXPECT_EQ(label_text("red|orange", 1.0), "orange");
+  EXPECT_EQ(label_text("red|orange", 2.0), "no. 2");
+  EXPECT_EQ(label_text("red|orange", -1.0), "no data");
+  EXPECT_EQ(label_text("red|orange", kUnset), "no data");
+}
 
 }  // namespace
 }  // namespace pitwall::state

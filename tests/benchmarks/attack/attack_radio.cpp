@@ -23,7 +23,6 @@
 namespace pitwall::attack {
 namespace {
 
-using transport::UdpAddress;
 using transport::UdpDatagram;
 using transport::UdpSocket;
 

@@ -36,11 +36,10 @@
 namespace pitwall::attack {
 namespace {
 
-using transport::UdpAddress;
 using transport::UdpDatagram;
 using transport::UdpSocket;
 
-constexpr std::uint32_t kFirstIp = transport::kLoopbackIp + 1;  // 127.0.0.2
+constexpr std::uint32_t kFirstIp = kLoopbackIp + 1;  // 127.0.0.2
 constexpr std::uint32_t kIps = 15, kPorts = 2;
 constexpr std::size_t kSockets = kIps * kPorts;
 constexpr Duration kTurn = milliseconds(1), kIdle = milliseconds(50), kLongest = seconds(120);

@@ -22,7 +22,7 @@ inline constexpr std::size_t kCopyFront = 7;
 
 struct Copy {
   bool from_car = false;
-  transport::UdpAddress sender;
+  UdpAddress sender;
   std::span<const std::uint8_t> bytes;
 };
 

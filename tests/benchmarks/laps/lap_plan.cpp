@@ -30,7 +30,7 @@ double lap_at_limits_s(const planning::Line& line, double round_mps) {
 
 std::vector<Case> cases() {
   constexpr double kHalf_rad = 0.5 * std::numbers::pi;
-  std::vector<Case> all{{"nominal", {}}};
+  std::vector<Case> all{{kNominal, {}}};
   const auto add = [&all](const char* name, Perturbations p) {
     all.push_back({name, std::move(p)});
   };

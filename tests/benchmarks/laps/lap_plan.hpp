@@ -16,6 +16,8 @@
 
 namespace pitwall::laps {
 
+inline constexpr const char* kNominal = "nominal";
+
 struct Case {
   std::string name;
   scenario::Perturbations perturb;

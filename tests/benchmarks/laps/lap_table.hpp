@@ -13,6 +13,7 @@
 #include <string>
 #include <vector>
 
+#include "tests/benchmarks/laps/lap_plan.hpp"
 #include "tests/benchmarks/laps/lap_run.hpp"
 
 namespace pitwall::laps {
@@ -22,8 +23,6 @@ struct Gates {
 
   bool held() const { return nominal_laps && every_verdict && every_perturbation; }
 };
-
-inline constexpr const char* kNominal = "nominal";
 
 Gates gates_of(const std::vector<LapRow>& rows);
 

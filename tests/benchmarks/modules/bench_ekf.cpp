@@ -10,7 +10,6 @@
 #include "hil/bench/loading.hpp"
 #include "hil/bench/lockstep/lockstep.hpp"
 #include "protocol/json/json_text.hpp"
-#include "protocol/transport/allocation_count.hpp"
 #include "protocol/transport/file.hpp"
 #include "tests/benchmarks/command_line.hpp"
 #include "tests/benchmarks/cost/cost_gates.hpp"
@@ -20,6 +19,7 @@
 #include "tests/benchmarks/modules/filter_times.hpp"
 #include "tests/benchmarks/step/lockstep_speed.hpp"
 #include "tests/benchmarks/step/step_times.hpp"
+#include "tests/support/allocation_guard.hpp"
 
 namespace pitwall::benchmarks {
 namespace {
@@ -169,7 +169,7 @@ void print(const Figures& f) {
   print_row("step, rewind >= 100 ms", f.step.late, {});
   std::printf("steps: the least of %d runs, tick by tick\n", kStepRuns);
   std::printf("allocations in all steps: %zu%s\n", f.step.allocations,
-              transport::kAllocationsCounted ? "" : " (not counted under AddressSanitizer)");
+              testing::kAllocationsCounted ? "" : " (not counted under AddressSanitizer)");
   std::printf(
       "peer, TUM FusionTracking (six states in the plane, Python): 2750 us mean, 5260 us p90 "
       "a cycle [published, arXiv 2310.08114]\n");

@@ -9,7 +9,6 @@
 
 #include "hil/bench/loading.hpp"
 #include "hil/plant/plant.hpp"
-#include "hil/plant/single_track.hpp"
 #include "protocol/json/json_text.hpp"
 #include "protocol/transport/clock.hpp"
 #include "protocol/transport/file.hpp"
@@ -19,6 +18,7 @@
 #include "tests/benchmarks/cost/machine_name.hpp"
 #include "tests/benchmarks/cost/reference_cost.hpp"
 #include "tests/benchmarks/step/lockstep_speed.hpp"
+#include "tests/hil/plant/single_track.hpp"
 
 namespace pitwall::benchmarks {
 namespace {

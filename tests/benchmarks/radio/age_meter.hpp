@@ -11,8 +11,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "protocol/telemetry/registry/group_row.hpp"
-#include "protocol/telemetry/registry/snapshot.hpp"
+#include "protocol/telemetry/registry/registry.hpp"
+#include "protocol/telemetry/registry/rows.hpp"
 #include "protocol/vocabulary/quantile.hpp"
 #include "protocol/vocabulary/time.hpp"
 

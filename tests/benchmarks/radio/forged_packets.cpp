@@ -12,7 +12,7 @@ namespace {
 
 // Datagrams under way: those of the last half second. Replays are of before.
 constexpr std::size_t kFresh = 64, kReceived = 512;
-constexpr Address kForgerAddress{0x0A0000FE, 6'666};
+constexpr UdpAddress kForgerAddress{0x0A0000FE, 6'666};
 constexpr std::uint8_t kPhaseBit = 0x02;
 constexpr Duration kRestartEvery = seconds(7);
 

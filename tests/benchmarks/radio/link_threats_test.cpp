@@ -22,7 +22,7 @@ namespace {
 using telemetry::Threat;
 using Bytes = std::vector<std::uint8_t>;
 
-constexpr telemetry::Address kStranger{0x0A0000FE, 6'666};
+constexpr UdpAddress kStranger{0x0A0000FE, 6'666};
 constexpr Duration kInTime = seconds(2);
 
 bool each(Duration period, Instant now) { return now.ns % period.ns == 0; }
@@ -366,8 +366,7 @@ TEST(LinkThreats, ReplayedOpeningsAreSeenByTheBase) {
         onlooker.run(seconds(5), [&] {
           const auto wanted = static_cast<std::size_t>((radio.now() - begin).seconds() * per_s) + 1;
           for (; sent < wanted; ++sent) {
-            const telemetry::Address from{0x0A000100 + static_cast<std::uint32_t>(sent % 200),
-                                          6'666};
+            const UdpAddress from{0x0A000100 + static_cast<std::uint32_t>(sent % 200), 6'666};
             radio.inject(true, 0, from, openings[sent % openings.size()]);
           }
         });

@@ -19,7 +19,7 @@ namespace pitwall::radio {
 
 class Relay {
  public:
-  static constexpr telemetry::Address kAddress{0x0A0000FE, 9'999};
+  static constexpr UdpAddress kAddress{0x0A0000FE, 9'999};
 
   // Takes the radio's tap and its stray datagrams. The radio outlives this object.
   Relay(VirtualRadio& radio, Duration way, Duration ahead);

@@ -65,8 +65,8 @@ void StressLoad::send_opening() {
   for (std::size_t i = 0; i < kOpeningsEachStep && !received_.empty(); ++i) {
     std::vector<std::uint8_t> bytes = received_[(ms_ + i) % received_.size()];
     if (i % 2 == 1) bytes[(ms_ + i) % bytes.size()] ^= 0x55;
-    const telemetry::Address from{0x0A000100 + static_cast<std::uint32_t>(ms_ % kAddresses),
-                                  static_cast<std::uint16_t>(1'000 + i)};
+    const UdpAddress from{0x0A000100 + static_cast<std::uint32_t>(ms_ % kAddresses),
+                          static_cast<std::uint16_t>(1'000 + i)};
     radio_.inject(i % 4 < 2, 0, from, bytes);
     ++openings_;
   }

@@ -18,17 +18,17 @@ namespace {
 constexpr Duration kUptime = seconds(1'000);
 constexpr std::size_t kRemembered = 65'536;  // packets, by their low bits
 
-constexpr Address kCarAddress{0x0A000001, 4'000}, kBaseAddress{0x0A000002, 5'000};
+constexpr UdpAddress kCarAddress{0x0A000001, 4'000}, kBaseAddress{0x0A000002, 5'000};
 
-Address on_path(Address address, PathId path) {
+UdpAddress on_path(UdpAddress address, PathId path) {
   return {address.ip, static_cast<std::uint16_t>(address.port + path)};
 }
 
 // A datagram under way: from where, and the port that it goes to.
-std::uint64_t tag_of(Address from, Address to) {
+std::uint64_t tag_of(UdpAddress from, UdpAddress to) {
   return std::uint64_t{from.ip} << 32 | std::uint64_t{from.port} << 16 | to.port;
 }
-Address source_of(std::uint64_t tag) {
+UdpAddress source_of(std::uint64_t tag) {
   return {static_cast<std::uint32_t>(tag >> 32), static_cast<std::uint16_t>(tag >> 16)};
 }
 
@@ -154,7 +154,7 @@ void VirtualRadio::take_at_base(const link::Datagram& datagram, PathId path) {
   if (arrival) judge(datagram.bytes, *arrival);
 }
 
-void VirtualRadio::inject(bool at_base, PathId path, Address from,
+void VirtualRadio::inject(bool at_base, PathId path, UdpAddress from,
                           std::span<const std::uint8_t> bytes) {
   if (path >= setup_.paths || now_ < (at_base ? base_side_ : car_side_).there) return;
   if (!at_base) return car_->feed(bytes, path, from, car_now());
@@ -250,8 +250,8 @@ void VirtualRadio::cut(PathId path, bool down, bool up) {
   base_side_.cut[path] = up;
 }
 
-void VirtualRadio::move_car(PathId path, Address source) { car_side_.address[path] = source; }
-void VirtualRadio::move_base(PathId path, Address source) { base_side_.address[path] = source; }
+void VirtualRadio::move_car(PathId path, UdpAddress source) { car_side_.address[path] = source; }
+void VirtualRadio::move_base(PathId path, UdpAddress source) { base_side_.address[path] = source; }
 
 std::optional<Instant> VirtualRadio::sample_at_base(Group group) const {
   const std::int64_t sample = sample_at_base_[index_of(group)];

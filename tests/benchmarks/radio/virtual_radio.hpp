@@ -45,7 +45,7 @@ struct RadioSetup {
   std::uint64_t first_sequence = 1;
   bool stamps_kept = true;  // a restarted base keeps the newest opening stamp from before
   Duration to_utc{};        // UTC minus the car's clock
-  std::array<telemetry::Address, telemetry::kPaths> spare{};  // further base addresses of the car
+  std::array<UdpAddress, telemetry::kPaths> spare{};  // further base addresses of the car
   // Registries that the ends announce; nullptr: the real one. They outlive the radio.
   const telemetry::SchemaDescription* schema_of_car = nullptr;
   const telemetry::SchemaDescription* schema_of_base = nullptr;
@@ -95,8 +95,8 @@ class VirtualRadio {
   // Blocks (true) or unblocks (false) each direction of the path from now on.
   void cut(telemetry::PathId path, bool down, bool up);
   // The other end sees this source from now on (another port of a NAT); the old address is dead.
-  void move_car(telemetry::PathId path, telemetry::Address source);
-  void move_base(telemetry::PathId path, telemetry::Address source);
+  void move_car(telemetry::PathId path, UdpAddress source);
+  void move_base(telemetry::PathId path, UdpAddress source);
   // Called with each datagram before the link; if it returns false the datagram is dropped.
   using Tap = std::function<bool(bool down, telemetry::PathId, std::span<const std::uint8_t>)>;
   void tap(Tap tap) { tap_ = std::move(tap); }
@@ -105,12 +105,12 @@ class VirtualRadio {
                                    std::span<const std::uint8_t>)>;
   void listen(Stray stray) { stray_ = std::move(stray); }
   // Delivers a datagram of a third party at an end.
-  void inject(bool at_base, telemetry::PathId path, telemetry::Address from,
+  void inject(bool at_base, telemetry::PathId path, UdpAddress from,
               std::span<const std::uint8_t> bytes);
   // Advances time without polls and arrivals, in whole ticks: a stopped process.
   void pause(Duration length) { now_ += kTick * (length / kTick); }
-  telemetry::Address car_address(telemetry::PathId path) const { return car_side_.address[path]; }
-  telemetry::Address base_address(telemetry::PathId path) const { return base_side_.address[path]; }
+  UdpAddress car_address(telemetry::PathId path) const { return car_side_.address[path]; }
+  UdpAddress base_address(telemetry::PathId path) const { return base_side_.address[path]; }
   // Groups that the car samples (default: all); other groups are never sent.
   void sample_only(telemetry::GroupSet groups) { sampled_ = groups; }
 
@@ -138,7 +138,7 @@ class VirtualRadio {
     bool arrived = false;
   };
   struct Side {
-    std::array<telemetry::Address, telemetry::kPaths> address{};
+    std::array<UdpAddress, telemetry::kPaths> address{};
     std::array<bool, telemetry::kPaths> cut{};
     Instant there{};  // away before this time
   };

@@ -49,7 +49,7 @@ struct SensorPlan {
 std::string topic_of(std::size_t receiver) { return "/gnss/" + std::to_string(receiver); }
 
 // Of no socket: a timeline has to tell the receivers apart, wherever they are.
-transport::UdpAddress any_address(std::size_t receiver) {
+UdpAddress any_address(std::size_t receiver) {
   return {.port = static_cast<std::uint16_t>(1 + receiver)};
 }
 

@@ -4,9 +4,9 @@
 #include <algorithm>
 
 #include "hil/bench/lockstep/lockstep.hpp"
-#include "protocol/transport/allocation_count.hpp"
 #include "protocol/transport/clock.hpp"
 #include "tests/benchmarks/cost/reference_cost.hpp"
+#include "tests/support/allocation_guard.hpp"
 
 namespace pitwall::benchmarks {
 namespace {
@@ -39,7 +39,7 @@ Result<StepTimes, Problem> time_steps(const bench::Loaded& loaded) {
       const std::optional<Duration> rewind = rewind_of(car, in.sensors);
       pipeline::Outputs out;
       const Duration before = transport::thread_time();
-      times.allocations += transport::allocations_of([&] { out = pipeline::step(setup, car, in); });
+      times.allocations += testing::allocations_of([&] { out = pipeline::step(setup, car, in); });
       const double took_us = cost::microseconds_of(transport::thread_time() - before);
       if (tick == times.steps.size()) times.steps.push_back({took_us, rewind});
       times.steps[tick].least_us = std::min(times.steps[tick].least_us, took_us);

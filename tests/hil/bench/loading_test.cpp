@@ -5,6 +5,11 @@
 
 #include "protocol/transport/file.hpp"
 #include "tests/hil/bench/flying_lap.hpp"
+#include "vehicle/parameters/car_file.hpp"
+#include "vehicle/parameters/car_setup.hpp"
+#include "vehicle/parameters/track_file.hpp"
+#include "vehicle/raceline/bank_builder.hpp"
+#include "vehicle/raceline/bank_file.hpp"
 
 namespace pitwall::bench {
 namespace {
@@ -130,6 +135,26 @@ TEST_F(Loading, ThePlantIsTheBuiltInOneOrThatOfItsFile) {
   EXPECT_EQ(loaded->scenario.plant.chassis.mass_kg, 700.0);
   ASSERT_TRUE(transport::write_file(path("plant.yaml"), head + "-700, source: a scale}\n"));
   expect_refusal("plant.yaml:5:", "chassis.mass_kg");
+}
+
+// The lines of a bank leave room for the width of the car file; the walls meet the modelled one.
+TEST_F(Loading, TheCarAndItsModelAreOfOneWidth) {
+  replace(car_, "width_m: 1.93", "width_m: 1.83");
+  expect_refusal("car.yaml", "width_m is 1.830, but the modelled car is 1.930 m wide");
+}
+
+TEST_F(Loading, ABankIsReadFromBesideTheCarFile) {
+  replace(car_, "    offset_m: 0.0\n", "    bank: <track>.json\n    name: inner/apex\n");
+  expect_refusal(path("track.json"), "error");
+  const auto car = parameters::read_car(car_, path("car.yaml"));
+  const auto track = parameters::read_track(track_, path("track.yaml"));
+  const auto map = world::TrackMap::build(*track);
+  const auto bank = raceline::build_bank(*track, *map, parameters::bank_for(car->params));
+  ASSERT_TRUE(bank) << to_string(bank.error());
+  ASSERT_TRUE(transport::write_file(path("track.json"), raceline::to_json(*bank)));
+  const auto loaded = load_all();
+  ASSERT_TRUE(loaded) << to_string(loaded.error());
+  EXPECT_EQ(bank->lines[loaded->setup.line.number - 1].name, "inner/apex");
 }
 
 }  // namespace

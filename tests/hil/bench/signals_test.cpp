@@ -152,8 +152,8 @@ TEST(Signals, AStopForTheBaseStationNeedsAGapThatExplainsIt) {
 TEST(Signals, TheLimitOfTheGapIsThatOfTheCarFile) {
   pipeline::CarParams params;
   EXPECT_EQ(radio_limit_of(params), seconds(3));
-  params.radio.ladder.no_comm_drives = false;
-  EXPECT_EQ(radio_limit_of(params), params.radio.ladder.no_comm);
+  params.radio.link_loss.no_comm_drives = false;
+  EXPECT_EQ(radio_limit_of(params), params.radio.link_loss.no_comm);
 }
 
 TEST(Signals, AnExpectationOfAScenarioIsGradedInItsWindow) {

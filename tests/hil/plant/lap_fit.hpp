@@ -16,8 +16,8 @@
 #include <span>
 #include <vector>
 
-#include "hil/plant/single_track.hpp"
 #include "protocol/vocabulary/result.hpp"
+#include "tests/hil/plant/single_track.hpp"
 
 namespace pitwall::plant {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "hil/plant/single_track.hpp"
+#include "tests/hil/plant/single_track.hpp"
 
 #include <gtest/gtest.h>
 

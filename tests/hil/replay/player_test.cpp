@@ -270,7 +270,7 @@ TEST(Player, FramesAndDatagramsOfAllTracksKeepOneOrder) {
   std::mt19937_64 random(47);
   for (int round = 0; round < 100; ++round) {
     Timeline t;
-    t.tracks = {{.target = "a"}, {.target = "b"}, {.target = "c", .to = transport::UdpAddress{}}};
+    t.tracks = {{.target = "a"}, {.target = "b"}, {.target = "c", .to = UdpAddress{}}};
     std::int64_t due_us = 0;
     for (int i = 0; i < 400; ++i) {
       Track& track = t.tracks[random() % 3];
@@ -303,7 +303,7 @@ TEST(Player, FramesAndDatagramsOfAllTracksKeepOneOrder) {
 
 TEST(Player, DroppedDatagramsAreCountedApartFromFrames) {
   Timeline t = timeline_of(every_ms(3));
-  t.tracks.push_back({.target = "r", .due = t.tracks[0].due, .to = transport::UdpAddress{}});
+  t.tracks.push_back({.target = "r", .due = t.tracks[0].due, .to = UdpAddress{}});
   VirtualIo io{.room = 0, .room_again = false};
   const auto report = Player(t, {.passes = 2}, io).play({});
   EXPECT_EQ(report.frames.dropped_refused, 6U);

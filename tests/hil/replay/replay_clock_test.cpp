@@ -49,8 +49,8 @@ class ReplayByBenchTime : public ::testing::Test {
     std::atomic<int> code = -1;
     std::thread replay{[&] {
       code = replay_verb(std::vector<std::string>{box_, "--receiver",
-                                                  "/gnss/0=" + transport::to_string(port_->local()),
-                                                  "--clock", clock_, "--json", json_});
+                                                  "/gnss/0=" + to_string(port_->local()), "--clock",
+                                                  clock_, "--json", json_});
     }};
     while (code < 0) meanwhile();
     replay.join();

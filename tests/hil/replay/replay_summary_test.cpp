@@ -58,7 +58,7 @@ TEST(ReplaySummary, DatagramsAndWhatIsNotPlayedStandApart) {
   Timeline t = one_bus();
   t.tracks.push_back({.target = "127.0.0.1:3001",
                       .due = {milliseconds(2)},
-                      .to = transport::UdpAddress{.port = 3'001},
+                      .to = UdpAddress{.port = 3'001},
                       .datagrams = {.bytes = {1, 2, 3}, .ends = {3}}});
   t.datagrams = 1;
   t.filtered = 6;

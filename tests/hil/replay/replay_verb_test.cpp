@@ -128,7 +128,7 @@ class ReplayRecording : public pitwall::testing::UnixBusBench {
     return code;
   }
 
-  std::string address() const { return "/gnss/0=" + transport::to_string(port_->local()); }
+  std::string address() const { return "/gnss/0=" + to_string(port_->local()); }
 
   std::unique_ptr<pitwall::testing::RawClient> client_;
   std::optional<transport::UdpSocket> port_;
@@ -174,10 +174,9 @@ TEST_F(ReplayRecording, ACarThatConnectsByTcpGetsAllBytesFromTheFirstOn) {
   auto free = transport::StreamSender::listen({});
   ASSERT_TRUE(free);
   const transport::TcpAddress address = free->local();
-  const std::string target = "/gnss/0=tcp:" + transport::to_string(address);
+  const std::string target = "/gnss/0=tcp:" + to_string(address);
   EXPECT_EQ(play({"--receiver", target}), 2);  // the port is taken
-  EXPECT_NE(warned_.find("\n" + transport::to_string(address) + ": error: "), std::string::npos)
-      << warned_;
+  EXPECT_NE(warned_.find("\n" + to_string(address) + ": error: "), std::string::npos) << warned_;
   static_cast<void>(transport::StreamSender(*std::move(free)));  // closed again
   caller_.emplace(address);
   ASSERT_EQ(play({"--receiver", target, "--map", "/can/in=" + bus_, "--speed", "5", "--loop", "2",
@@ -203,7 +202,7 @@ TEST_F(ReplayRecording, ASerialLineCarriesTheBytesOfTheReceiver) {
 TEST_F(ReplayRecording, WithoutACallerTheRecordsAreDroppedAndTheExitCodeIsOne) {
   auto free = transport::StreamSender::listen({});
   ASSERT_TRUE(free);
-  const std::string address = transport::to_string(free->local());
+  const std::string address = to_string(free->local());
   static_cast<void>(transport::StreamSender(*std::move(free)));  // closed again
   EXPECT_EQ(play({"--receiver", "/gnss/0=tcp:" + address, "--speed", "50"}), 1);
   EXPECT_NE(warned_.find("dropped 50 records without a reader"), std::string::npos) << warned_;

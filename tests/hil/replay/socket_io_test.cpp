@@ -76,7 +76,7 @@ std::uint16_t free_port() {
 }
 
 // Records of 2 kB each 100 us to a TCP port, and at the same times datagrams of one byte to `udp`.
-Timeline stream_and_datagrams(std::uint16_t tcp, transport::UdpAddress udp, std::size_t records) {
+Timeline stream_and_datagrams(std::uint16_t tcp, UdpAddress udp, std::size_t records) {
   Timeline timeline;
   timeline.tracks.push_back({.target = "tcp", .to = TcpPort{{.port = tcp}}});
   timeline.tracks.push_back({.target = "udp", .to = udp});
@@ -135,7 +135,7 @@ TEST(SocketIo, WithoutACallerTheRecordsOfAStreamAreDroppedAndCounted) {
 TEST(SocketIo, AnAddressWithoutAWayIsNamed) {
   Timeline timeline;
   timeline.tracks.push_back(
-      {.target = "255.255.255.255:9", .to = transport::UdpAddress{.ip = 0xFFFF'FFFF, .port = 9}});
+      {.target = "255.255.255.255:9", .to = UdpAddress{.ip = 0xFFFF'FFFF, .port = 9}});
   const auto io = SocketIo::open(timeline);
   ASSERT_FALSE(io.has_value());
   EXPECT_EQ(io.error().place, "255.255.255.255:9");

@@ -11,7 +11,7 @@ UtcTime after(Duration d) { return {kBegin.ns + d.ns}; }
 
 TEST(TimelineBuilder, BytesOfARecordAreCutIntoDatagramsThatAreDueTogether) {
   TimelineBuilder builder{"recording", kBegin, {}};
-  const std::size_t track = builder.bytes(transport::UdpAddress{.port = 3'001});
+  const std::size_t track = builder.bytes(UdpAddress{.port = 3'001});
   std::vector<std::uint8_t> bytes(2 * transport::kMaxDatagramBytes + 1);
   for (std::size_t i = 0; i < bytes.size(); ++i) bytes[i] = static_cast<std::uint8_t>(i * 7);
   builder.add(track, kBegin, std::vector<std::uint8_t>{9});
@@ -33,7 +33,7 @@ TEST(TimelineBuilder, BytesOfARecordAreCutIntoDatagramsThatAreDueTogether) {
 TEST(TimelineBuilder, AnInterfaceHasOneTrackAndAReceiverItsOwnAndEmptyOnesAreNotThere) {
   TimelineBuilder builder{"recording", kBegin, {}};
   const std::size_t first = builder.bus("v0");
-  const std::size_t empty = builder.bytes(transport::UdpAddress{.port = 1});
+  const std::size_t empty = builder.bytes(UdpAddress{.port = 1});
   EXPECT_EQ(builder.bus("v0"), first);
   EXPECT_NE(empty, first);
   const std::size_t other = builder.bus("v1");
@@ -55,7 +55,7 @@ TEST(TimelineBuilder, NothingToPlaySaysWhatWasLeftOutAndTooLongSaysSo) {
   ASSERT_FALSE(nothing.has_value());
   EXPECT_EQ(nothing.error().what, "nothing is left of it to play; /imu: has no way");
   TimelineBuilder builder{"recording", kBegin, {}};
-  const std::size_t track = builder.bytes(transport::UdpAddress{.port = 1});
+  const std::size_t track = builder.bytes(UdpAddress{.port = 1});
   builder.add(track, kBegin, std::vector<std::uint8_t>{1});
   builder.add(track, after(seconds(400LL * 24 * 3'600)), std::vector<std::uint8_t>{1});
   const auto slow = std::move(builder).finish();

@@ -190,7 +190,7 @@ TEST(Timeline, OneFrameIsATimeline) {
   EXPECT_EQ(t->tracks[0].due[0].ns, 0);
 }
 
-constexpr transport::UdpAddress kFirst{.port = 3'001}, kSecond{.port = 3'002};
+constexpr UdpAddress kFirst{.port = 3'001}, kSecond{.port = 3'002};
 
 // A car's bus in both directions, two receivers and a ROS topic; one record of each per
 // millisecond, in the file the other way round than in the total order.

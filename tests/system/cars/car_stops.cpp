@@ -13,8 +13,8 @@
 
 #include "hil/bench/lockstep/lockstep.hpp"
 #include "hil/bench/signals.hpp"
-#include "hil/plant/family/grip_limit.hpp"
 #include "protocol/vocabulary/check.hpp"
+#include "tests/hil/plant/family/grip_limit.hpp"
 #include "tests/support/path_distance.hpp"
 #include "vehicle/steering/road_load.hpp"
 

@@ -9,7 +9,7 @@
 #include <span>
 #include <vector>
 
-#include "hil/plant/family/car_family.hpp"
+#include "tests/hil/plant/family/car_family.hpp"
 #include "tests/system/cars/car_stops.hpp"
 
 namespace pitwall::testing {

@@ -267,6 +267,9 @@ export class Double {
       }));
       socket.send(wire.history(message.field, points, { timeMs: this.nowMs() }));
     }
+    if (message.type === "lap") {
+      socket.send(wire.lap(message.lap, this.laps[message.lap], { timeMs: this.nowMs() }));
+    }
     this.answers?.(message, (answer) => this.say(answer));
   }
 

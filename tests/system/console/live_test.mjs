@@ -311,3 +311,74 @@ test("laps lie over each other by distance", async () => {
   );
   assert.deepEqual(faults, []);
 });
+
+/** Three laps: one without its start, the best one, and a slower one with a gap that is driven. */
+function laps(nowMs) {
+  const at = (lap, endMs, more) => ({
+    id: lap,
+    number: lap,
+    begin_ms: nowMs - 60_000 + lap,
+    end_ms: endMs,
+    time_s: null,
+    start_seen: true,
+    finish_seen: endMs !== null,
+    gap_s: 0,
+    ...more,
+  });
+  const table = {
+    type: "laps",
+    length_m: 500,
+    step_m: 5,
+    best: 2,
+    laps: [
+      at(1, nowMs - 50_000, { start_seen: false }),
+      at(2, nowMs - 40_000, { time_s: 10 }),
+      at(3, null, { gap_s: 2 }),
+    ],
+  };
+  const columns = (secondsAPoint, silent) => {
+    const known = (value) =>
+      Array.from({ length: 100 }, (_, i) => (i > silent[0] && i < silent[1] ? NaN : value(i)));
+    return [known((i) => i * secondsAPoint), ...Array.from({ length: 4 }, () => known(() => 1))];
+  };
+  const points = { 1: columns(0.2, [0, 0]), 2: columns(0.1, [0, 0]), 3: columns(0.102, [40, 60]) };
+  return { table, points };
+}
+
+test("a lap is compared with a reference, place by place", async () => {
+  const { table, points } = laps(stage.double.nowMs());
+  stage.double.greetings = [table];
+  stage.double.laps = points;
+  const { page, faults } = await stage.open({ hash: "#/plots" });
+  delete stage.double.greetings;
+  await page.locator('.plots label:has-text("over") select').selectOption("laps");
+  const delta = (what, text) =>
+    until(
+      page,
+      what,
+      (wanted) => {
+        const chart = document.querySelector('[aria-label^="laps compared: time"]');
+        return chart?.querySelector(".read-outs")?.textContent === wanted;
+      },
+      text,
+    );
+  await delta("the time lost at the end of the lap", "lap 3+0.198 s");
+  assert.deepEqual(await page.locator(".lap-table tbody .time").allTextContents(), [
+    "not finished, gap of 2.0 s",
+    "0:10.000",
+    "incomplete: start not seen",
+  ]);
+  const gap = await page.evaluate(() => {
+    const { laps: store } = globalThis.pitwall.session.shownCar.value;
+    return store.points(3).columns.time.slice(39, 62).filter(Number.isNaN).length;
+  });
+  assert.equal(gap, 19, "what was not received is not there");
+  await page.screenshot({ path: join(kScreenshots, "laps_compared.png") });
+  await page.click('[aria-label="compare with lap 3"]');
+  await delta("no difference to itself", "lap 30.000 s");
+  await page.click('button:has-text("Against the best")');
+  await page.click('[aria-label="show lap 1"]');
+  await delta("why there is none", "the start of lap 1 was not seen\u2013");
+  await page.locator('.plots label:has-text("over") select').selectOption("time");
+  assert.deepEqual(faults, []);
+});

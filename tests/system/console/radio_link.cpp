@@ -16,7 +16,7 @@ namespace {
 
 // Of a socket that is gone again.
 Result<std::uint16_t, Problem> free_port() {
-  auto socket = transport::UdpSocket::bind({.ip = transport::kLoopbackIp});
+  auto socket = transport::UdpSocket::bind({.ip = kLoopbackIp});
   if (!socket) return Unexpected{socket.error()};
   return socket->local().port;
 }

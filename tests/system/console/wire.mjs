@@ -80,3 +80,23 @@ export function history(field, points, { car = 7, timeMs }) {
   });
   return Buffer.from(bytes);
 }
+
+/** The points of a lap: columns of equal length. */
+export function lap(number, columns, { car = 7, timeMs, stepM = 5 }) {
+  const bytes = new ArrayBuffer(40 + 4 * columns.length * columns[0].length);
+  const view = head(bytes, {
+    kind: 3,
+    car,
+    flags: 0,
+    count: 1,
+    sequence: 0,
+    dropped: 0,
+    timeMs,
+  });
+  view.setUint32(24, number, true);
+  view.setUint32(28, columns.length, true);
+  view.setUint32(32, columns[0].length, true);
+  view.setFloat32(36, stepM, true);
+  columns.flat().forEach((value, i) => view.setFloat32(40 + 4 * i, value, true));
+  return Buffer.from(bytes);
+}

@@ -69,7 +69,7 @@ TEST(StopRules, EachOfThePapersHasAScenarioWithItsOwnDeadline) {
     ASSERT_TRUE(rule) << name << ": does not say which rule stops the car";
     const auto cause = static_cast<Cause>(static_cast<int>(rule->value));
     const safety::CauseRow& row = safety::row_of(cause);
-    EXPECT_TRUE(row.of_the_paper) << name << ": " << row.text;
+    EXPECT_TRUE(row.listed_in_paper) << name << ": " << row.text;
     EXPECT_TRUE(covered.emplace(cause, name).second) << name << ": a second one of its rule";
     const Duration extra = cause == Cause::kLocalizationUncertain ? kRefusal : Duration{};
     EXPECT_LE(rule->until - rule->from, row.deadline + extra) << name;
@@ -82,7 +82,7 @@ TEST(StopRules, EachOfThePapersHasAScenarioWithItsOwnDeadline) {
           << name << ": " << asked;
   }
   for (const safety::CauseRow& row : safety::kCauseTable) {
-    EXPECT_TRUE(!row.of_the_paper || covered.contains(row.cause)) << "no scenario: " << row.text;
+    EXPECT_TRUE(!row.listed_in_paper || covered.contains(row.cause)) << "no scenario: " << row.text;
   }
 }
 

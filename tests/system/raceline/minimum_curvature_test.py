@@ -102,8 +102,11 @@ def main():
     with tempfile.TemporaryDirectory() as folder:
         track, bank = Path(folder, "circuit.yaml"), Path(folder, "bank.json")
         track.write_text(circuit.yaml_text())
-        done = subprocess.run([PROGRAM, track, "--car", TREE / "vehicle/config/cars/av21.yaml",
-                               "--out", bank, "--car-width", str(CAR_WIDTH_M), "--clearance",
+        car = Path(folder, "car.yaml")
+        av21 = (TREE / "vehicle/config/cars/av21.yaml").read_text()
+        car.write_text(av21.replace("\nwidth_m: 1.93", f"\nwidth_m: {CAR_WIDTH_M}"))
+        expect(f"width_m: {CAR_WIDTH_M}" in car.read_text(), "the car file has no width of 1.93 m")
+        done = subprocess.run([PROGRAM, track, "--car", car, "--out", bank, "--clearance",
                                str(CLEARANCE_M)], capture_output=True, text=True, timeout=60)
         expect(done.returncode == 0, done.stderr)
         lines = {line["name"]: line for line in json.loads(bank.read_text())["lines"]}

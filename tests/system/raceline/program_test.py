@@ -23,9 +23,9 @@ NAMES = ["inner/inside", "inner/centre", "inner/outside", "inner/apex", "outer/i
 POSITION_OFF_M = 0.05
 
 
-def raceline(track, *arguments):
+def raceline(track, *arguments, car=CAR):
     return subprocess.run([PROGRAM, TRACKS / track if isinstance(track, str) else track, "--car",
-                           CAR, *arguments], capture_output=True, text=True, timeout=60)
+                           car, *arguments], capture_output=True, text=True, timeout=60)
 
 
 class ProgramTest(unittest.TestCase):
@@ -104,8 +104,10 @@ class ProgramTest(unittest.TestCase):
                     "the curvature jumps: the points turn with 0.00")
 
     def test_a_wider_car_leaves_its_lane(self):
-        bank = self.make("lvms.yaml")
-        self.refuse(raceline("lvms.yaml", "--check", bank, "--car-width", "2.8"),
+        bank = self.make("lvms.yaml", "--clearance", "0.3")
+        wide = self.folder / "wide.yaml"
+        wide.write_text(CAR.read_text().replace("width_m: 1.93", "width_m: 2.8", 1))
+        self.refuse(raceline("lvms.yaml", "--check", bank, car=wide),
                     "inner/inside: s = ", "leaves the inner lane: the side of the car is 0.")
 
     def test_chosen_apexes_move_the_line(self):

@@ -16,7 +16,6 @@
 namespace pitwall::radio {
 namespace {
 
-using telemetry::Address;
 using telemetry::PathId;
 using telemetry::StopLevel;
 using Bytes = std::vector<std::uint8_t>;
@@ -122,7 +121,7 @@ class Flooded {
     due_ += flood_->per_second * 1e-3;
     for (; due_ >= 1.0; due_ -= 1.0, ++sent_) {
       const auto n = static_cast<std::uint32_t>(sent_);
-      const Address from{0x0A010000U + (flood_->many_addresses ? n % 50'000U : 0U), 7'000};
+      const UdpAddress from{0x0A010000U + (flood_->many_addresses ? n % 50'000U : 0U), 7'000};
       radio.inject(true, 0, from, recorded()[n % flood_->distinct]);
     }
   }

@@ -15,12 +15,11 @@
 namespace pitwall::radio {
 namespace {
 
-using telemetry::Address;
 using telemetry::Group;
 using telemetry::PathId;
 
 constexpr int kSeeds = 1'000;
-constexpr Address kSecondHome{0x0A000007, 5'700};
+constexpr UdpAddress kSecondHome{0x0A000007, 5'700};
 
 class Scene {
  public:
@@ -69,12 +68,12 @@ class Scene {
   }
 };
 
-Address anywhere(std::mt19937& random) {
+UdpAddress anywhere(std::mt19937& random) {
   return {0x0A020000U + static_cast<std::uint32_t>(random() % 60'000),
           static_cast<std::uint16_t>(12'000 + random() % 20'000)};
 }
 
-Address home(const Scene& scene, PathId path) {
+UdpAddress home(const Scene& scene, PathId path) {
   // Where a car looks for its base from the beginning.
   static const VirtualRadio kFresh(setup_of(clean_link(), 2));
   (void)scene;
@@ -100,7 +99,7 @@ TEST(Return, FromARaceInWhichBothEndsMove) {
       scene.run(scene.some(1, 400));
     }
     for (PathId path = 0; path < paths; ++path) {
-      const Address second{kSecondHome.ip, static_cast<std::uint16_t>(kSecondHome.port + path)};
+      const UdpAddress second{kSecondHome.ip, static_cast<std::uint16_t>(kSecondHome.port + path)};
       scene.radio.move_base(path, scene.random() % 2 == 0 ? home(scene, path) : second);
     }
     const Duration back = scene.time_to_link();
@@ -140,7 +139,7 @@ TEST(Return, ToASpareBaseAfterTheOneThatMovedDied) {
     scene.run(scene.some(20, 2'000));
     const bool second = scene.random() % 2 == 0;
     for (PathId path = 0; path < paths; ++path) {
-      const Address spare{kSecondHome.ip, static_cast<std::uint16_t>(kSecondHome.port + path)};
+      const UdpAddress spare{kSecondHome.ip, static_cast<std::uint16_t>(kSecondHome.port + path)};
       scene.radio.move_base(path, second ? spare : home(scene, path));
     }
     const Duration away = scene.some(0, 3'000);

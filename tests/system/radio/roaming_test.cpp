@@ -9,10 +9,9 @@
 namespace pitwall::radio {
 namespace {
 
-using telemetry::Address;
 using telemetry::PathId;
 
-Address address(std::uint32_t n) {
+UdpAddress address(std::uint32_t n) {
   return {0x0A010000U + n, static_cast<std::uint16_t>(10'000 + n * 7)};
 }
 
@@ -84,7 +83,7 @@ TEST(Roaming, AReplayedPacketFromElsewhereRedirectsNothing) {
     return true;
   });
   radio.run(seconds(5));
-  const Address before = radio.base_report().paths[0].peer;
+  const UdpAddress before = radio.base_report().paths[0].peer;
   std::uint64_t to_thief = 0;
   for (int i = 0; i < 500; ++i) {
     radio.inject(true, 0, address(99), newest);

@@ -7,12 +7,11 @@
 
 namespace pitwall::explorer {
 
-using telemetry::Address;
 using telemetry::PathAddresses;
 
 namespace {
 
-std::size_t index_of(Address address) { return address == kHome ? 0 : address == kAway ? 1 : 2; }
+std::size_t index_of(UdpAddress address) { return address == kHome ? 0 : address == kAway ? 1 : 2; }
 
 }  // namespace
 
@@ -31,13 +30,13 @@ DownRoute BaseAddressModel::car_sends(bool to_trial) const {
   return {.to = base_seen_.targets(1).back(), .probe = base_seen_.token()};
 }
 
-bool BaseAddressModel::car_receives(const UpRoute& route, Address from, Instant now) {
+bool BaseAddressModel::car_receives(const UpRoute& route, UdpAddress from, Instant now) {
   received_ = true;
   searched_ = false;
   const bool newest = route.number > newest_;
   newest_ = std::max(newest_, route.number);
   const auto token = base_seen_.token();
-  const Address proved = base_seen_.proved();
+  const UdpAddress proved = base_seen_.proved();
   base_seen_.receive({.from = from, .size = 1'000, .number = route.number, .newest = newest}, now,
                      randomness_);
   if (base_seen_.token() && base_seen_.token() != token) {
@@ -52,7 +51,7 @@ bool BaseAddressModel::car_receives(const UpRoute& route, Address from, Instant 
   }
   const bool base_lives = base_received_ && now - *base_received_ < PathAddresses::kInUse &&
                           newest_of_base_ >= trial_first_;
-  const Address now_proved = base_seen_.proved();
+  const UdpAddress now_proved = base_seen_.proved();
   if (now_proved == proved) return true;
   return reached_[index_of(now_proved)] && !(now_proved == kRelay && base_lives);
 }

@@ -21,7 +21,7 @@ struct Fingerprint;
 
 namespace pitwall::explorer {
 
-inline constexpr telemetry::Address kHome{1, 1}, kAway{1, 2}, kRelay{9, 9};
+inline constexpr UdpAddress kHome{1, 1}, kAway{1, 2}, kRelay{9, 9};
 
 // Planted faults of the address tracking, to check that the explorer finds them.
 enum class PlantedRoam : std::uint8_t {
@@ -31,12 +31,12 @@ enum class PlantedRoam : std::uint8_t {
 };
 
 struct UpRoute {
-  telemetry::Address from;
+  UdpAddress from;
   std::uint8_t number = 0;
   std::optional<std::uint64_t> proof;
 };
 struct DownRoute {
-  telemetry::Address to;
+  UdpAddress to;
   std::optional<std::uint64_t> probe;
 };
 
@@ -48,7 +48,7 @@ class BaseAddressModel {
   DownRoute car_sends(bool to_trial) const;
   bool on_trial() const { return base_seen_.token().has_value(); }
   // False if an address has become proved that must not be.
-  [[nodiscard]] bool car_receives(const UpRoute& route, telemetry::Address from, Instant now);
+  [[nodiscard]] bool car_receives(const UpRoute& route, UdpAddress from, Instant now);
   // True if the packet arrives.
   bool base_receives(const DownRoute& route);
   void base_moves();
@@ -64,7 +64,7 @@ class BaseAddressModel {
   PlantedRoam planted_;
   telemetry::SeededRandomness randomness_{1};
   std::uint8_t trials_ = 0;
-  telemetry::Address base_at_ = kHome;
+  UdpAddress base_at_ = kHome;
   telemetry::PathAddresses base_seen_;
   std::optional<std::uint64_t> owed_;  // proof that the base has to send
   std::uint8_t sent_ = 0, newest_ = 0, newest_of_base_ = 0, trial_first_ = 0;

@@ -6,8 +6,8 @@
 #include <cmath>
 
 #include "hil/nodes/raptor.hpp"
-#include "hil/plant/family/grip_limit.hpp"
-#include "hil/plant/family/steady_turn.hpp"
+#include "tests/hil/plant/family/grip_limit.hpp"
+#include "tests/hil/plant/family/steady_turn.hpp"
 #include "vehicle/safety/causes.hpp"
 #include "vehicle/safety/stop_brake.hpp"
 
@@ -90,7 +90,7 @@ class LostCar {
   double reacts_after_s() const {
     switch (of_.loss) {
       case Loss::kSteering:
-        return deadline_s(safety::Cause::kSteeringStrays);
+        return deadline_s(safety::Cause::kSteeringDeviates);
       case Loss::kReference:
         return deadline_s(safety::Cause::kImuLost);
       case Loss::kComputer:

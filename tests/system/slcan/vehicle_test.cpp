@@ -40,7 +40,7 @@ class Vehicle : public ::testing::Test {
     auto folder = transport::TemporaryFolder::create("pitwall-slcan-");
     ASSERT_TRUE(folder) << to_string(folder.error());
     folder_.emplace(*std::move(folder));
-    auto report = transport::UdpSocket::bind({.ip = transport::kLoopbackIp, .port = 0});
+    auto report = transport::UdpSocket::bind({.ip = kLoopbackIp, .port = 0});
     ASSERT_TRUE(report) << to_string(report.error());
     report_.emplace(*std::move(report));
   }

@@ -53,7 +53,7 @@ class VehicleOnUnixBus : public ::testing::Test {
     auto folder = transport::TemporaryFolder::create("pitwall-unix-vehicle-");
     ASSERT_TRUE(folder) << to_string(folder.error());
     folder_.emplace(*std::move(folder));
-    auto report = transport::UdpSocket::bind({.ip = transport::kLoopbackIp, .port = 0});
+    auto report = transport::UdpSocket::bind({.ip = kLoopbackIp, .port = 0});
     ASSERT_TRUE(report) << to_string(report.error());
     report_.emplace(*std::move(report));
   }
@@ -207,14 +207,14 @@ TEST_F(VehicleOnUnixBus, TellsAtItsOwnTerminalOfASilentBaseAndOfAFlood) {
   keys.peer = telemetry::make_identity(randomness).public_key;
   const std::string key_file = folder_->path() + "/car.keys";
   ASSERT_TRUE(transport::write_private_file(key_file, telemetry::text_of(keys)));
-  auto base = transport::UdpSocket::bind({.ip = transport::kLoopbackIp, .port = 0});
+  auto base = transport::UdpSocket::bind({.ip = kLoopbackIp, .port = 0});
   ASSERT_TRUE(base) << to_string(base.error());
   Process hub = start_hub();
   Process vehicle = start_vehicle({"--gnss", "23511,23512"},
                                   {"--radio", to_string(base->local()), "--keys", key_file});
   std::vector<transport::UdpDatagram> datagrams(8);
   ASSERT_TRUE(comes_true([&] { return base->receive(datagrams) > 0; })) << output();
-  const transport::UdpAddress car = datagrams[0].from;
+  const UdpAddress car = datagrams[0].from;
   const Instant opened = transport::monotonic_now();
   EXPECT_TRUE(comes_true([&] { return times_stated("no answer from the base station") > 0; }))
       << output();

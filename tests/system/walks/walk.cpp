@@ -113,7 +113,7 @@ class Car {
         wheels_(had(transport::CanSocket::open("unix:" + folder + "/bus"))),
         setup_(made_setup()),
         car_io_(had(io::CarIo::open(arguments(folder), setup_.params.receivers))),
-        box_(had(io::BlackBox::open("", "", ""))),
+        box_(had(io::BlackBox::open("", {}))),
         radio_(had(
             io::Radio::open({{base}, folder + "/" + link::kCarKeys}, setup_.params.radio, true))) {}
 

@@ -9,7 +9,8 @@ Which of two threads is first at a queue decides on some lines: a file may be mi
 must be entered in one of TRIES walks; one that is not listed must never be.
 A file is entered when an instruction of one of its lines is executed, inlined ones too. Files of
 a pair count as one. What a tick, a turn or a packet does beside the value is another walk: SIDE
-says which functions begin one, and why.
+says which functions begin one, and why. Lines of a class or a namespace of SIDE that the compiler
+has put into a caller are its lines still.
 SPDX-License-Identifier: Apache-2.0
 """
 import collections
@@ -27,9 +28,10 @@ SIDE = {
     "what else a tick does": [
         "localization::", "planning::", "control::", "steering::", "safety::", "gateway::encode",
         "gateway::handshake", "gateway::identify", "gateway::store_command",
-        "gateway::observe_link", "gateway::judge_frozen", "pipeline::map_health",
-        "pipeline::conclude", "pipeline::TickLog", "pipeline::RadioAdapter::take",
-        "pipeline::RadioAdapter::show", "io::BusWatch", "io::LinkObserver", "io::ReceiverPort",
+        "gateway::observe_link", "gateway::judge_frozen", "gateway::BusLoad",
+        "pipeline::map_health", "pipeline::conclude", "pipeline::TickLog",
+        "pipeline::RadioAdapter::take", "pipeline::RadioAdapter::show", "io::BlackBox",
+        "io::BusWatch", "io::LinkObserver", "io::ReceiverPort",
         "io::CarIo::write", "io::CarIo::poll_bus"],
     "how sockets and clocks are kept": [
         "transport::CanSocket::follow_clock", "transport::CanSocket::poll_drops",
@@ -37,20 +39,21 @@ SIDE = {
         "transport::realtime_minus", "transport::utc_now", "transport::wait_readable",
         "transport::sleep_until"],
     "how a link is kept: receipts, budget, paths, keys, what else is in a packet": [
-        "telemetry::ReceivedPackets", "telemetry::SentPackets", "telemetry::ClockSync",
-        "telemetry::LinkStats", "telemetry::PathBudget", "telemetry::RateControl",
-        "telemetry::PathChoice", "telemetry::ThreatMonitor", "telemetry::SchemaExchange",
-        "telemetry::Joystick", "telemetry::PathLane", "telemetry::Responder", "telemetry::put",
-        "telemetry::Bulk", "telemetry::EventReceiver", "telemetry::EventSender",
-        "telemetry::LinkEndpoint::add_path_records", "telemetry::LinkEndpoint::path_records_size",
-        "telemetry::LinkEndpoint::take_path_records", "telemetry::LinkEndpoint::take_ack",
-        "telemetry::LinkEndpoint::report", "telemetry::LinkEndpoint::plan",
-        "telemetry::LinkEndpoint::begin", "telemetry::LinkEndpoint::note_session",
-        "telemetry::LinkEndpoint::exchange", "telemetry::LinkEndpoint::sendable_groups",
-        "telemetry::LinkEndpoint::round_trip", "telemetry::Association::probe",
-        "telemetry::Association::opening_due", "telemetry::Association::poll_size",
-        "telemetry::Association::heard", "telemetry::Association::note_sent",
-        "telemetry::StationEndpoint::due", "telemetry::CarEndpoint::due", "link::AgeStatistics",
+        "telemetry::ReceivedPackets", "telemetry::SentPackets", "telemetry::PathReceipts",
+        "telemetry::ClockSync", "telemetry::LinkStats", "telemetry::PathBudget",
+        "telemetry::RateControl", "telemetry::PathChoice", "telemetry::ThreatMonitor",
+        "telemetry::SchemaExchange", "telemetry::Joystick", "telemetry::PathLane",
+        "telemetry::Responder", "telemetry::put", "telemetry::Bulk", "telemetry::EventReceiver",
+        "telemetry::EventSender", "telemetry::LinkEndpoint::add_path_records",
+        "telemetry::LinkEndpoint::path_records_size", "telemetry::LinkEndpoint::take_path_records",
+        "telemetry::LinkEndpoint::take_ack", "telemetry::LinkEndpoint::report",
+        "telemetry::LinkEndpoint::plan", "telemetry::LinkEndpoint::begin",
+        "telemetry::LinkEndpoint::note_session", "telemetry::LinkEndpoint::exchange",
+        "telemetry::LinkEndpoint::sendable_groups", "telemetry::LinkEndpoint::round_trip",
+        "telemetry::Association::probe", "telemetry::Association::opening_due",
+        "telemetry::Association::poll_size", "telemetry::Association::heard",
+        "telemetry::Association::note_sent", "telemetry::StationEndpoint::due",
+        "telemetry::CarEndpoint::due", "link::AgeStatistics", "link::PacketRate",
         "link::LinkMeter", "service::LinkMonitor"],
     "what else a turn of the base does": [
         "service::CarService::advance", "service::CarService::identity", "session::", "inputs::",
@@ -131,6 +134,26 @@ def name_of(function):
     return name.split(" ")[-1].removeprefix("pitwall::")
 
 
+def namespace_of(path):
+    """The namespace of a source of the product, without pitwall."""
+    with open(path, encoding="utf-8") as text:
+        found = re.search(r"^namespace pitwall::([\w:]+) {", text.read(), re.MULTILINE)
+    return found[1] if found else ""
+
+
+def is_of_side(path, others):
+    """Whether the file is that of a class of SIDE (link::LinkMeter: link_meter), or all of its
+    namespace is (inputs::). A function of SIDE (io::CarIo::write) has no file of its own."""
+    name, _ = os.path.splitext(os.path.basename(path))
+    for other in others:
+        space, _, last = other.rpartition("::")
+        snake = re.sub(r"(?<!^)(?=[A-Z])", "_", last).lower()
+        is_class = last[:1].isupper() and snake == name
+        if (is_class or not last) and namespace_of(path) == space:
+            return True
+    return False
+
+
 def walked_files(record, walk, root):
     """Product files that the walk enters, without the suffixes of pairs."""
     lines, calls = calls_of(record, root)
@@ -152,7 +175,9 @@ def walked_files(record, walk, root):
     for function in seen:
         for path in lines.get(function, ()):
             inside = path.partition(root + "/")[2]
-            if inside and not inside.startswith("tests/") and not inside.startswith(EVERYWHERE):
+            if not inside or inside.startswith(("tests/", *EVERYWHERE)):
+                continue
+            if not is_of_side(path, others):
                 files.add(re.sub(r"^build/\w+/generated/", "", re.sub(r"\.[ch]pp$", "", inside)))
     return files
 

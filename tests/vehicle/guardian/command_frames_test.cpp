@@ -53,7 +53,7 @@ ReceivedCommands a_car() {
   return car;
 }
 
-TEST(Voice, HearsTheCommandsAndWhenTheyCame) {
+TEST(CommandFrames, ReceiveTheCommandsAndTheirTimes) {
   ReceivedCommands car;
   EXPECT_FALSE(car.complete());
   EXPECT_TRUE(receive(car, frame_of(brake(100.0, 1), Instant{5})));
@@ -66,7 +66,7 @@ TEST(Voice, HearsTheCommandsAndWhenTheyCame) {
   EXPECT_TRUE(a_car().complete());
 }
 
-TEST(Voice, DoesNotHearWhatIsNoCommand) {
+TEST(CommandFrames, IgnoreWhatIsNoCommand) {
   ReceivedCommands car;
   can::ReceivedFrame received = frame_of(brake(100.0, 1));
   for (const int what : {0, 1, 2, 3}) {
@@ -80,7 +80,7 @@ TEST(Voice, DoesNotHearWhatIsNoCommand) {
   EXPECT_FALSE(car.commanded);
 }
 
-TEST(Voice, KnowsWhatTheCarWasToldLast) {
+TEST(CommandFrames, HoldTheLastCommand) {
   const ReceivedCommands car = a_car();
   const world::ActuatorCommand command = command_of(car, 19.5);
   EXPECT_NEAR(command.road_wheel_rad, from_deg(1.0), 1e-3);
@@ -94,13 +94,13 @@ TEST(Voice, KnowsWhatTheCarWasToldLast) {
   EXPECT_EQ(counters.report, 9);
 }
 
-TEST(Voice, RepeatsItBitForBit) {
+TEST(CommandFrames, RepeatItBitForBit) {
   const CommandFrames frames = repeat(a_car());
   ASSERT_EQ(frames.size(), 5u);
   EXPECT_EQ(frames[0], frame_of(brake(120.0, 41)).frame);
 }
 
-TEST(Voice, SpeaksOnlyWhatTheDatabaseGivesToTheComputer) {
+TEST(CommandFrames, SendOnlyWhatTheDatabaseGivesToTheComputer) {
   ReceivedCommands car = a_car();
   receive(car, frame_of(av21::CtReport2{.marelli_track_flag_ack = 1,
                                         .marelli_vehicle_flag_ack = 2,
@@ -125,7 +125,7 @@ TEST(Voice, SpeaksOnlyWhatTheDatabaseGivesToTheComputer) {
   EXPECT_EQ(counters.report, 0) << "runs 0..9";
 }
 
-TEST(Voice, ANumberThatIsNoneIsNotSpoken) {
+TEST(CommandFrames, AreNotSentWithANumberThatIsNone) {
   const ReceivedCommands car = a_car();
   CommandCounters counters;
   const CommandFrames frames =

@@ -195,7 +195,7 @@ TEST(GuardianSpeed, AtTheSpeedOfStandstillTheCarDoesNotStand) {
   }
 }
 
-// Runs until it has spoken; what safe_stop.hpp says of the same car, in its own words.
+// Runs until it has sent; what safe_stop.hpp says of the same car, in its own words.
 void expect_open_loop(Straight& car, safety::SafeStopState& twin, int times) {
   for (int i = 0; i < times; ++i) {
     const world::ActuatorCommand before = car.state.following.command;
@@ -239,7 +239,7 @@ TEST(GuardianOpenLoop, WhereFeedbackComesBackTheWheelsTurnNoFasterThanEver) {
   while (car->sent.empty());
   ASSERT_EQ(car->state.status.guidance, Guidance::kInertial);
   const double turned_rad = car->state.following.command.road_wheel_rad - before_rad;
-  EXPECT_NEAR(turned_rad, -car->params.following.slew_rad_per_s * kSpeakEvery.seconds(), 1e-9);
+  EXPECT_NEAR(turned_rad, -car->params.following.slew_rad_per_s * kSendPeriod.seconds(), 1e-9);
   EXPECT_EQ(car->out.gate_refusals, 0U);
 }
 

@@ -10,7 +10,7 @@
 namespace pitwall::guardian {
 namespace {
 
-// It has driven the car for 20 ms; would speak in the next tick.
+// It has driven the car for 20 ms; would send in the next tick.
 struct Driven {
   Straight car = silent_for(milliseconds(50));
   Driven() {
@@ -21,10 +21,10 @@ struct Driven {
   void publish_at(Instant at) {
     ++car.record.sequence;
     car.record.at = at;
-    car.record.speaks = false;
+    car.record.sends = false;
   }
   void tick() {
-    car.state.next_speech = car.now;
+    car.state.next_send = car.now;
     car.tick();
   }
   void expect_given(bool given, Cause cause) const {
@@ -52,14 +52,14 @@ TEST(GuardianHandBack, TheThirdFreshRecordIsBelieved) {
   }
 }
 
-TEST(GuardianHandBack, ARecordThatSpeaksLaterThanTheCrossingTakesTheCar) {
+TEST(GuardianHandBack, ARecordThatSendsAfterTheOverlapTakesTheCar) {
   for (const int beyond_ns : {0, 1}) {
     Driven driven;
     driven.publish_at(driven.car.state.status.drove_from + milliseconds(20) +
                       nanoseconds(beyond_ns));
-    driven.car.record.speaks = true;
+    driven.car.record.sends = true;
     driven.tick();
-    driven.expect_given(beyond_ns == 1, Cause::kCarSpeaks);
+    driven.expect_given(beyond_ns == 1, Cause::kCarSends);
   }
 }
 
@@ -68,7 +68,7 @@ TEST(GuardianHandBack, AnOldRecordThatSpokeDoesNotTakeTheCar) {
   driven.car.run(milliseconds(100));
   driven.car.state.fresh_records = 1;
   driven.publish_at(driven.next() - milliseconds(25) - nanoseconds(1));
-  driven.car.record.speaks = true;
+  driven.car.record.sends = true;
   driven.tick();
   driven.expect_given(false, Cause::kNone);
 }
@@ -101,7 +101,7 @@ TEST(GuardianHandBack, OnlyACommandAfterItIsHeard) {
   ASSERT_EQ(driven.car.mode(), Mode::kHandedBack);
   driven.car.run(milliseconds(5));
   EXPECT_EQ(driven.car.mode(), Mode::kHandedBack);
-  driven.car.car_speaks = driven.car.car_publishes = true;
+  driven.car.car_sends = driven.car.car_publishes = true;
   driven.car.run(milliseconds(10));
   EXPECT_EQ(driven.car.mode(), Mode::kWatching);
   EXPECT_EQ(driven.car.cause(), Cause::kNone);
@@ -123,7 +123,7 @@ TEST(GuardianHandBack, FromIdleAndFromNothingToDriveACarThatIsNotSilentIsWatched
 
 TEST(GuardianTakeOver, ACarThatNeverSpokeIsNotSilent) {
   Straight car;
-  car.car_speaks = false;
+  car.car_sends = false;
   car.run(milliseconds(200));
   EXPECT_EQ(car.mode(), Mode::kIdle);
 }
@@ -132,7 +132,7 @@ TEST(GuardianTakeOver, BeginsAnew) {
   Straight car = silent_for(milliseconds(29));
   car.state.fresh_records = 2;
   car.state.open_loop.active = true;
-  car.state.next_speech = car.now + seconds(1);
+  car.state.next_send = car.now + seconds(1);
   car.record.at = car.state.record.at = car.now;
   car.tick();
   ASSERT_EQ(car.mode(), Mode::kDriving);

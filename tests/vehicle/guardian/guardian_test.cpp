@@ -60,7 +60,7 @@ TEST_F(Guardian, AMachineThatStoodStillIsNoSilentCar) {
     car->now += milliseconds(stood_ms);
     car->run(milliseconds(14));
     EXPECT_EQ(car->mode(), Mode::kWatching) << stood_ms;
-    car->car_speaks = car->car_publishes = true;
+    car->car_sends = car->car_publishes = true;
     car->run(milliseconds(100));
     EXPECT_EQ(car->mode(), Mode::kWatching) << stood_ms;
     EXPECT_TRUE(car->so_far.empty()) << stood_ms;
@@ -138,7 +138,7 @@ TEST_F(Guardian, WhatItsOwnGateRefusesIsNotSaid) {
     EXPECT_LE(brake.brake_pressure_cmd, 500.0);
 }
 
-struct Hindrance {
+struct Obstacle {
   const char* what;
   std::function<void(Straight&)> change;  // before the silence
   Mode mode;
@@ -146,7 +146,7 @@ struct Hindrance {
 };
 
 TEST_F(Guardian, NeverActsWithoutEverythingThatItNeeds) {
-  const std::vector<Hindrance> cases{
+  const std::vector<Obstacle> cases{
       {"no record",
        [](Straight& c) {
          c.record_there = false;
@@ -173,16 +173,16 @@ TEST_F(Guardian, NeverActsWithoutEverythingThatItNeeds) {
        },
        Mode::kNothingToDrive, Cause::kOffPath},
   };
-  for (const Hindrance& hindrance : cases) {
+  for (const Obstacle& obstacle : cases) {
     car = std::make_unique<Straight>();
     car->run(milliseconds(100));
-    hindrance.change(*car);
+    obstacle.change(*car);
     car->run(milliseconds(200));
     car->fall_silent();
     car->run(seconds(1));
-    EXPECT_EQ(car->mode(), hindrance.mode) << hindrance.what;
-    EXPECT_EQ(car->cause(), hindrance.cause) << hindrance.what;
-    EXPECT_TRUE(car->so_far.empty()) << hindrance.what;
+    EXPECT_EQ(car->mode(), obstacle.mode) << obstacle.what;
+    EXPECT_EQ(car->cause(), obstacle.cause) << obstacle.what;
+    EXPECT_TRUE(car->so_far.empty()) << obstacle.what;
   }
 }
 
@@ -201,7 +201,7 @@ TEST_F(Guardian, NeverActsOnARecordThatIsMuchOlderThanTheLastCommand) {
   }
 }
 
-TEST_F(Guardian, ABusOnWhichNobodySpeaksIsNoSilentCar) {
+TEST_F(Guardian, ABusOnWhichNobodySendsIsNoSilentCar) {
   silence();
   car->bus_lives = false;
   car->run(milliseconds(25));
@@ -216,27 +216,27 @@ TEST_F(Guardian, ABusOnWhichNobodySpeaksIsNoSilentCar) {
 void come_back(Straight& car, bool (*quiet)(const Straight&)) {
   car.car_publishes = true;
   for (int i = 0; i < 200; ++i) {
-    car.car_speaks = !quiet(car);
+    car.car_sends = !quiet(car);
     car.tick();
   }
 }
 bool guardian_drives(const Straight& car) { return drives(car.mode()); }
 
-TEST_F(Guardian, GivesTheCarBackToAProcessThatIsBackInTimeAndNeverTwoSpeak) {
+TEST_F(Guardian, GivesTheCarBackToAProcessThatIsBackInTimeAndNeverTwoSend) {
   silence();
   car->run(milliseconds(200));
   ASSERT_EQ(car->mode(), Mode::kDriving);
   car->car_publishes = true;
-  bool spoke_at_once = false;
+  bool sent_at_once = false;
   std::size_t sent_after = 0;
   for (int i = 0; i < 500; ++i) {
-    car->car_speaks = !guardian_drives(*car);
+    car->car_sends = !guardian_drives(*car);
     const bool was_given = !guardian_drives(*car);
     car->tick();
-    spoke_at_once |= car->car_speaks && drives(car->mode());
+    sent_at_once |= car->car_sends && drives(car->mode());
     if (was_given) sent_after += car->sent.size();
   }
-  EXPECT_FALSE(spoke_at_once);
+  EXPECT_FALSE(sent_at_once);
   EXPECT_EQ(sent_after, 0u);
   EXPECT_EQ(car->mode(), Mode::kWatching);
   EXPECT_EQ(car->state.status.hand_backs, 1u);
@@ -281,7 +281,7 @@ TEST_F(Guardian, KeepsTheCarTheSecondTimeWithinFiveSeconds) {
   EXPECT_TRUE(car->state.status.latched);
 }
 
-// A tick of the car that began before it could read that the guardian drives says "speaks" too.
+// A tick of the car that began before it could read that the guardian drives reports `sends` too.
 TEST_F(Guardian, ATickOfTheCarThatCrossesTheTakeOverDoesNotTakeTheCarBack) {
   silence();
   while (car->mode() != Mode::kDriving) car->tick();
@@ -292,18 +292,18 @@ TEST_F(Guardian, ATickOfTheCarThatCrossesTheTakeOverDoesNotTakeTheCarBack) {
     while (crossing.now - crossing.state.status.drove_from < late) crossing.tick();
     ++crossing.record.sequence;
     crossing.record.at = crossing.now;
-    crossing.record.speaks = true;
+    crossing.record.sends = true;
     crossing.tick();
     EXPECT_EQ(drives(crossing.mode()), !stops) << late.milliseconds();
   }
 }
 
-// The car's process took the guardian for dead, and speaks: it is the guardian that stops.
-TEST_F(Guardian, YieldsToAProcessThatSpeaks) {
+// The car process took the guardian for dead, and sends: it is the guardian that stops.
+TEST_F(Guardian, YieldsToAProcessThatSends) {
   silence();
   car->run(milliseconds(700));
   ASSERT_TRUE(car->state.status.latched);
-  car->car_publishes = car->car_speaks = true;
+  car->car_publishes = car->car_sends = true;
   car->run(milliseconds(30));
   EXPECT_FALSE(drives(car->mode()));
   EXPECT_TRUE(car->sent.empty());

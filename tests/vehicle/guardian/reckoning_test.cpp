@@ -56,7 +56,7 @@ struct Circle {
   void with_car(double bias0, double bias1, int ticks) {
     for (int i = 0; i < ticks; ++i) {
       step();
-      listen(state, gyros(bias0, bias1));
+      store_gyro_rates(state, gyros(bias0, bias1));
       follow_car(params, state,
                  {.at = now,
                   .validity = world::Validity::kGood,
@@ -73,7 +73,7 @@ struct Circle {
     angle_rad += kHeadingRate * kStep.seconds();
   }
   void alone(const world::SensorInput& in, double motor_rad = kUnset) {
-    listen(state, in);
+    store_gyro_rates(state, in);
     reckon(params, state, {.speed_mps = kCircleSpeed_mps, .steering_motor_rad = motor_rad}, in,
            kDatum, kBank_rad, now);
   }

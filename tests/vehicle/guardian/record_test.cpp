@@ -32,7 +32,7 @@ TEST(Record, TheGuardianDrivesInTwoModes) {
 TEST(Record, NothingIsAllowedUntilItIsSaid) {
   const CarRecord record;
   EXPECT_EQ(record.run, 0u);
-  EXPECT_FALSE(record.armed || record.speaks || record.reset);
+  EXPECT_FALSE(record.armed || record.sends || record.reset);
   EXPECT_TRUE(record.stop.points.empty());
   EXPECT_FALSE(drives(Status{}.mode));
 }

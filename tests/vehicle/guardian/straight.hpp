@@ -44,7 +44,7 @@ class Straight {
   State state;
   Instant now{seconds(1000).ns};
   CarRecord record;
-  bool car_speaks = true, car_publishes = true, bus_lives = true, record_there = true;
+  bool car_sends = true, car_publishes = true, bus_lives = true, record_there = true;
   bool imus_live = true;
   double x_m = 0.0, y_m = 0.0, speed_mps = kSpeed_mps, brake_kpa = 0.0;
   std::uint8_t counter = 0;
@@ -67,7 +67,7 @@ class Straight {
     std::vector<can::ReceivedFrame> incoming;
     if ((now - Instant{}).ns % milliseconds(10).ns == 0) {
       if (car_publishes) publish();
-      if (car_speaks) encode_frames(incoming);
+      if (car_sends) encode_frames(incoming);
       if (bus_lives) report(incoming);
     }
     world::SensorInput samples;
@@ -90,7 +90,7 @@ class Straight {
   // Runs until just after a transmission of the car process; from then on it is silent.
   void fall_silent() {
     while ((now - Instant{}).ns % milliseconds(10).ns != 0) tick();
-    car_speaks = car_publishes = false;
+    car_sends = car_publishes = false;
   }
   void drive_for_a_second() { run(seconds(1)); }
   Mode mode() const { return state.status.mode; }
@@ -105,7 +105,7 @@ class Straight {
   void publish() {
     ++record.sequence;
     record.at = now;
-    record.speaks = car_speaks;
+    record.sends = car_sends;
     record.ego = {.at = now,
                   .validity = world::Validity::kGood,
                   .x_m = x_m,

@@ -65,7 +65,7 @@ TEST(BlackBox, KeepsEveryFrameAndTheStateAndItsTurnsAllocateNothing) {
   const auto folder = transport::TemporaryFolder::create("pitwall_black_box");
   Ticks ticks;
   {
-    auto box = BlackBox::open(folder->path(), "", "");
+    auto box = BlackBox::open(folder->path(), {});
     ASSERT_TRUE(box);
     const Instant begun = transport::monotonic_now();
     std::size_t allocations = 0;
@@ -94,7 +94,7 @@ TEST(BlackBox, KeepsEveryFrameAndTheStateAndItsTurnsAllocateNothing) {
 
 TEST(BlackBox, WhatDoesNotFitIsCountedAndNobodyWaits) {
   const auto folder = transport::TemporaryFolder::create("pitwall_black_box");
-  auto box = BlackBox::open(folder->path(), "", "");
+  auto box = BlackBox::open(folder->path(), {});
   ASSERT_TRUE(box);
   Ticks ticks;
   const Instant now = transport::monotonic_now();
@@ -103,12 +103,12 @@ TEST(BlackBox, WhatDoesNotFitIsCountedAndNobodyWaits) {
 }
 
 TEST(BlackBox, WithoutAFolderItIsOffAndABadFolderIsRefused) {
-  auto off = BlackBox::open("", "", "");
+  auto off = BlackBox::open("", {});
   ASSERT_TRUE(off);
   EXPECT_FALSE(off->on());
   Ticks{}.turn(*off, 0, {});
   EXPECT_EQ(off->json(), "{}");
-  EXPECT_FALSE(BlackBox::open("/proc/nothing/here", "", ""));
+  EXPECT_FALSE(BlackBox::open("/proc/nothing/here", {}));
 }
 
 }  // namespace

@@ -74,20 +74,20 @@ TEST(LinkObserver, WithoutAControllerOnlyErrorFramesTellAndElseNothingIsKnown) {
 TEST(LinkObserver, LossesAndRestartsCountFromTheStartAndSurviveANewDriver) {
   LinkObserver observer;
   auto interface = report(BusState::kActive);
-  const auto look = [&] { return observer.observe({.interface = interface, .down_and_up = 2}); };
+  const auto observe = [&] { return observer.observe({.interface = interface, .down_and_up = 2}); };
   interface.rx_dropped = 100;
   interface.rx_over_errors = 20;
   interface.restarts = 5;
-  EXPECT_EQ(look().lost_in_interface, 0u);
-  EXPECT_EQ(look().restarts, 2u);
+  EXPECT_EQ(observe().lost_in_interface, 0u);
+  EXPECT_EQ(observe().restarts, 2u);
   interface.rx_over_errors = 23;
   interface.rx_dropped = 101;
   interface.restarts = 6;
-  EXPECT_EQ(look().lost_in_interface, 4u);
-  EXPECT_EQ(look().restarts, 3u);
+  EXPECT_EQ(observe().lost_in_interface, 4u);
+  EXPECT_EQ(observe().restarts, 3u);
   interface.rx_dropped = 0;
   interface.rx_over_errors = 2;  // loaded anew
-  EXPECT_EQ(look().lost_in_interface, 6u);
+  EXPECT_EQ(observe().lost_in_interface, 6u);
 }
 
 TEST(LinkObserver, WhatTheSocketAndTheWayOutSayIsPassedOn) {

@@ -74,8 +74,7 @@ class Base {
     std::vector<transport::UdpDatagram> inbox(UdpSocket::kBatch);
     for (std::size_t path = 0; path < sockets_.size(); ++path)
       for (const auto& d : std::span(inbox).first(sockets_[path].receive(inbox))) {
-        endpoint_->feed(d.payload(), static_cast<telemetry::PathId>(path),
-                        {.ip = d.from.ip, .port = d.from.port}, d.at);
+        endpoint_->feed(d.payload(), static_cast<telemetry::PathId>(path), d.from, d.at);
         answer();
       }
     answer();
@@ -85,7 +84,7 @@ class Base {
  private:
   void answer() {
     while (const auto out = endpoint_->poll(transport::monotonic_now()))
-      sockets_[out->path].send_to({.ip = out->to.ip, .port = out->to.port}, out->bytes);
+      sockets_[out->path].send_to(out->to, out->bytes);
   }
 
   telemetry::SystemRandomness randomness_;
@@ -130,7 +129,7 @@ struct Ticked {
 };
 
 Ticked tick_until(Radio& radio, Base& base, const std::function<bool()>& condition,
-                  BlackBox box = *BlackBox::open("", "", "")) {
+                  BlackBox box = *BlackBox::open("", {})) {
   Ticked out;
   const Instant limit = transport::monotonic_now() + kTimeout;
   while (!(out.held = condition()) && transport::monotonic_now() < limit) {
@@ -145,7 +144,7 @@ Ticked tick_until(Radio& radio, Base& base, const std::function<bool()>& conditi
   return out;
 }
 
-TEST_F(CarRadio, SpeaksAndHearsOverOnePathAndOverTwo) {
+TEST_F(CarRadio, SendsAndReceivesOverOnePathAndOverTwo) {
   for (const std::size_t paths : {1U, 2U}) {
     Base base(base_keys_, paths);
     auto radio = Radio::open({base.addresses(), keys()}, {}, true);
@@ -159,7 +158,7 @@ TEST_F(CarRadio, SpeaksAndHearsOverOnePathAndOverTwo) {
           return view.stop == telemetry::StopLevel::kControlled && view.alive_at &&
                  base.endpoint().state().values[telemetry::field("ego.vx")] > 0.0;
         },
-        *BlackBox::open(folder_->path() + "/box" + std::to_string(paths), "", ""));
+        *BlackBox::open(folder_->path() + "/box" + std::to_string(paths), {}));
     EXPECT_TRUE(ticked.held) << paths;
     EXPECT_TRUE(radio->endpoint().schema_agrees());
     EXPECT_NEAR(base.endpoint().state().values[telemetry::field("ego.vx")], 61.5, 0.05);

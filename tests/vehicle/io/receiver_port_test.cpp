@@ -132,7 +132,7 @@ TEST(ReceiverPort, APortThatIsTakenIsNamed) {
   ASSERT_TRUE(taken);
   const auto port = ReceiverPort::open(UdpReceiver{taken->local()}, 0, {});
   ASSERT_FALSE(port);
-  EXPECT_EQ(port.error().place, transport::to_string(taken->local()));
+  EXPECT_EQ(port.error().place, to_string(taken->local()));
 }
 
 }  // namespace

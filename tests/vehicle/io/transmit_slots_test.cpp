@@ -50,7 +50,7 @@ struct Kernel {
       queue.pop_front();
     }
   }
-  KernelQueue look(bool flushed = false) const {
+  KernelQueue state(bool flushed = false) const {
     return {static_cast<std::uint32_t>(queue.size()) * kFrameBytes, flushed};
   }
 };
@@ -59,9 +59,9 @@ std::vector<can::Frame> tick_frames(Instant now) {
   return {command(0x100, now), command(0x200, now), command(0x300, now)};
 }
 
-// One tick of the rim: look, offer, give.
+// One tick of CarIo: observe the queue, offer, send.
 void tick(TransmitSlots& slots, Kernel& kernel, Instant now, bool flushed = false) {
-  slots.look(kernel.look(flushed), now);
+  slots.observe_queue(kernel.state(flushed), now);
   slots.offer(tick_frames(now), now);
   const auto due = slots.due(now);
   slots.taken(kernel.take(due), now);
@@ -114,7 +114,7 @@ TEST(TransmitSlots, WithAQueueThatCanBeEmptiedNothingOldGoesOutAtAll) {
       kernel.wire.clear();
       if (moves) kernel.move(random.below(8));
       for (const can::Frame& frame : kernel.wire)
-        // Two ticks until it is stale, one until the flush, one until the look.
+        // Two ticks until it is stale, one until the flush, one until the queue is observed.
         ASSERT_LE(now - made_at(frame), milliseconds(40)) << "seed " << seed;
       tick(slots, kernel, now, flushed);
       flushed = slots.should_flush(now);
@@ -143,7 +143,7 @@ TEST(TransmitSlots, ARefusedFrameWaitsForItsSuccessorOrUntilItIsStale) {
   TransmitSlots slots;
   Kernel closed{.room = 0, .queue = {}, .wire = {}};
   const can::Frame once = command(0x400, kStart);
-  slots.look({}, kStart);
+  slots.observe_queue({}, kStart);
   slots.offer(std::span(&once, 1), kStart);
   EXPECT_EQ(slots.due(kStart).size(), 1u);
   slots.taken(0, kStart);
@@ -168,7 +168,7 @@ TEST(TransmitSlots, EveryFrameIsTakenReplacedStaleWithoutRoomOrStillThere) {
     Instant now = kStart;
     for (int i = 0; i < 300; ++i) {
       now += milliseconds(static_cast<std::int64_t>(1 + random.below(15)));
-      slots.look(kernel.look(), now);
+      slots.observe_queue(kernel.state(), now);
       std::vector<can::Frame> frames;
       for (std::uint64_t n = random.below(90); n > 0; --n)
         frames.push_back(command(static_cast<std::uint32_t>(random.below(80)), now));
@@ -183,7 +183,7 @@ TEST(TransmitSlots, EveryFrameIsTakenReplacedStaleWithoutRoomOrStillThere) {
       kernel.move(random.below(60));
     }
     now += seconds(1);
-    slots.look({}, now);
+    slots.observe_queue({}, now);
     ASSERT_TRUE(slots.due(now).empty());
     const TransmitCounters& c = slots.counters();
     EXPECT_EQ(c.offered, c.taken + c.replaced + c.stale + c.no_room) << "seed " << seed;

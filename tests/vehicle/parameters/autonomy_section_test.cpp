@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <stdexcept>
 #include <string>
+#include <vector>
 
 #include "protocol/vocabulary/units.hpp"
 #include "tests/vehicle/parameters/mutation.hpp"
@@ -213,6 +216,38 @@ TEST(AutonomySection, EachNumberOfPlanningMovesItsOwnParameter) {
 
 TEST(AutonomySection, EachNumberOfControlMovesItsOwnParameter) {
   testing::expect_each_number_to_move_its_own("control", control);
+}
+
+TEST(AutonomySection, ALineIsThatOfABankOrLiesAtAnOffset) {
+  const std::string offset = "    offset_m: 0.0\n";
+  const auto line_of = [&](const std::string& keys) {
+    const auto car = read_car(with(av21(), offset, keys), "car.yaml");
+    return car ? car->params.planning.line : throw std::runtime_error(to_string(car.error()));
+  };
+  const planning::LineParams named = line_of("    bank: lines/a.json\n    name: inner/apex\n");
+  EXPECT_EQ(named.bank, "lines/a.json");
+  EXPECT_EQ(named.name, "inner/apex");
+  EXPECT_EQ(line_of("    offset_m: 2.0\n").bank, "");
+  const std::size_t line =
+      1 +
+      static_cast<std::size_t>(std::count(
+          av21().begin(), av21().begin() + static_cast<std::ptrdiff_t>(av21().find(offset)), '\n'));
+  struct Case {
+    std::string keys;
+    std::size_t below;  // line of the error, below that of the offset
+    std::string word;
+  };
+  for (const Case& c : std::vector<Case>{
+           {"    bank: a.json\n    name: x\n    offset_m: 0.0\n", 2, "a line of a bank is named"},
+           {"    bank: a.json\n    offset_m: 0.0\n", 0, "name"},
+           {"    bank: a.json\n", 0, "name"},
+           {"    bank: \"\"\n    name: x\n", 0, "names no file"},
+           {"    name: x\n    offset_m: 0.0\n", 0, "name"},
+           {"", 0, "offset_m"}}) {
+    const std::string why = refusal(with(av21(), offset, c.keys));
+    EXPECT_EQ(why.rfind("car.yaml:" + std::to_string(line + c.below) + ":", 0), 0u) << why;
+    EXPECT_NE(why.find(c.word), std::string::npos) << why;
+  }
 }
 
 TEST(AutonomySection, BracketsBeginWhereTheControllerHasThem) {

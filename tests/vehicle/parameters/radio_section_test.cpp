@@ -16,12 +16,12 @@ using testing::Reported;
 using testing::with;
 
 Reported radio(const CarParams& p) {
-  const safety::LinkLossParams& ladder = p.radio.ladder;
+  const safety::LinkLossParams& link_loss = p.radio.link_loss;
   Reported reported{
-      {"radio.ladder.joystick_dropped_s", ladder.joystick_dropped.seconds()},
-      {"radio.ladder.override_gone_s", ladder.override_gone.seconds()},
-      {"radio.ladder.no_comm_s", ladder.no_comm.seconds()},
-      {"radio.ladder.no_comm_speed_mps", ladder.no_comm_speed_mps},
+      {"radio.ladder.joystick_dropped_s", link_loss.joystick_dropped.seconds()},
+      {"radio.ladder.override_gone_s", link_loss.override_gone.seconds()},
+      {"radio.ladder.no_comm_s", link_loss.no_comm.seconds()},
+      {"radio.ladder.no_comm_speed_mps", link_loss.no_comm_speed_mps},
   };
   for (std::size_t i = 0; i < p.radio.paths.size(); ++i) {
     const std::string index = "[" + std::to_string(i) + "]";
@@ -49,9 +49,9 @@ TEST(RadioSection, ReadsPathsAndFlags) {
   EXPECT_EQ(car.radio.paths[1].safety_bytes_per_s, 4'400.0);
   EXPECT_FALSE(car.radio.signed_only);
   EXPECT_TRUE(params(with(av21(), "signed_only: false", "signed_only: true")).radio.signed_only);
-  EXPECT_TRUE(car.radio.ladder.no_comm_drives);
+  EXPECT_TRUE(car.radio.link_loss.no_comm_drives);
   EXPECT_FALSE(params(with(av21(), "no_comm_drives: true", "no_comm_drives: false"))
-                   .radio.ladder.no_comm_drives);
+                   .radio.link_loss.no_comm_drives);
 }
 
 TEST(RadioSection, RungsStandInTheirOrderAndSharesInTheirRate) {

@@ -113,7 +113,7 @@ inline Outputs full() {
   out.chosen.mode = world::Mode::kControlledStop;
   out.chosen.cause = safety::Cause::kImuLost;
   out.chosen.actuate = true;
-  out.chosen.arming = safety::Arming::kSpent;
+  out.chosen.arming = safety::Arming::kUsed;
   out.chosen.command = {
       .at = kNow, .road_wheel_rad = 0.0625, .throttle_fraction = 0.5, .brake_kpa = 1800, .gear = 5};
   out.ct_state = world::CtState::kCoordinatedStop;
@@ -139,7 +139,7 @@ inline Outputs full() {
   out.estimate.gyro_bias_rad_per_s[2] = 0.01;
   out.estimate.position_m[2] = -3.5;
   out.estimate.height_sigma_m = 0.06;
-  out.radio = {.rung = safety::RadioRung::kNoComm, .throttle_cap = 0.6};
+  out.radio = {.level = safety::LinkLossLevel::kNoComm, .throttle_cap = 0.6};
   out.speed_limit_mps = 55.5;
   out.tracking.cross_track_m = 0.375;
   out.tracking.heading_error_rad = 0.03125;

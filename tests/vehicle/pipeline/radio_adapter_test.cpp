@@ -82,7 +82,7 @@ class RadioAdapterRig : public ::testing::Test {
     return progress != nullptr && progress->outcome ? *progress->outcome : Outcome::kReceived;
   }
 
-  static constexpr telemetry::Address kCarAt{1, 40'000}, kBaseAt{2, 23'431};
+  static constexpr UdpAddress kCarAt{1, 40'000}, kBaseAt{2, 23'431};
   telemetry::SeededRandomness random_{7};
   telemetry::LinkEndpointConfig base_config_;
   std::optional<telemetry::CarEndpoint> car_radio_;

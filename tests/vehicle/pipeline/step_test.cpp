@@ -31,7 +31,7 @@ using world::Mode;
 // purpose not taken from the database.
 const std::set<std::uint32_t> kStatusIds{1404, 1405, 1406, 1450};
 
-bool speaks_to_actuators(const Outputs& out) {
+bool commands_actuators(const Outputs& out) {
   return std::any_of(out.passed.frames.begin(), out.passed.frames.end(),
                      [](const can::Frame& f) { return !kStatusIds.contains(f.id); });
 }
@@ -94,7 +94,7 @@ TEST(Step, WithoutInputOnlyStatusFramesLeave) {
   }
 }
 
-TEST(Step, ADisarmedCarSpeaksStatusOnly) {
+TEST(Step, ADisarmedCarSendsStatusOnly) {
   const auto car = new_car();
   StandingCar source;
   std::set<std::uint32_t> ids;
@@ -130,7 +130,7 @@ TEST(Step, AHealthyCarDrivesWhenRaceControlLetsItAndTheOperatorArmed) {
       [&](const Outputs& out) {
         drove = drove || out.chosen.mode == Mode::kDriving;
         throttle =
-            throttle || (speaks_to_actuators(out) && out.chosen.command.throttle_fraction > 0);
+            throttle || (commands_actuators(out) && out.chosen.command.throttle_fraction > 0);
       });
   EXPECT_TRUE(drove);
   EXPECT_TRUE(throttle);
@@ -150,7 +150,7 @@ TEST(Step, WithoutRaceControlACarDoesNotArm) {
       },
       [&](const Outputs& out) {
         ASSERT_EQ(out.chosen.mode, Mode::kDisarmed);
-        ASSERT_FALSE(speaks_to_actuators(out));
+        ASSERT_FALSE(commands_actuators(out));
       });
 }
 
@@ -168,7 +168,7 @@ TEST(Step, OnABusOfAnotherRevisionACarDoesNotArm) {
       },
       [&](const Outputs& out) {
         ASSERT_EQ(out.chosen.mode, Mode::kDisarmed);
-        ASSERT_FALSE(speaks_to_actuators(out));
+        ASSERT_FALSE(commands_actuators(out));
         ASSERT_EQ(out.received.bus.identity.id, 1312u);
         ASSERT_TRUE(out.chosen.causes.has(safety::Cause::kWrongBus));
       });
@@ -215,7 +215,7 @@ TEST(Step, NoiseNeverMovesADisarmedCar) {
     const auto car = new_car();
     run(*car, seconds(60), noise(seed), [&](const Outputs& out) {
       ASSERT_EQ(out.chosen.mode, Mode::kDisarmed);
-      ASSERT_FALSE(speaks_to_actuators(out));
+      ASSERT_FALSE(commands_actuators(out));
     });
     EXPECT_GT(car->inbound.refused.total(), 10'000u);
     EXPECT_GT(car->inbound.frames_applied, 1'000u) << "noise that is all refused tests little";
@@ -223,7 +223,7 @@ TEST(Step, NoiseNeverMovesADisarmedCar) {
 }
 
 // Requests are noise too: actuator frames leave in armed modes only, never with NaN behind them.
-TEST(Step, WithNoiseAndRandomRequestsOnlyAnArmedCarSpeaksToActuators) {
+TEST(Step, WithNoiseAndRandomRequestsOnlyAnArmedCarCommandsActuators) {
   const auto car = new_car();
   Random random{7};
   StandingCar healthy;
@@ -252,7 +252,7 @@ TEST(Step, WithNoiseAndRandomRequestsOnlyAnArmedCarSpeaksToActuators) {
       [&](const Outputs& out) {
         armed += out.chosen.mode != Mode::kDisarmed ? 1U : 0U;
         if (out.chosen.mode == Mode::kDisarmed) {
-          ASSERT_FALSE(speaks_to_actuators(out));
+          ASSERT_FALSE(commands_actuators(out));
         }
         if (!out.chosen.actuate) return;
         ASSERT_TRUE(std::isfinite(out.chosen.command.road_wheel_rad));

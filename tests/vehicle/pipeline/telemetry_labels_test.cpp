@@ -100,12 +100,12 @@ TEST(TelemetryLabels, NameTheValidities) {
 
 TEST(TelemetryLabels, NameWhatBecameOfTheArmRequest) {
   using enum safety::Arming;
-  EXPECT_EQ(in_order<safety::Arming>({{kNotAsked, "not asked"},
+  EXPECT_EQ(in_order<safety::Arming>({{kNotRequested, "not asked"},
                                       {kArmed, "armed"},
                                       {kBarred, "waits for a fault to pass"},
-                                      {kMoves, "REFUSED: the car moves"},
+                                      {kCarMoves, "REFUSED: the car moves"},
                                       {kLastRunArmed, "REFUSED: the last run ended while armed"},
-                                      {kSpent, "SPENT: release and arm anew"}}),
+                                      {kUsed, "SPENT: release and arm anew"}}),
             names_in(telemetry::kArmings));
   const auto names = names_in(telemetry::kArmings);
   for (std::size_t i = 0; i < names.size(); ++i)
@@ -132,14 +132,14 @@ TEST(TelemetryLabels, NameWhyTheSpeedIsWhatItIs) {
             names_in(telemetry::kSpeedReasons));
 }
 
-TEST(TelemetryLabels, NameTheRungsOfTheRadioLadder) {
-  using enum safety::RadioRung;
-  EXPECT_EQ(in_order<safety::RadioRung>({{kFull, "full"},
-                                         {kJoystickDropped, "joystick dropped"},
-                                         {kOverrideGone, "override gone"},
-                                         {kNoComm, "no-comm"},
-                                         {kStop, "controlled stop"}}),
-            names_in(telemetry::kLadderRungs));
+TEST(TelemetryLabels, NameTheLinkLossLevels) {
+  using enum safety::LinkLossLevel;
+  EXPECT_EQ(in_order<safety::LinkLossLevel>({{kFull, "full"},
+                                             {kJoystickDropped, "joystick dropped"},
+                                             {kOverrideGone, "override gone"},
+                                             {kNoComm, "no-comm"},
+                                             {kStop, "controlled stop"}}),
+            names_in(telemetry::kLinkLossLevels));
 }
 
 TEST(TelemetryLabels, NameHowTheBaseIsHeard) {

@@ -29,9 +29,10 @@ bool is_nobodys(std::size_t i) {
   static const std::set<Group> kNobodys{kSuspension, kTread,     kFuel,      kSteeringUnit, kBrakes,
                                         kOpponent1,  kOpponent2, kOpponent3, kOpponent4};
   static const std::set<std::string> kUnknown{
-      "dynamics.roll",  "dynamics.pitch",          "powertrain.torque",
-      "powertrain.oil", "powertrain.traction_aim", "powertrain.traction_range",
-      "planner.line",   "planner.target_gap",      "planner.cost"};
+      "dynamics.roll",           "dynamics.pitch",
+      "powertrain.torque",       "powertrain.oil",
+      "powertrain.traction_aim", "powertrain.traction_range",
+      "planner.target_gap",      "planner.cost"};
   const telemetry::FieldRow& row = telemetry::kFields[i];
   return kNobodys.contains(row.group) || kUnknown.contains(name_of(i)) ||
          telemetry::row_of(row.group).direction == telemetry::Direction::kUp;
@@ -123,6 +124,7 @@ const std::vector<Row> kTelemetryRows{
     {field("planner.role"), 0},
     {field("planner.primitive"), 2},
     {field("planner.reason"), 10},
+    {field("planner.line"), 0},
     {field("planner.line_offset"), -0.5},
     {field("planner.stop_distance"), 210},
     {field("planner.operator_limit"), 55.5},
@@ -275,6 +277,21 @@ TEST(TelemetryTap, EveryDiagnosticHasItsOwnBit) {
     EXPECT_EQ(mapped(out).values[field("electric.diagnostics")],
               std::ldexp(1.0, static_cast<int>(i)));
   }
+}
+
+TEST(TelemetryTap, TheLineIsTheNumberInItsBank) {
+  auto other = setup();
+  other.line.number = 7;
+  const auto car = std::make_unique<Car>();
+  const auto line_of = [&](const auto& made) {
+    const telemetry::Snapshot snapshot =
+        map_telemetry({.setup = made, .car = *car, .out = {}, .log = {}, .io = {}, .now = kNow});
+    return snapshot.values[field("planner.line")];
+  };
+  EXPECT_TRUE(std::isnan(line_of(other))) << "before the first plan";
+  car->plan.ever = true;
+  EXPECT_EQ(line_of(other), 7.0);
+  EXPECT_EQ(line_of(setup()), 0.0) << "no bank";
 }
 
 }  // namespace

@@ -72,7 +72,7 @@ TEST(BankBuilder, MakesBanksOfDrawnCircuits) {
 TEST(BankBuilder, LinesLieBesideEachOther) {
   for (const auto& description : {stadium(), mirrored(stadium())}) {
     const world::TrackMap track = valid(world::TrackMap::build(description));
-    const RacelineBank bank = valid(build_bank(description, track, {}));
+    const RacelineBank bank = valid(build_bank(description, track, {.car_width_m = 2.0}));
     double length_m = 0.0;
     for (const char* name : {"inner/inside", "inner/centre", "inner/outside", "outer/inside",
                              "outer/centre", "outer/outside"}) {
@@ -88,7 +88,7 @@ TEST(BankBuilder, LinesByTheApexesAreShorterAndCalmerThanTheCentre) {
   for (const char* name : {"lvms.yaml", "ims.yaml", "tms.yaml"}) {
     const world::TrackDescription description = track_file::shipped_track(name);
     const world::TrackMap track = valid(world::TrackMap::build(description));
-    const RacelineBank bank = valid(build_bank(description, track, {}));
+    const RacelineBank bank = valid(build_bank(description, track, {.car_width_m = 2.0}));
     for (const std::string lane : {"inner", "outer"}) {
       const Raceline &apex = line_of(bank, lane + "/apex"),
                      &centre = line_of(bank, lane + "/centre");
@@ -105,9 +105,9 @@ TEST(BankBuilder, TakesChosenApexes) {
   const world::TrackDescription description = stadium();
   const world::TrackMap track = valid(world::TrackMap::build(description));
   const Waypoint early{700.0, 5.0};
-  const RacelineBank bank =
-      valid(build_bank(description, track, {}, {.inner = {early, {2050.0, 5.0}}, .outer = {}}));
-  const RacelineBank found = valid(build_bank(description, track, {}));
+  const RacelineBank bank = valid(build_bank(description, track, {.car_width_m = 2.0},
+                                             {.inner = {early, {2050.0, 5.0}}, .outer = {}}));
+  const RacelineBank found = valid(build_bank(description, track, {.car_width_m = 2.0}));
   EXPECT_EQ(line_of(bank, "outer/apex").length_m, line_of(found, "outer/apex").length_m);
   const world::TrackPoint apex = track.offset(early.s_m, early.n_m);
   double nearest_m = 1e9;
@@ -120,7 +120,7 @@ TEST(BankBuilder, RefusesATrackThatIsTooNarrow) {
   world::TrackDescription description = ring();
   for (world::TrackKnot& k : description.knots) k.width_left_m = k.width_right_m = 2.0;
   const world::TrackMap track = valid(world::TrackMap::build(description));
-  const auto refused = build_bank(description, track, {});
+  const auto refused = build_bank(description, track, {.car_width_m = 2.0});
   ASSERT_FALSE(refused);
   EXPECT_NE(refused.error().what.find("lane is 2.00 m wide"), std::string::npos);
 }

@@ -149,7 +149,7 @@ TEST(BankFile, RefusesLinesThatTheCheckRefuses) {
   world::TrackDescription closed = course.description;
   closed.pit.reset();
   const world::TrackMap map = valid(world::TrackMap::build(closed));
-  RacelineBank bank = valid(build_bank(closed, map, {}));
+  RacelineBank bank = valid(build_bank(closed, map, {.car_width_m = 2.0}));
   bank.lines[0].region = Region::kPitLane;
   const auto refused = read_bank(to_json(bank), "bank.json", closed, map, car_limits());
   ASSERT_FALSE(refused);

@@ -19,7 +19,7 @@ std::size_t count_of(const std::string& text, const std::string& part) {
 struct Drawing {
   world::TrackDescription description = stadium();
   world::TrackMap map = valid(world::TrackMap::build(description));
-  RacelineBank bank = valid(build_bank(description, map, {}));
+  RacelineBank bank = valid(build_bank(description, map, {.car_width_m = 2.0}));
 };
 
 TEST(BankPicture, ShowsEachLineThreeTimes) {

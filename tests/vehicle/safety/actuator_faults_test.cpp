@@ -64,14 +64,14 @@ struct ActuatorCase {
   std::function<void(Axle&)> spoil;
 };
 const std::array<ActuatorCase, 6> kActuatorCases{{
-    {Cause::kSteeringStrays, Monitor::kSteeringFollows,
+    {Cause::kSteeringDeviates, Monitor::kSteeringFollows,
      [](Axle& a) { a.steering_off_rad = -0.06; }},
-    {Cause::kSteeringStrays, Monitor::kSteeringFollows,
+    {Cause::kSteeringDeviates, Monitor::kSteeringFollows,
      [](Axle& a) { a.innovation_rad = -0.0091; }},
-    {Cause::kBrakeStrays, Monitor::kBrakeFollows, [](Axle& a) { a.front_kept = 0.7; }},
-    {Cause::kBrakeStrays, Monitor::kBrakeFollows, [](Axle& a) { a.rear_kept = 0.7; }},
-    {Cause::kThrottleStrays, Monitor::kThrottleFollows, [](Axle& a) { a.throttle_off = 0.07; }},
-    {Cause::kThrottleStrays, Monitor::kThrottleFollows, [](Axle& a) { a.throttle_off = -0.07; }},
+    {Cause::kBrakeDeviates, Monitor::kBrakeFollows, [](Axle& a) { a.front_kept = 0.7; }},
+    {Cause::kBrakeDeviates, Monitor::kBrakeFollows, [](Axle& a) { a.rear_kept = 0.7; }},
+    {Cause::kThrottleDeviates, Monitor::kThrottleFollows, [](Axle& a) { a.throttle_off = 0.07; }},
+    {Cause::kThrottleDeviates, Monitor::kThrottleFollows, [](Axle& a) { a.throttle_off = -0.07; }},
 }};
 
 TEST(ActuatorFaults, EachIsItsOwnCauseWithinItsDeadlineAndItsMonitorSeesIt) {
@@ -122,7 +122,7 @@ TEST(ActuatorFaults, ACarThatTurnsElsewhereThanItsSteeringReportsIsBiased) {
     a.innovation_sigma_rad = c.sigma_rad;
     a.steering_off_rad = c.sensor_off_rad;
     const FaultOutput out = a.run(milliseconds(150));
-    EXPECT_EQ(out.causes.has(Cause::kSteeringStrays), c.strays) << c.innovation_rad;
+    EXPECT_EQ(out.causes.has(Cause::kSteeringDeviates), c.strays) << c.innovation_rad;
     EXPECT_EQ(out.steering_biased, c.biased) << c.innovation_rad;
   }
 }

@@ -34,7 +34,7 @@ TEST(Arming, ADeadBusStopsTheCarThenDisarmsItAndTheBusThatComesBackDoesNotMoveIt
     d.car.ego.validity = world::Validity::kGood;
     d.run(seconds(5));
     EXPECT_EQ(d.out.mode, Mode::kDisarmed);
-    EXPECT_EQ(d.out.arming, Arming::kSpent);
+    EXPECT_EQ(d.out.arming, Arming::kUsed);
     d.car.requests.arm = false;
     d.tick();
     d.car.requests.arm = true;
@@ -87,7 +87,7 @@ TEST(Arming, ABaseThatComesBackDoesNotSetACarInMotion) {
   d.car.race_control.track = world::TrackFlag::kGreen;
   d.run(seconds(5));
   EXPECT_EQ(d.out.mode, Mode::kDisarmed);
-  EXPECT_EQ(d.out.arming, Arming::kSpent);
+  EXPECT_EQ(d.out.arming, Arming::kUsed);
 }
 
 TEST(Arming, AStopForALostBaseStaysAfterItsReturn) {
@@ -110,14 +110,14 @@ TEST(Arming, AProcessThatBeginsWhileTheCarMovesDoesNotTakeItOver) {
   d.car.requests.arm = true;
   d.tick();
   EXPECT_EQ(d.out.mode, Mode::kDisarmed);
-  EXPECT_EQ(d.out.arming, Arming::kMoves);
+  EXPECT_EQ(d.out.arming, Arming::kCarMoves);
   d.speed_mps = 0.0;
   d.run(seconds(5));
   EXPECT_EQ(d.out.mode, Mode::kDisarmed) << "the refused request is spent";
-  EXPECT_EQ(d.out.arming, Arming::kMoves) << "and says why";
+  EXPECT_EQ(d.out.arming, Arming::kCarMoves) << "and says why";
   d.car.requests.arm = false;
   d.tick();
-  EXPECT_EQ(d.out.arming, Arming::kNotAsked);
+  EXPECT_EQ(d.out.arming, Arming::kNotRequested);
   d.car.requests.arm = true;
   d.run(milliseconds(100));
   EXPECT_EQ(d.out.mode, Mode::kDriving);
@@ -138,7 +138,7 @@ TEST(Arming, MotionThatIsSeenLateRefusesAsWell) {
   d.car.bus.identity.verdict = world::IdentityVerdict::kRight;
   d.run(seconds(1));
   EXPECT_EQ(d.out.mode, Mode::kDisarmed);
-  EXPECT_EQ(d.out.arming, Arming::kMoves);
+  EXPECT_EQ(d.out.arming, Arming::kCarMoves);
 }
 
 TEST(Arming, AfterARunThatEndedArmedOnlyANewRequestArms) {

@@ -26,7 +26,7 @@ MonitorSet only(Monitor monitor) {
 }
 
 TEST(BusGuardMonitors, AHealthyBusIsSeenAsOne) {
-  EXPECT_TRUE(seen_by({}, {}).empty()) << "a rim that knows nothing of a controller";
+  EXPECT_TRUE(seen_by({}, {}).empty()) << "a bus without a known controller state";
   EXPECT_TRUE(seen_by({}, {.controller = ControllerState::kActive, .load = 0.5}).empty());
 }
 

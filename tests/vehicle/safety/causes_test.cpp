@@ -17,7 +17,7 @@ TEST(Causes, EveryCauseHasItsOwnTextAndAReaction) {
     texts.insert(row.text);
     EXPECT_EQ(row.reaction == Reaction::kNone, row.cause == Cause::kNone) << row.text;
     if (row.reaction == Reaction::kEmergencyStop) {
-      EXPECT_NE(row.arms, Arms::kAnyway) << row.text;
+      EXPECT_NE(row.arms, ArmingEffect::kAllows) << row.text;
     }
     EXPECT_EQ(std::string{text_of(row.cause)}, row.text);
   }
@@ -27,7 +27,7 @@ TEST(Causes, EveryCauseHasItsOwnTextAndAReaction) {
 TEST(Causes, TheFiveRulesOfThePaperAreCausesOfTheirOwnWithADeadline) {
   std::set<Cause> rules;
   for (const CauseRow& row : kCauseTable) {
-    if (!row.of_the_paper) continue;
+    if (!row.listed_in_paper) continue;
     rules.insert(row.cause);
     EXPECT_EQ(row.reaction, Reaction::kControlledStop) << row.text;
     EXPECT_LE(row.deadline, milliseconds(1'300)) << row.text;
@@ -62,7 +62,7 @@ TEST(CauseSet, BehavesAsASetAndNamesTheFirst) {
   }
   CauseSet each;
   for (std::size_t i = 1; i < kCauses; ++i) each.add(static_cast<Cause>(i));
-  for (const Reaction least : {Reaction::kTell, Reaction::kCoast, Reaction::kEmergencyStop})
+  for (const Reaction least : {Reaction::kNotify, Reaction::kCoast, Reaction::kEmergencyStop})
     for (const CauseRow& row : kCauseTable)
       EXPECT_EQ(each.at_least(least).has(row.cause), row.reaction >= least) << row.text;
   CauseSet none;

@@ -20,7 +20,7 @@ struct Clocks {
   double fast_ppm = 0.0;                   // of the car's clock
   std::int64_t car_step_ns = 0, utc_offset_s = -18;
   std::array<std::int64_t, world::kGnssUnits> unit_step_ns{};
-  std::array<bool, world::kGnssUnits> speaks{true, true};
+  std::array<bool, world::kGnssUnits> sends{true, true};
   ClockOutput out;
 
   Instant on_the_car(Instant at) const {
@@ -31,7 +31,7 @@ struct Clocks {
     now += milliseconds(50);
     world::SensorInput sensors;
     for (std::uint8_t unit = 0; unit < world::kGnssUnits; ++unit) {
-      if (!speaks[unit]) continue;
+      if (!sends[unit]) continue;
       const Duration late = microseconds(1'000 + static_cast<std::int64_t>(random.below(11'000)));
       const std::int64_t gps_ns = 1'400'000'000'000'000'000 + now.ns + unit_step_ns[unit];
       EXPECT_TRUE(sensors.times.push({.unit = unit,
@@ -108,7 +108,7 @@ TEST(ClockWatch, ALeapSecondIsAStepOfTheOffset) {
   EXPECT_EQ(c.out.step_s, -1.0);
 }
 
-// A car that slept hears what waited, each message a little less late.
+// A car that was paused receives what waited, each message a little less late.
 TEST(ClockWatch, WhatWaitedWhileTheCarSleptIsNoStep) {
   Clocks c;
   c.run(seconds(20));
@@ -126,7 +126,7 @@ TEST(ClockWatch, WhatWaitedWhileTheCarSleptIsNoStep) {
 
 TEST(ClockWatch, AUnitThatSaysNothingHasNoSayAndAStrangerIsIgnored) {
   Clocks c;
-  c.speaks = {false, false};
+  c.sends = {false, false};
   EXPECT_FALSE(c.run(seconds(60))[0]);
   EXPECT_TRUE(std::isnan(c.out.skew_ppm));
   world::SensorInput sensors;

@@ -129,9 +129,9 @@ TEST(CommandChoice, AStopSteersWithTheBiasThatTheSteeringSensorDoesNotShow) {
   };
   const Drive calm = stopped(false), biased = stopped(true);
   EXPECT_EQ(biased.out.mode, Mode::kControlledStop);
-  EXPECT_EQ(biased.state.log.first.cause, Cause::kSteeringStrays);
+  EXPECT_EQ(biased.state.log.first.cause, Cause::kSteeringDeviates);
   EXPECT_EQ(biased.state.steering_bias_rad, kBias_rad) << "that of the moment it was found";
-  EXPECT_FALSE(biased.state.steering_strayed) << "its motor follows";
+  EXPECT_FALSE(biased.state.steering_deviated) << "its motor follows";
   EXPECT_NEAR(biased.out.command.road_wheel_rad - calm.out.command.road_wheel_rad, kBias_rad,
               0.02 * kBias_rad);
   EXPECT_GT(biased.out.command.brake_kpa, 1.2 * calm.out.command.brake_kpa);

@@ -140,9 +140,9 @@ const std::vector<FaultCase> kFaultCases{
 // What needs more than a tick: its own tests.
 constexpr std::array kElsewhere{Cause::kDeadReckoningTooLong,
                                 Cause::kPositionPassing,
-                                Cause::kSteeringStrays,
-                                Cause::kBrakeStrays,
-                                Cause::kThrottleStrays,
+                                Cause::kSteeringDeviates,
+                                Cause::kBrakeDeviates,
+                                Cause::kThrottleDeviates,
                                 Cause::kComputerLate,
                                 Cause::kOversteer,
                                 Cause::kClockStepped,

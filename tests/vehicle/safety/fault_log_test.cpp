@@ -24,7 +24,7 @@ TEST(FaultLog, TheRingKeepsTheNewestInOrderAndCountsAll) {
       ASSERT_EQ(log.entry(k).value, shadow[shadow.size() - log.size() + k].value);
     ASSERT_EQ(log.first.value == 10.0, i >= 10) << "the first that stopped the car stays";
   }
-  log.forget_first();
+  log.clear_first();
   EXPECT_EQ(log.first.cause, Cause::kNone);
   EXPECT_EQ(log.total, 300u);
 }

@@ -41,7 +41,7 @@ struct Pair {
     const Instant received_at = now;
     const double feedback = actuator.step(reported);
     now += kTick;
-    return straying(limits, state, reported, {feedback, received_at, true}, now);
+    return excess_deviation(limits, state, reported, {feedback, received_at, true}, now);
   }
   double run(double reported, Duration span) {
     double worst = 0.0;
@@ -121,18 +121,22 @@ TEST(Following, WhatIsNotHeardOrAfterAPauseIsNotJudged) {
   ASSERT_EQ(p.run(0.0, seconds(1)), 0.0);
   for (int i = 0; i < 200; ++i) {
     p.now += kTick;
-    ASSERT_EQ(straying(p.limits, p.state, 1.0, {0.0, p.now - milliseconds(51), true}, p.now), 0.0);
-    ASSERT_EQ(straying(p.limits, p.state, 1.0, {0.0, p.now, false}, p.now), 0.0);
+    ASSERT_EQ(
+        excess_deviation(p.limits, p.state, 1.0, {0.0, p.now - milliseconds(51), true}, p.now),
+        0.0);
+    ASSERT_EQ(excess_deviation(p.limits, p.state, 1.0, {0.0, p.now, false}, p.now), 0.0);
   }
   p.now += milliseconds(26);
-  EXPECT_EQ(straying(p.limits, p.state, 1.0, {0.0, p.now, true}, p.now), 0.0) << "it begins anew";
+  EXPECT_EQ(excess_deviation(p.limits, p.state, 1.0, {0.0, p.now, true}, p.now), 0.0)
+      << "it begins anew";
   double last = 0.0;
   for (int i = 0; i < 100; ++i) {
     p.now += kTick;
-    last = straying(p.limits, p.state, 1.0, {0.0, p.now, true}, p.now);
+    last = excess_deviation(p.limits, p.state, 1.0, {0.0, p.now, true}, p.now);
   }
   EXPECT_GT(last, 0.0);
-  EXPECT_EQ(straying(p.limits, p.state, kUnset, {0.0, p.now, true}, p.now), 0.0) << "nothing told";
+  EXPECT_EQ(excess_deviation(p.limits, p.state, kUnset, {0.0, p.now, true}, p.now), 0.0)
+      << "nothing told";
 }
 
 TEST(Following, AFeedbackThatIsNoNumberStrays) {
@@ -141,7 +145,7 @@ TEST(Following, AFeedbackThatIsNoNumberStrays) {
   double last = 0.0;
   for (int i = 0; i < 12; ++i) {
     p.now += kTick;
-    last = straying(p.limits, p.state, 0.0, {kUnset, p.now, true}, p.now);
+    last = excess_deviation(p.limits, p.state, 0.0, {kUnset, p.now, true}, p.now);
   }
   EXPECT_GT(last, 0.0);
 }
@@ -150,17 +154,17 @@ TEST(Following, PersistDecidesToTheNanosecond) {
   FollowLimits limits{.settle_s = 0.2, .tolerance = 0.05, .persist = milliseconds(100)};
   FollowState state;
   Instant now = Instant{} + seconds(1);
-  straying(limits, state, 0.0, {0.0, now, true}, now);
+  excess_deviation(limits, state, 0.0, {0.0, now, true}, now);
   const Instant within = now;
   for (int tick = 1; tick < 10; ++tick) {
     now = within + tick * kTick;
-    EXPECT_EQ(straying(limits, state, 0.0, {1.0, now, true}, now), 0.0);
+    EXPECT_EQ(excess_deviation(limits, state, 0.0, {1.0, now, true}, now), 0.0);
   }
   FollowState early = state;
   now = within + milliseconds(100) - nanoseconds(1);
-  EXPECT_EQ(straying(limits, early, 0.0, {1.0, now, true}, now), 0.0);
+  EXPECT_EQ(excess_deviation(limits, early, 0.0, {1.0, now, true}, now), 0.0);
   now = within + milliseconds(100);
-  EXPECT_GT(straying(limits, state, 0.0, {1.0, now, true}, now), 0.0);
+  EXPECT_GT(excess_deviation(limits, state, 0.0, {1.0, now, true}, now), 0.0);
 }
 
 }  // namespace

@@ -9,7 +9,7 @@ namespace pitwall::safety {
 namespace {
 
 constexpr LinkLossParams kParams{};
-const Instant kLadderTime{seconds(100).ns};
+const Instant kNow{seconds(100).ns};
 
 StreamRow link(Duration age) {
   const Health health = age > seconds(3)   ? Health::kBad
@@ -19,20 +19,20 @@ StreamRow link(Duration age) {
 }
 
 TEST(LinkLossPolicy, EachRungBeginsAfterItsLimitAndNotBefore) {
-  const auto rung = [](Duration age) {
+  const auto level = [](Duration age) {
     LinkLossState state;
-    return descend(kParams, state, link(age), {}, kLadderTime).rung;
+    return apply_link_loss_policy(kParams, state, link(age), {}, kNow).level;
   };
   const Duration step = nanoseconds(1);
-  EXPECT_EQ(rung({}), RadioRung::kFull);
-  EXPECT_EQ(rung(kParams.joystick_dropped), RadioRung::kFull);
-  EXPECT_EQ(rung(kParams.joystick_dropped + step), RadioRung::kJoystickDropped);
-  EXPECT_EQ(rung(kParams.override_gone), RadioRung::kJoystickDropped);
-  EXPECT_EQ(rung(kParams.override_gone + step), RadioRung::kOverrideGone);
-  EXPECT_EQ(rung(kParams.no_comm), RadioRung::kOverrideGone);
-  EXPECT_EQ(rung(kParams.no_comm + step), RadioRung::kNoComm);
-  EXPECT_EQ(rung(seconds(3)), RadioRung::kNoComm);
-  EXPECT_EQ(rung(seconds(3) + step), RadioRung::kStop);
+  EXPECT_EQ(level({}), LinkLossLevel::kFull);
+  EXPECT_EQ(level(kParams.joystick_dropped), LinkLossLevel::kFull);
+  EXPECT_EQ(level(kParams.joystick_dropped + step), LinkLossLevel::kJoystickDropped);
+  EXPECT_EQ(level(kParams.override_gone), LinkLossLevel::kJoystickDropped);
+  EXPECT_EQ(level(kParams.override_gone + step), LinkLossLevel::kOverrideGone);
+  EXPECT_EQ(level(kParams.no_comm), LinkLossLevel::kOverrideGone);
+  EXPECT_EQ(level(kParams.no_comm + step), LinkLossLevel::kNoComm);
+  EXPECT_EQ(level(seconds(3)), LinkLossLevel::kNoComm);
+  EXPECT_EQ(level(seconds(3) + step), LinkLossLevel::kStop);
 }
 
 TEST(LinkLossPolicy, WithoutARadioItDrivesOnOnlyWhereTheMissionAllowsIt) {
@@ -40,13 +40,13 @@ TEST(LinkLossPolicy, WithoutARadioItDrivesOnOnlyWhereTheMissionAllowsIt) {
   stays.no_comm_drives = false;
   for (const Duration age : {milliseconds(500), milliseconds(1'001), milliseconds(3'001)}) {
     LinkLossState state;
-    const auto drives = descend(kParams, state, link(age), {}, kLadderTime);
+    const auto drives = apply_link_loss_policy(kParams, state, link(age), {}, kNow);
     EXPECT_EQ(drives.stop, age > seconds(3));
     EXPECT_EQ(std::isnan(drives.speed_limit_mps), age < seconds(1));
     if (age > seconds(1)) {
       EXPECT_EQ(drives.speed_limit_mps, kParams.no_comm_speed_mps);
     }
-    const auto stops = descend(stays, state, link(age), {}, kLadderTime);
+    const auto stops = apply_link_loss_policy(stays, state, link(age), {}, kNow);
     EXPECT_EQ(stops.stop, age > seconds(1));
     EXPECT_TRUE(std::isnan(stops.speed_limit_mps));
   }
@@ -54,12 +54,13 @@ TEST(LinkLossPolicy, WithoutARadioItDrivesOnOnlyWhereTheMissionAllowsIt) {
 
 TEST(LinkLossPolicy, ABaseThatWasNeverHeardLimitsNothingAndALinkThatNobodyWatchesIsWhole) {
   LinkLossState state;
-  const auto never = descend(kParams, state, {Stream::kRadio, Health::kNever, {}}, {}, kLadderTime);
-  EXPECT_EQ(never.rung, RadioRung::kStop);
+  const auto never =
+      apply_link_loss_policy(kParams, state, {Stream::kRadio, Health::kNever, {}}, {}, kNow);
+  EXPECT_EQ(never.level, LinkLossLevel::kStop);
   EXPECT_TRUE(std::isnan(never.speed_limit_mps));
-  const auto unwatched =
-      descend(kParams, state, {Stream::kRadio, Health::kUnwatched, seconds(9)}, {}, kLadderTime);
-  EXPECT_EQ(unwatched.rung, RadioRung::kFull);
+  const auto unwatched = apply_link_loss_policy(
+      kParams, state, {Stream::kRadio, Health::kUnwatched, seconds(9)}, {}, kNow);
+  EXPECT_EQ(unwatched.level, LinkLossLevel::kFull);
   EXPECT_FALSE(unwatched.stop);
 }
 
@@ -67,12 +68,12 @@ TEST(LinkLossPolicy, ABaseThatWasNeverHeardLimitsNothingAndALinkThatNobodyWatche
 // than the joystick said before it should be.
 TEST(LinkLossPolicy, AJoystickThatFallsSilentIsHandedBackEvenly) {
   LinkLossState state;
-  const world::Joystick joystick{.throttle_cap = 0.2, .brake = 0.8, .at = kLadderTime};
+  const world::Joystick joystick{.throttle_cap = 0.2, .brake = 0.8, .at = kNow};
   double cap = 0.0, brake = 1.0;
   for (int ms = 0; ms <= 700; ++ms) {
-    const Instant now = kLadderTime + milliseconds(ms);
+    const Instant now = kNow + milliseconds(ms);
     const auto sample = ms == 0 ? std::optional{joystick} : std::nullopt;
-    const auto out = descend(kParams, state, link(milliseconds(ms)), sample, now);
+    const auto out = apply_link_loss_policy(kParams, state, link(milliseconds(ms)), sample, now);
     if (ms <= 200) {
       EXPECT_DOUBLE_EQ(out.throttle_cap, 0.2);
       EXPECT_DOUBLE_EQ(out.brake, 0.8);
@@ -94,10 +95,11 @@ TEST(LinkLossPolicy, AJoystickThatFallsSilentIsHandedBackEvenly) {
 // The device is gone, the link is alive: the sample's age decides, not the link's.
 TEST(LinkLossPolicy, ALiveLinkKeepsNoOldSample) {
   LinkLossState state;
-  const world::Joystick joystick{.throttle_cap = 0.0, .brake = 1.0, .at = kLadderTime};
+  const world::Joystick joystick{.throttle_cap = 0.0, .brake = 1.0, .at = kNow};
   for (const auto& sample : {std::optional{joystick}, std::optional<world::Joystick>{}}) {
-    const auto out = descend(kParams, state, link({}), sample, kLadderTime + milliseconds(600));
-    EXPECT_EQ(out.rung, RadioRung::kFull);
+    const auto out =
+        apply_link_loss_policy(kParams, state, link({}), sample, kNow + milliseconds(600));
+    EXPECT_EQ(out.level, LinkLossLevel::kFull);
     EXPECT_EQ(out.throttle_cap, 1.0);
     EXPECT_EQ(out.brake, 0.0);
   }
@@ -105,10 +107,10 @@ TEST(LinkLossPolicy, ALiveLinkKeepsNoOldSample) {
 
 TEST(LinkLossPolicy, ASampleFromTheFutureOrOutOfRangeMakesNothingFaster) {
   LinkLossState state;
-  const world::Joystick future{.throttle_cap = 0.0, .brake = 1.0, .at = kLadderTime + seconds(1)};
-  EXPECT_EQ(descend(kParams, state, link({}), future, kLadderTime).brake, 0.0);
-  const world::Joystick wild{.throttle_cap = 7.0, .brake = -3.0, .at = kLadderTime};
-  const auto out = descend(kParams, state, link({}), wild, kLadderTime);
+  const world::Joystick future{.throttle_cap = 0.0, .brake = 1.0, .at = kNow + seconds(1)};
+  EXPECT_EQ(apply_link_loss_policy(kParams, state, link({}), future, kNow).brake, 0.0);
+  const world::Joystick wild{.throttle_cap = 7.0, .brake = -3.0, .at = kNow};
+  const auto out = apply_link_loss_policy(kParams, state, link({}), wild, kNow);
   EXPECT_EQ(out.throttle_cap, 1.0);
   EXPECT_EQ(out.brake, 0.0);
 }

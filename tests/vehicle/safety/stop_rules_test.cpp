@@ -18,7 +18,7 @@ namespace {
 using testing::Situation;
 
 struct Unit {
-  bool speaks = true, positions = true, imu = true;
+  bool sends = true, positions = true, imu = true;
   int every = 1;  // of its positions only every n-th comes
   std::uint32_t status = world::kSolutionComputed, type = world::kPositionNarrowInt;
   std::uint8_t satellites = 20;
@@ -28,7 +28,7 @@ struct Unit {
 // Two receivers at 20 Hz with an IMU at 100 Hz each, and whatever watches them.
 struct Executive {
   WatchdogParams dog_params;
-  WatchdogState dog;
+  WatchdogState watchdog;
   FaultParams params;
   FaultState state;
   Situation car;
@@ -40,7 +40,7 @@ struct Executive {
 
   void speak(std::uint8_t unit, world::SensorInput& out) {
     const Unit& u = units[unit];
-    if (!u.speaks) return;
+    if (!u.sends) return;
     const Instant received = now - microseconds(static_cast<std::int64_t>(random.below(9'000)));
     byte_at[unit] = received;
     if (u.imu) {
@@ -62,7 +62,7 @@ struct Executive {
     world::SensorInput sensors;
     for (std::uint8_t unit = 0; unit < world::kGnssUnits; ++unit) speak(unit, sensors);
     car.at(now, 60.0);
-    car.watchdog = watch(dog_params, dog,
+    car.watchdog = watch(dog_params, watchdog,
                          {.sensors = sensors,
                           .signals = car.signals,
                           .race_control = car.race_control,
@@ -92,7 +92,7 @@ struct Executive {
     for (const Instant end = now + span; now < end;) {
       const CauseSet causes = tick();
       for (const CauseRow& row : kCauseTable)
-        any = any || (row.of_the_paper && causes.has(row.cause));
+        any = any || (row.listed_in_paper && causes.has(row.cause));
     }
     return any;
   }
@@ -163,7 +163,7 @@ TEST(StopRules, OneConnectionThatIsLostTotallyStopsWhateverTheOtherSays) {
   for (const std::size_t unit : {0U, 1U}) {
     Executive e;
     ASSERT_FALSE(e.any_rule(seconds(3)));
-    e.units[unit].speaks = false;
+    e.units[unit].sends = false;
     const auto took = e.until(Cause::kGnssUnitDisconnected, seconds(2));
     ASSERT_TRUE(took);
     EXPECT_LE(*took, row_of(Cause::kGnssUnitDisconnected).deadline);
@@ -178,7 +178,7 @@ TEST(StopRules, BytesThatAreLateBadOrWithoutFixOnOneUnitDriveOn) {
     Unit& u = e.units[unit];
     u = {.imu = false, .every = 9, .status = 1, .type = 0, .satellites = 0, .sigma_m = 99.0};
     EXPECT_FALSE(e.any_rule(seconds(20)));
-    u.speaks = false;
+    u.sends = false;
     EXPECT_TRUE(e.any_rule(seconds(1))) << "not a byte more: the connection is lost";
   }
 }
@@ -216,7 +216,7 @@ TEST(StopRules, AUnitThatTheOperatorExcludedCountsForNothing) {
   ASSERT_FALSE(e.any_rule(seconds(3)));
   e.dog_params[Stream::kGnss1Link].watched = e.dog_params[Stream::kGnss1Position].watched =
       e.dog_params[Stream::kGnss1Solution].watched = false;
-  e.units[1].speaks = false;
+  e.units[1].sends = false;
   EXPECT_FALSE(e.any_rule(seconds(5)));
   e.units[0].positions = false;
   EXPECT_TRUE(e.until(Cause::kGnssRateLost, seconds(1)));

@@ -356,7 +356,7 @@ TEST(Supervisor, ACommandThatIsNoNumberOrOutsideItsRangeIsAFailureOfControl) {
   EXPECT_EQ(stopped_by(0.0, -0.01, 0.0), Cause::kControlFailed);
 }
 
-// The command as outbound speaks it.
+// The command as outbound encodes it.
 std::vector<can::Frame> spoken(const world::ActuatorCommand& c, double ratio, int counter) {
   can::EncodeCounters counters;
   std::vector<can::Frame> frames(4);

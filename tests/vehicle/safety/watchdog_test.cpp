@@ -25,7 +25,7 @@ struct Kennel {
     return wake(now);
   }
 
-  // One that slept since its last tick, where that is long ago.
+  // One that was paused since its last tick, where that is long ago.
   WatchdogOutput wake(Instant now) {
     const WatchdogInputs inputs{sensors, signals, race_control, bytes, planner, radio};
     const WatchdogOutput out = safety::watch(params, state, inputs, now);
@@ -46,7 +46,7 @@ world::GnssPosition position(std::uint8_t unit, Instant at) {
           .position_type = world::kPositionSingle};
 }
 
-// How each stream is heard.
+// How a sample of each stream arrives.
 void feed(Kennel& k, Stream stream, Instant at) {
   const auto unit = static_cast<std::uint8_t>(static_cast<std::size_t>(stream) % 2);
   switch (stream) {
@@ -211,7 +211,8 @@ TEST(Watchdog, TimeInWhichTheCarSleptIsNoAge) {
     feed(k, Stream::kWheelSpeed, now);
     EXPECT_EQ(k.wake(now)[Stream::kWheelSpeed].age, Duration{});
     now += milliseconds(20);
-    EXPECT_EQ(k.wake(now)[Stream::kWheelSpeed].age, milliseconds(20)) << "the pardon is over";
+    EXPECT_EQ(k.wake(now)[Stream::kWheelSpeed].age, milliseconds(20))
+        << "nothing is discounted any more";
   }
 }
 
@@ -226,8 +227,8 @@ TEST(Watchdog, OnlyTheSleepThatLiesAfterTheNewestIsPardonedAndNoMoreThanALimit) 
   for (int nap = 1; nap <= 20; ++nap) {
     now += milliseconds(100);
     const Duration real = milliseconds(40 + 100 * nap);
-    const Duration pardoned = std::min(kPardonMax, milliseconds(30 + 90 * nap));
-    EXPECT_EQ(k.wake(now)[Stream::kBrake].age, real - pardoned) << nap;
+    const Duration discounted = std::min(kDiscountMax, milliseconds(30 + 90 * nap));
+    EXPECT_EQ(k.wake(now)[Stream::kBrake].age, real - discounted) << nap;
   }
 }
 

@@ -63,7 +63,8 @@ struct Car {
 bool same(const Learned& a, const Learned& b) {
   return a.commanded_rad == b.commanded_rad && a.offset_rad == b.offset_rad &&
          a.understeer_rad_per_mps2 == b.understeer_rad_per_mps2 &&
-         a.bend_rad_s6_per_m3 == b.bend_rad_s6_per_m3 && a.lag_s == b.lag_s;
+         a.bend_rad_s6_per_m3 == b.bend_rad_s6_per_m3 && a.lag_s == b.lag_s &&
+         a.rear_slip_rad_per_mps2 == b.rear_slip_rad_per_mps2;
 }
 
 TEST(LearnedSteering, FindsTheAngleThatAnyCarNeedsOnAnOval) {
@@ -220,11 +221,13 @@ TEST(LearnedSteering, StaysWithinItsLimitsForAnyInput) {
     const Duration dt{random.one_in(50) ? (random.one_in(2) ? -seconds(5).ns : seconds(900).ns)
                                         : static_cast<std::int64_t>(random.below(20'000'000))};
     follow_command(kParams, learned, any(random), dt);
-    learn(kParams, kModel, learned, {any(random), any(random), any(random)}, dt);
+    learn(kParams, kModel, learned, {any(random), any(random), any(random), any(random)}, dt);
     ASSERT_TRUE(std::isfinite(learned.commanded_rad)) << i;
     ASSERT_LE(std::abs(learned.offset_rad), 0.01) << i;
     ASSERT_GE(learned.understeer_rad_per_mps2, -0.0008) << i;
     ASSERT_LE(learned.understeer_rad_per_mps2, 0.003) << i;
+    ASSERT_GE(learned.rear_slip_rad_per_mps2, -0.0014) << i;
+    ASSERT_LE(learned.rear_slip_rad_per_mps2, 0.004) << i;
   }
 }
 
@@ -254,6 +257,37 @@ TEST(LearnedSteering, WhatIsNoNumberAndASlowCarChangeNothing) {
   EXPECT_TRUE(std::isnan(learned.innovation_rad)) << "not the one of a tick before";
 }
 
+// A rear axle that slips by any gradient, seen through the noise of a localization: half a degree.
+TEST(LearnedSteering, FindsTheSlipGradientOfTheRearAxleInAFewTurns) {
+  for (const double gradient : {0.0005, 0.0014, 0.0025, 0.004}) {
+    Learned learned;
+    Random random{37};
+    const double v = 60.0;
+    for (int i = 0; i < 4000; ++i) {
+      const double rate = i / 500 % 2 == 0 ? 0.25 : 0.0, bank = rate > 0.0 ? 0.16 : 0.0;
+      const double slip_rad = kModel.cg_to_rear_m * rate / v -
+                              gradient * lateral_mps2({v, rate, bank}) +
+                              random.between(-0.0087, 0.0087);
+      learn(kParams, kModel, learned, {v, rate, bank, v * slip_rad}, kTick);
+    }
+    const double found = kModel.rear_slip_rad_per_mps2 + learned.rear_slip_rad_per_mps2;
+    EXPECT_NEAR(found, gradient, 0.0002) << gradient;
+    const RoadLoad turn{v, 0.004, 0.1};
+    EXPECT_NEAR(slip_rad(kModel, learned, turn),
+                kModel.cg_to_rear_m * turn_per_m(turn) - found * lateral_demand_mps2(turn), 1e-12);
+  }
+}
+
+TEST(LearnedSteering, ASlipThatIsNoNumberTakesNothingElseAway) {
+  Learned with, without;
+  learn(kParams, kModel, with, {40.0, 0.2, 0.1, -0.5}, kTick);
+  learn(kParams, kModel, without, {40.0, 0.2, 0.1, kUnset}, kTick);
+  EXPECT_EQ(with.offset_rad, without.offset_rad);
+  EXPECT_EQ(with.lag_s, without.lag_s);
+  EXPECT_NE(with.rear_slip_rad_per_mps2, 0.0);
+  EXPECT_EQ(without.rear_slip_rad_per_mps2, 0.0);
+}
+
 TEST(LearnedSteering, LeftAndRightAreMirrorImages) {
   Random random{23};
   Learned left, right;
@@ -262,8 +296,10 @@ TEST(LearnedSteering, LeftAndRightAreMirrorImages) {
                  bank = random.between(-0.35, 0.35), v = random.between(10.0, 70.0);
     follow_command(kParams, left, angle, kTick);
     follow_command(kParams, right, -angle, kTick);
-    learn(kParams, kModel, left, {v, rate, bank}, kTick);
-    learn(kParams, kModel, right, {v, -rate, -bank}, kTick);
+    const double slip = random.between(-3.0, 3.0);
+    learn(kParams, kModel, left, {v, rate, bank, slip}, kTick);
+    learn(kParams, kModel, right, {v, -rate, -bank, -slip}, kTick);
+    ASSERT_EQ(left.rear_slip_rad_per_mps2, right.rear_slip_rad_per_mps2);
     ASSERT_EQ(left.offset_rad, -right.offset_rad);
     ASSERT_EQ(left.understeer_rad_per_mps2, right.understeer_rad_per_mps2);
   }

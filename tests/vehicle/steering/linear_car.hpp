@@ -98,7 +98,7 @@ inline Settling settle(const Params& params, const CarCase& c, double beside_m) 
     const double before_rad = angle_rad;
     angle_rad = steer(params, learned, state,
                       {.deviation = {std::clamp(car.y_m, -1e3, 1e3), car.course_rad(), 0.0, 0.0},
-                       .ahead = {0.0, 0.0},
+                       .ahead = {0.0, 0.0, 0.0},
                        .speed_mps = c.speed_mps,
                        .yaw_rate_rad_per_s = car.yaw_rate_rad_per_s,
                        .last_angle_rad = angle_rad,

@@ -21,7 +21,8 @@ using testing::stiff;
 SteeringInputs some(Random& random) {
   return {.deviation = {random.between(-3.0, 3.0), random.between(-0.2, 0.2),
                         random.between(-0.008, 0.008), random.between(-0.35, 0.35)},
-          .ahead = {random.between(-0.008, 0.008), random.between(-0.35, 0.35)},
+          .ahead = {random.between(-0.008, 0.008), random.between(-0.35, 0.35),
+                    random.between(-0.008, 0.008)},
           .speed_mps = random.between(0.6, 75.0),
           .yaw_rate_rad_per_s = random.one_in(4) ? kUnset : random.between(-0.5, 0.5),
           .last_angle_rad = random.between(-0.08, 0.08),
@@ -88,7 +89,7 @@ TEST(PathSteering, TheDifferenceOfTheBeginDecays) {
   const Params p;
   State one, other;
   SteeringInputs in{.deviation = {0.0, 0.0, 0.002, 0.1},
-                    .ahead = {0.002, 0.1},
+                    .ahead = {0.002, 0.1, 0.002},
                     .speed_mps = 40.0,
                     .yaw_rate_rad_per_s = kUnset,
                     .angle_max_rad = 0.2};
@@ -112,7 +113,7 @@ TEST(PathSteering, StaysWithinTheAngleForAnyInput) {
     SteeringInputs in = some(random);
     const double wild = std::pow(10.0, random.between(0.0, 6.0));
     in.deviation.lateral_m *= wild;
-    in.ahead.curvature_per_m *= wild;
+    in.ahead.yaw_per_m *= wild;
     in.last_angle_rad = last_rad;
     last_rad = steer({}, some_learned(random), state, in, kTick);
     ASSERT_LE(std::abs(last_rad), in.angle_max_rad) << i;
@@ -137,7 +138,7 @@ TEST(PathSteering, TheTrimDoesNotWindUpAtTheLimit) {
     const Params p;
     State state;
     SteeringInputs in{.deviation = {-30.0 * side, 0.0, 0.0, 0.0},
-                      .ahead = {0.0, 0.0},
+                      .ahead = {0.0, 0.0, 0.0},
                       .speed_mps = 40.0,
                       .yaw_rate_rad_per_s = kUnset,
                       .angle_max_rad = 0.05};
@@ -153,7 +154,7 @@ TEST(PathSteering, TheTrimFindsWhatStaysAndStaysWithinItsOwnLimit) {
   const Params p;
   State state;
   SteeringInputs in{.deviation = {0.4, 0.0, 0.0, 0.0},
-                    .ahead = {0.0, 0.0},
+                    .ahead = {0.0, 0.0, 0.0},
                     .speed_mps = 20.0,
                     .yaw_rate_rad_per_s = kUnset,
                     .angle_max_rad = 0.2};
@@ -168,7 +169,7 @@ TEST(PathSteering, TheTrimFindsWhatStaysAndStaysWithinItsOwnLimit) {
 }
 
 TEST(PathSteering, WhatIsNoNumberLeavesTheLastAngleAndIsForgotten) {
-  for (int field = 0; field < 7; ++field)
+  for (int field = 0; field < 8; ++field)
     for (const double bad : {kUnset, HUGE_VAL, -HUGE_VAL}) {
       Random random{53};
       State state;
@@ -176,14 +177,11 @@ TEST(PathSteering, WhatIsNoNumberLeavesTheLastAngleAndIsForgotten) {
       in.speed_mps = 40.0, in.yaw_rate_rad_per_s = 0.1;
       in.last_angle_rad = steer({}, {}, state, in, kTick);
       SteeringInputs odd = in;
-      double* const fields[] = {&odd.deviation.lateral_m,
-                                &odd.deviation.course_rad,
-                                &odd.deviation.curvature_per_m,
-                                &odd.deviation.bank_rad,
-                                &odd.ahead.curvature_per_m,
-                                &odd.ahead.bank_rad,
-                                &odd.speed_mps};
-      if (field == 6 && bad < 0.0) continue;  // backwards is standing
+      double* const fields[] = {&odd.deviation.lateral_m,       &odd.deviation.course_rad,
+                                &odd.deviation.curvature_per_m, &odd.deviation.bank_rad,
+                                &odd.ahead.yaw_per_m,           &odd.ahead.bank_rad,
+                                &odd.ahead.yaw_per_m_here,      &odd.speed_mps};
+      if (field == 7 && bad < 0.0) continue;  // backwards is standing
       *fields[field] = bad;
       EXPECT_EQ(steer({}, {}, state, odd, kTick), in.last_angle_rad) << field << ' ' << bad;
       State fresh;
@@ -204,7 +202,7 @@ TEST(PathSteering, ACarWithoutYawRateTurnsAsItsPath) {
     p.observer_share = 0.0;
     const Deviation& at = with.deviation;
     const double v_mps = std::max(with.speed_mps, p.gain_speed_least_mps);
-    with.yaw_rate_rad_per_s = v_mps * at.curvature_per_m * std::cos(at.bank_rad);
+    with.yaw_rate_rad_per_s = v_mps * with.ahead.yaw_per_m_here * std::cos(at.bank_rad);
     without = with;
     without.yaw_rate_rad_per_s = kUnset;
     State a, b;
@@ -222,7 +220,7 @@ TEST(PathSteering, LeftAndRightAreMirrorImages) {
     SteeringInputs mirrored = in;
     mirrored.deviation = {-in.deviation.lateral_m, -in.deviation.course_rad,
                           -in.deviation.curvature_per_m, -in.deviation.bank_rad};
-    mirrored.ahead = {-in.ahead.curvature_per_m, -in.ahead.bank_rad};
+    mirrored.ahead = {-in.ahead.yaw_per_m, -in.ahead.bank_rad, -in.ahead.yaw_per_m_here};
     mirrored.yaw_rate_rad_per_s = -in.yaw_rate_rad_per_s;
     mirrored.last_angle_rad = -in.last_angle_rad;
     const Learned learned = some_learned(random);
@@ -246,11 +244,43 @@ TEST(PathSteering, OnThePathItIsTheFeedForwardAlone) {
     State state;
     state.begun = true;
     const double v = in.speed_mps, bank = in.ahead.bank_rad;
-    const double k = in.ahead.curvature_per_m * std::cos(bank);
+    const double k = in.ahead.yaw_per_m * std::cos(bank);
     const double expected =
         2.971 * k + learned.offset_rad +
         (0.0002 + learned.understeer_rad_per_mps2) * (v * v * k - 9.80665 * std::sin(bank));
     EXPECT_NEAR(steer({}, learned, state, in, kTick), expected, 1e-9);
+  }
+}
+
+// The slip angle of the rear axle's gradient grows into a turn: yaw is course minus slip.
+TEST(PathSteering, TheCarYawsByWhatPathAndSlipAskOfIt) {
+  Random random{71};
+  for (int i = 0; i < 200; ++i) {
+    Params p;
+    p.bicycle.rear_slip_rad_per_mps2 = random.between(0.0, 0.003);
+    const Learned learned{.lag_s = random.between(-0.1, 0.1),
+                          .rear_slip_rad_per_mps2 = random.between(-0.001, 0.002)};
+    const double v = random.between(10.0, 70.0), rise = random.between(-5e-5, 5e-5),
+                 bank_rise = random.between(-2e-3, 2e-3);
+    const double lag_s = p.learning.lag_s + learned.lag_s;
+    const auto curvature_at = [&](double s_m) { return 0.001 + rise * s_m; };
+    const auto road_at = [&](double s_m) -> RoadPoint {
+      return {curvature_at(s_m), bank_rise * s_m};
+    };
+    const auto expected_at = [&](double s_m) {
+      constexpr double kStep_m = 1e-3;
+      const auto slip_at = [&](double at_m) {
+        const double k = curvature_at(at_m) * std::cos(bank_rise * at_m);
+        const double gradient = p.bicycle.rear_slip_rad_per_mps2 + learned.rear_slip_rad_per_mps2;
+        return p.bicycle.cg_to_rear_m * k -
+               gradient * (v * v * k - 9.80665 * std::sin(bank_rise * at_m));
+      };
+      return curvature_at(s_m) - (slip_at(s_m + kStep_m) - slip_at(s_m)) / kStep_m;
+    };
+    const PathAhead ahead = path_ahead(p, learned, v, road_at);
+    EXPECT_NEAR(ahead.yaw_per_m, expected_at(v * lag_s), 1e-6);
+    EXPECT_NEAR(ahead.yaw_per_m_here, expected_at(0.0), 1e-6);
+    EXPECT_NEAR(ahead.bank_rad, bank_rise * v * lag_s, 1e-15);
   }
 }
 

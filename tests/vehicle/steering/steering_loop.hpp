@@ -24,7 +24,7 @@
 namespace pitwall::steering::testing {
 
 constexpr double kComputerAndBus_s = 0.02;
-constexpr double kRelaxation_m = 0.5;      // the longest relaxation length of hil/plant/family
+constexpr double kRelaxation_m = 0.5;      // longest relaxation length of tests/hil/plant/family
 constexpr double kFrictionOfSlopes = 1.3;  // where the rear slope is kRearSlope_n_per_rad
 
 struct LoopCase {
@@ -95,7 +95,7 @@ inline std::array<double, 5> law_tick(const Params& params, const LoopCase& c,
   follow_command(params.learning, learned, x[4], kTick);
   const double angle_rad = steer(params, learned, state,
                                  {.deviation = {measured[0], measured[1], 0.0, 0.0},
-                                  .ahead = {0.0, 0.0},
+                                  .ahead = {0.0, 0.0, 0.0},
                                   .speed_mps = c.speed_mps,
                                   .yaw_rate_rad_per_s = measured[2],
                                   .last_angle_rad = x[4],

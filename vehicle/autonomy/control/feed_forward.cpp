@@ -40,7 +40,10 @@ LateralDiagnostics steer_forward(const steering::Params& params, const LateralPa
   if (!on_path_m) return out.verdict = LateralVerdict::kNoTrajectory, out;
   const double v_mps = std::max(ego.vx_mps, 0.0);
   const TrajectoryPoint here = at(trajectory, *on_path_m);
-  const TrajectoryPoint ahead = at(trajectory, *on_path_m + v_mps * preview_s(params, learned));
+  const auto road_at = [&](double ahead_m) -> steering::RoadPoint {
+    const TrajectoryPoint p = at(trajectory, *on_path_m + ahead_m);
+    return {p.curvature_per_m, p.bank_rad};
+  };
   const Errors e = errors_at(here, ego);
   out.cross_track_m = out.e1_m = e.lateral_m;
   out.heading_error_rad = out.e2_rad = e.heading_rad;
@@ -49,7 +52,7 @@ LateralDiagnostics steer_forward(const steering::Params& params, const LateralPa
   out.angle_rad = steering::steer(
       params, learned, state,
       {.deviation = {e.lateral_m, e.course_rad, here.curvature_per_m, here.bank_rad},
-       .ahead = {ahead.curvature_per_m, ahead.bank_rad},
+       .ahead = path_ahead(params, learned, v_mps, road_at),
        .speed_mps = v_mps,
        .yaw_rate_rad_per_s = ego.yaw_rate_rad_per_s,
        .last_angle_rad = angles.last_rad,

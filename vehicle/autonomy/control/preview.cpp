@@ -51,7 +51,10 @@ TrajectoryPoint at(const Trajectory& trajectory, double s_m) {
           .curvature_per_m = mix(a.curvature_per_m, b.curvature_per_m),
           .bank_rad = mix(a.bank_rad, b.bank_rad),
           .speed_mps = mix(a.speed_mps, b.speed_mps),
-          .accel_mps2 = mix(a.accel_mps2, b.accel_mps2)};
+          .accel_mps2 = mix(a.accel_mps2, b.accel_mps2),
+          .time_s = mix(a.time_s, b.time_s),
+          .room_left_m = mix(a.room_left_m, b.room_left_m),
+          .room_right_m = mix(a.room_right_m, b.room_right_m)};
 }
 
 }  // namespace pitwall::control

@@ -119,7 +119,7 @@ bool conclude(const Intake& in, const Evidence& e, const Sample& sample, const M
   // The filter itself refused what had passed: a jump that only it can see.
   Stream& stream = in.stream(e.source, sample.unit);
   const Verdict& reported = in.out.verdicts[in.out.verdicts.size() - 1];
-  if (reported.gate == Gate::kOutlier) see_jump(in, stream, reported.nis > kNisBeyondChance);
+  if (reported.gate == Gate::kOutlier) count_jump(in, stream, reported.nis > kNisBeyondChance);
   stream.trust.refuse(in.params.checks);
   return true;
 }

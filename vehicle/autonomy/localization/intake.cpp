@@ -9,7 +9,7 @@
 namespace pitwall::localization {
 namespace {
 
-constexpr double kLately = 2.0;        // gaps: longer ago a source is not in use any more
+constexpr double kRecentGaps = 2.0;    // gaps: longer ago a source is not in use any more
 constexpr double kBeyondChance = 2.0;  // gates away: 8 sigmas or more
 constexpr std::uint8_t kJumpsInRow = 2;
 
@@ -71,8 +71,8 @@ double gap_max_s(const CheckParams& p, Source source) {
 
 bool in_use(const Intake& in, Source source, std::size_t unit) {
   const Tally& t = in.tally(source, unit);
-  const double lately_s = kLately * gap_max_s(in.params.checks, source);
-  return t.ever_accepted && (in.now - t.last_accepted).seconds() <= lately_s;
+  const double recent_s = kRecentGaps * gap_max_s(in.params.checks, source);
+  return t.ever_accepted && (in.now - t.last_accepted).seconds() <= recent_s;
 }
 
 bool other_in_use(const Intake& in, Source source, std::size_t unit) {
@@ -95,7 +95,7 @@ void complete(const Intake& in, const Stream& stream, const Content& content, In
   if (const Moment* moment = in.state.trail.newest()) e.speed_mps = moment->speed_mps;
 }
 
-void see_jump(const Intake& in, Stream& stream, bool beyond_chance) {
+void count_jump(const Intake& in, Stream& stream, bool beyond_chance) {
   if (in.params.off.has(world::Monitor::kInnovation)) return;
   if (stream.jumps_in_row < kJumpsInRow) ++stream.jumps_in_row;
   if (beyond_chance || stream.jumps_in_row == kJumpsInRow)
@@ -111,13 +111,13 @@ Gate admit(const Intake& in, const Evidence& evidence, std::uint8_t unit, const 
   stream.seen = judged.seen;
   if (judged.seen.has(world::Monitor::kInnovation)) {
     stream.seen.bits &= ~(1U << static_cast<unsigned>(world::Monitor::kInnovation));
-    see_jump(in, stream, beyond_chance(evidence));
+    count_jump(in, stream, beyond_chance(evidence));
   }
-  stream.trust.receive(std::max(checks.rate_window_s, kLately * gap_max_s(checks, evidence.source)),
-                       in.now);
-  const bool lies_about_time = judged.gate == Gate::kFromTheFuture ||
-                               judged.gate == Gate::kTooOld || judged.gate == Gate::kRanBack;
-  if (!lies_about_time && judged.gate != Gate::kRepeated) {
+  stream.trust.receive(
+      std::max(checks.rate_window_s, kRecentGaps * gap_max_s(checks, evidence.source)), in.now);
+  const bool has_wrong_time = judged.gate == Gate::kFromTheFuture || judged.gate == Gate::kTooOld ||
+                              judged.gate == Gate::kRanBack;
+  if (!has_wrong_time && judged.gate != Gate::kRepeated) {
     if ((in.now - stream.stamped_at).seconds() > checks.rate_window_s) stream.stamps = {};
     stream.stamps.use(at);
     stream.stamped_at = in.now;

@@ -51,7 +51,7 @@ void complete(const Intake& in, const Stream& stream, const Content& content, In
 // Records that a sample of this stream was refused as a jump. kInnovation reports a jump beyond
 // chance at once, others at the second consecutive one: a gate refuses a good sample about once an
 // hour, so two consecutive ones of one stream are not chance.
-void see_jump(const Intake& in, Stream& stream, bool beyond_chance);
+void count_jump(const Intake& in, Stream& stream, bool beyond_chance);
 // Checks a sample, updates the stream and its trust. Returns kAccepted, kProbation or the reason
 // for the refusal.
 Gate admit(const Intake& in, const Evidence& evidence, std::uint8_t unit, const Content& content,

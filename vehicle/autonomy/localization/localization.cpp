@@ -18,7 +18,7 @@ constexpr double kSeedAgeMax_s = 1.5;        // a heading once per second is eno
 constexpr double kCourseSpeedMin_mps = 5.0;  // from here the course is the heading of the car
 constexpr double kCourseSigma_rad = 0.05;
 constexpr double kTurnMax_rad_per_s = 0.3;  // fastest turn assumed while a seed heading ages
-constexpr Duration kOverslept = milliseconds(25);
+constexpr Duration kPauseMin = milliseconds(25);
 constexpr double kOpenGate = 1e30;
 double combined(double a, double b) { return std::sqrt(a * a + b * b); }
 
@@ -85,21 +85,21 @@ void take_road(const Intake& in) {
 
 void watch_inertial(const Intake& in) {
   if (in.params.off.has(Monitor::kUnitAgreement)) {
-    in.state.imu.blamed.reset();
+    in.state.imu.faulty.reset();
     return;
   }
   const WheelState& wheels = in.state.wheels;
   const Moment* moment = in.state.trail.newest();
   const bool fresh =
       wheels.received && (in.now - wheels.at).seconds() <= in.params.checks.wheel_gap_max_s;
-  ImuWitness witness;
-  witness.bank_rad = in.bank_rad();
-  if (moment) witness.speed_mps = moment->speed_mps;
-  if (fresh && std::isfinite(wheels.speed_mps)) witness.accel_mps2 = wheels.accel_mps2;
+  ImuReference reference;
+  reference.bank_rad = in.bank_rad();
+  if (moment) reference.speed_mps = moment->speed_mps;
+  if (fresh && std::isfinite(wheels.speed_mps)) reference.accel_mps2 = wheels.accel_mps2;
   constexpr double kStands_mps = 0.2;
-  witness.stands =
+  reference.stands =
       fresh && moment && moment->speed_mps < 1.0 && std::abs(wheels.speed_mps) < kStands_mps;
-  watch_imu(in.params.checks, in.state.imu, witness, in.now);
+  watch_imu(in.params.checks, in.state.imu, reference, in.now);
 }
 
 void take_all(const Intake& in, const world::SensorInput& sensors,
@@ -122,9 +122,9 @@ Excludable excludable(Source source, std::size_t unit) {
   return unit == 0 ? Excludable::kGnss0 : Excludable::kGnss1;
 }
 
-// Streams that fell silent. A car that slept itself hears them in the next tick.
+// Streams that fell silent. A car that was paused itself receives them in the next tick.
 void watch_streams(const Intake& in) {
-  if (in.now - in.state.stepped_at > kOverslept) return;
+  if (in.now - in.state.stepped_at > kPauseMin) return;
   const CheckParams& checks = in.params.checks;
   constexpr std::array kWatched{Source::kPosition, Source::kVelocity, Source::kHeading,
                                 Source::kImu};
@@ -149,7 +149,7 @@ void watch_streams(const Intake& in) {
 }
 
 // What the newest sample of each stream showed holds until the next one.
-void gather_seen(const Intake& in) {
+void collect_findings(const Intake& in) {
   world::MonitorSet& seen = in.out.seen;
   for (std::size_t source = 0; source < kSources; ++source)
     for (std::uint8_t unit = 0; unit < world::kGnssUnits; ++unit)
@@ -160,7 +160,7 @@ void gather_seen(const Intake& in) {
   const bool apart =
       imu.apart && in.now - imu.apart_since >= from_seconds(in.params.checks.imu_contradict_s);
   const bool both = in.use.uses(Excludable::kImu0) && in.use.uses(Excludable::kImu1);
-  if (both && (apart || imu.blamed)) seen.add(Monitor::kUnitAgreement);
+  if (both && (apart || imu.faulty)) seen.add(Monitor::kUnitAgreement);
   seen.bits &= ~in.params.off.bits;
 }
 
@@ -238,7 +238,7 @@ Output step(const Params& params, const Datum& datum, State& state,
   watch_streams(in);
   state.stepped_at = now;
   conclude(in);
-  gather_seen(in);
+  collect_findings(in);
   return out;
 }
 

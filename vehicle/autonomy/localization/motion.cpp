@@ -22,14 +22,14 @@ bool uses_imu(const Intake& in, std::uint8_t unit) {
   return in.use.uses(unit == 0 ? Excludable::kImu0 : Excludable::kImu1);
 }
 
-bool blamed(const Intake& in, std::uint8_t unit) {
-  return !in.params.off.has(Monitor::kUnitAgreement) && in.state.imu.blamed == unit;
+bool is_faulty(const Intake& in, std::uint8_t unit) {
+  return !in.params.off.has(Monitor::kUnitAgreement) && in.state.imu.faulty == unit;
 }
 
 // Whether the unit may be relied on at `at`; without the watch over ages for ever.
 bool lives(const Intake& in, std::uint8_t unit, Instant at) {
   const Tally& t = in.tally(Source::kImu, unit);
-  if (!t.ever_accepted || !uses_imu(in, unit) || blamed(in, unit)) return false;
+  if (!t.ever_accepted || !uses_imu(in, unit) || is_faulty(in, unit)) return false;
   return in.params.off.has(Monitor::kStreamAge) ||
          (at - t.last_accepted).seconds() <= in.params.imu_timeout_s;
 }
@@ -108,7 +108,7 @@ void take(const Intake& in, const world::ImuSample& sample) {
   Gate gate = admit(in, e, unit, content, sample.at);
   if (gate == Gate::kAccepted || gate == Gate::kProbation) note(in.state.imu, sample);
   const std::uint8_t preferred = preferred_imu(in);
-  if (gate == Gate::kAccepted && blamed(in, unit)) gate = Gate::kDisagrees;
+  if (gate == Gate::kAccepted && is_faulty(in, unit)) gate = Gate::kDisagrees;
   if (gate == Gate::kAccepted && unit != preferred && lives(in, preferred, sample.at))
     gate = Gate::kStandby;
   if (gate != Gate::kAccepted) return record_verdict(in, Source::kImu, unit, sample.at, gate);

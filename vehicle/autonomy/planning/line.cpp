@@ -71,6 +71,29 @@ void place_points(const world::TrackMap& track, const LineParams& params, Line& 
   }
 }
 
+// The points of the raceline as they are: they are closer than a line at an offset needs.
+void place_points(const world::TrackMap& track, const world::Raceline& raceline, Line& line) {
+  line.length_m = raceline.length_m;
+  line.spacing_m = raceline.spacing_m();
+  std::optional<double> hint_m;
+  for (const world::RacelinePoint& p : raceline.points) {
+    const world::Curvilinear place = track.project(p.x_m, p.y_m, hint_m);
+    const world::TrackPoint beside = track.at(place.s_m);
+    hint_m = place.s_m;
+    line.points.push_back({.s_m = line.spacing_m * static_cast<double>(line.points.size()),
+                           .track_s_m = place.s_m,
+                           .x_m = p.x_m,
+                           .y_m = p.y_m,
+                           .yaw_rad = wrap_pi(p.yaw_rad),
+                           .cos_yaw = std::cos(p.yaw_rad),
+                           .sin_yaw = std::sin(p.yaw_rad),
+                           .curvature_per_m = p.curvature_per_m,
+                           .bank_rad = p.bank_rad,
+                           .room_left_m = beside.width_left_m - place.n_m,
+                           .room_right_m = beside.width_right_m + place.n_m});
+  }
+}
+
 steering::RoadLoad load(const LinePoint& p) { return {p.speed_mps, p.curvature_per_m, p.bank_rad}; }
 
 // Forward and backward over the closed line: no point is faster than its corner, than the engine
@@ -117,6 +140,45 @@ std::optional<Problem> off_road(const world::TrackMap& track, const LineParams& 
     }
   }
   return std::nullopt;
+}
+
+// The first place where a raceline comes too close to a wall; the car's side may not reach it even
+// where the car strays.
+std::optional<Problem> too_close(const LineParams& params, const Line& line,
+                                 const std::string& source) {
+  for (const LinePoint& p : line.points) {
+    const double room_m = std::min(p.room_left_m, p.room_right_m);
+    if (room_m >= params.wall_clearance_m) continue;
+    return Problem{"line.wall_clearance_m",
+                   source + ": " + params.name + ": s = " + std::to_string(p.s_m) +
+                       " m: " + std::to_string(room_m) + " m from a wall, at least " +
+                       std::to_string(params.wall_clearance_m)};
+  }
+  return std::nullopt;
+}
+
+std::string names_of(const world::RacelineBank& bank) {
+  std::string names;
+  for (const world::Raceline& line : bank.lines) names += (names.empty() ? "" : ", ") + line.name;
+  return names;
+}
+
+// Number of the line that is named.
+Result<std::size_t, Problem> chosen(const LineParams& params, const world::RacelineBank* bank) {
+  if (bank == nullptr) return refuse("line.bank", params.bank + " is named, but not read");
+  if (params.bank.empty()) return refuse("line.bank", "a bank is given, but none is named");
+  const auto named = std::ranges::find(bank->lines, params.name, &world::Raceline::name);
+  if (named == bank->lines.end())
+    return refuse("line.name",
+                  bank->source + " has no line \"" + params.name + "\", but " + names_of(*bank));
+  if (named->region == world::Region::kPitLane)
+    return refuse("line.name", bank->source + ": " + params.name +
+                                   " leads through the pit lane: no line to race on");
+  const auto number = static_cast<std::size_t>(named - bank->lines.begin()) + 1;
+  if (number <= kLinesMost) return number;
+  return refuse("line.name", bank->source + ": " + params.name + " is line " +
+                                 std::to_string(number) + " of the bank, at most " +
+                                 std::to_string(kLinesMost) + " are numbered");
 }
 
 }  // namespace
@@ -190,10 +252,19 @@ LinePosition Line::project(double x_m, double y_m, std::optional<double> hint_s_
   return {wrap(s_m), dy * std::cos(p.yaw_rad) - dx * std::sin(p.yaw_rad)};
 }
 
-Result<Line, Problem> build_line(const world::TrackMap& track, const LineParams& params) {
-  if (auto problem = off_road(track, params)) return Unexpected{*problem};
+Result<Line, Problem> build_line(const world::TrackMap& track, const LineParams& params,
+                                 const world::RacelineBank* bank) {
   Line line;
-  place_points(track, params, line);
+  if (!params.bank.empty() || bank != nullptr) {
+    const auto number = chosen(params, bank);
+    if (!number) return Unexpected{number.error()};
+    line.number = *number;
+    place_points(track, bank->lines[*number - 1], line);
+    if (auto problem = too_close(params, line, bank->source)) return Unexpected{*problem};
+  } else {
+    if (auto problem = off_road(track, params)) return Unexpected{*problem};
+    place_points(track, params, line);
+  }
   limit_speeds(params, line);
   return line;
 }

@@ -1,34 +1,42 @@
-// Racing line: a closed path at a constant offset from the track's reference line, with the highest
-// speed that the tyres allow at each point. Built at start-up, read-only afterwards.
+// Racing line: a closed path at a constant offset from the track's reference line, or a raceline of
+// the track's bank, with the highest speed that the tyres allow at each point. Built at start-up,
+// read-only afterwards.
 //   frames Map; offset positive left; curvature positive left
-//   errors build_line: the line leaves the road, a parameter is outside its range
+//   errors build_line: the line leaves the road; a bank without the line that is named, or none
 //   cost   build O(points); at() and project() near a hint O(1), no allocation
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "protocol/vocabulary/result.hpp"
 #include "protocol/vocabulary/units.hpp"
 #include "vehicle/envelope/friction.hpp"
 #include "vehicle/world/legal_range.hpp"
+#include "vehicle/world/raceline.hpp"
 #include "vehicle/world/track_map.hpp"
 
 namespace pitwall::planning {
 
 struct LineParams {
-  double offset_m = kUnset;          // from the track's reference line, within the walls
+  std::string bank = {}, name = {};  // file of a bank and its line; empty: a line at an offset
+  double offset_m = kUnset;          // from the track's reference line; 0 with a bank
   double wall_clearance_m = kUnset;  // minimum from the centre of gravity to a wall
-  double spacing_m = kUnset;
+  double spacing_m = kUnset;         // of a line at an offset
   double speed_max_mps = kUnset;
   double grip_share = kUnset;  // usable share of the friction ellipse
   envelope::FrictionParams friction;
 };
 
-inline constexpr auto kLineRanges = std::to_array<world::NamedRange<LineParams>>({
+// Read only where no bank is named.
+inline constexpr auto kOffsetRanges = std::to_array<world::NamedRange<LineParams>>({
     {"offset_m", &LineParams::offset_m, -30.0, 30.0},
+});
+inline constexpr auto kLineRanges = std::to_array<world::NamedRange<LineParams>>({
     {"wall_clearance_m", &LineParams::wall_clearance_m, 0.0, 10.0},
     {"spacing_m", &LineParams::spacing_m, 0.5, 5.0},
     {"speed_max_mps", &LineParams::speed_max_mps, 5.0, 110.0},
@@ -55,7 +63,10 @@ struct LinePosition {
   double s_m = kUnset, offset_m = kUnset;
 };
 
+inline constexpr std::size_t kLinesMost = 30;  // of a bank: what radio and console can number
+
 struct Line {
+  std::size_t number = 0;         // in its bank, from 1; 0: at an offset
   std::vector<LinePoint> points;  // equal steps of s; the first is one step after the last
   double length_m = 0.0, spacing_m = 0.0;
 
@@ -65,6 +76,8 @@ struct Line {
   LinePosition project(double x_m, double y_m, std::optional<double> hint_s_m = std::nullopt) const;
 };
 
-Result<Line, Problem> build_line(const world::TrackMap& track, const LineParams& params);
+// `bank` is that of params.bank, for this track and checked; null if none is named.
+Result<Line, Problem> build_line(const world::TrackMap& track, const LineParams& params,
+                                 const world::RacelineBank* bank = nullptr);
 
 }  // namespace pitwall::planning

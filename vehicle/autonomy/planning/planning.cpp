@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "vehicle/autonomy/planning/speed_profile.hpp"
 #include "vehicle/world/legal_range.hpp"
@@ -21,6 +22,7 @@ constexpr double kBeyondStop_m = 40.0;  // path past the standstill: control loo
 constexpr double kCoastLeast_mps2 = 1.0;  // with the engine's own drag
 
 std::optional<Problem> illegal_line(const LineParams& p) {
+  if (auto problem = world::first_illegal(kOffsetRanges, p, "line.")) return problem;
   if (auto problem = world::first_illegal(kLineRanges, p, "line.")) return problem;
   return world::first_illegal(envelope::kFrictionRanges, p.friction, "line.friction.");
 }
@@ -60,17 +62,29 @@ void merge_if_far(const Params& params, const Line& line, const LinePosition& ca
            .to_m = 0.0};
 }
 
+// At the mean speed, as of a constant acceleration; infinite for a car that stands.
+double travel_s(double step_m, double from_mps, double to_mps) {
+  const double mean_mps = 0.5 * (from_mps + to_mps);
+  return mean_mps > 0.0 ? step_m / mean_mps : std::numeric_limits<double>::infinity();
+}
+
 template <class OffsetAt>
 world::Trajectory trajectory(const Line& line, double line_s_m, OffsetAt offset,
                              const SpeedProfile& profile, Instant now) {
   world::Trajectory out;
   out.at = now;
-  double s_m = 0.0;
+  double s_m = 0.0, time_s = 0.0;
   for (std::size_t i = 0; i < profile.at.size(); ++i) {
     const double ahead_m = static_cast<double>(i) * profile.spacing_m;
     const LinePoint p = line.at(line_s_m + ahead_m);
-    const Beside at = beside(p, offset(ahead_m));
-    if (i > 0) s_m += std::hypot(at.x_m - out.points.back().x_m, at.y_m - out.points.back().y_m);
+    const Offset aside = offset(ahead_m);
+    const Beside at = beside(p, aside);
+    if (i > 0) {
+      const world::TrajectoryPoint& last = out.points.back();
+      const double step_m = std::hypot(at.x_m - last.x_m, at.y_m - last.y_m);
+      s_m += step_m;
+      time_s += travel_s(step_m, last.speed_mps, profile.at[i].speed_mps);
+    }
     const bool pushed = out.points.push({.s_m = s_m,
                                          .x_m = at.x_m,
                                          .y_m = at.y_m,
@@ -78,7 +92,10 @@ world::Trajectory trajectory(const Line& line, double line_s_m, OffsetAt offset,
                                          .curvature_per_m = at.curvature_per_m,
                                          .bank_rad = p.bank_rad,
                                          .speed_mps = profile.at[i].speed_mps,
-                                         .accel_mps2 = profile.at[i].accel_mps2});
+                                         .accel_mps2 = profile.at[i].accel_mps2,
+                                         .time_s = time_s,
+                                         .room_left_m = p.room_left_m - aside.n_m,
+                                         .room_right_m = p.room_right_m + aside.n_m});
     CHECK(pushed);
   }
   return out;
@@ -197,12 +214,13 @@ SpeedDemand by_vehicle_flag(const Params& params, VehicleFlag flag) {
 
 }  // namespace
 
-Result<Line, Problem> prepare(const Params& params, const world::TrackMap& track) {
+Result<Line, Problem> prepare(const Params& params, const world::TrackMap& track,
+                              const world::RacelineBank* bank) {
   if (auto problem = illegal_line(params.line)) return Unexpected{*problem};
   if (auto problem = illegal_tyres(params.line.friction.tyres)) return Unexpected{*problem};
   if (auto problem = world::first_illegal(kRanges, params)) return Unexpected{*problem};
   if (auto problem = illegal_stop(params)) return Unexpected{*problem};
-  return build_line(track, params.line);
+  return build_line(track, params.line, bank);
 }
 
 SpeedDemand demanded_speed(const Params& params, const world::RaceControl& race_control,

@@ -17,7 +17,7 @@ bool take_front(std::string_view& text, std::string_view front) {
   return true;
 }
 
-Result<transport::UdpAddress, Problem> address_of(std::string_view whole, std::string_view text) {
+Result<UdpAddress, Problem> address_of(std::string_view whole, std::string_view text) {
   const auto address = transport::parse_udp_address(text);
   if (!address) return refuse(whole, address.error().what);
   if (address->port == 0) return refuse(whole, "not a port between 1 and 65535");
@@ -58,10 +58,8 @@ Result<ReceiverLink, Problem> parse_receiver_link(std::string_view text) {
 }
 
 std::string to_string(const ReceiverLink& link) {
-  if (const auto* udp = std::get_if<UdpReceiver>(&link))
-    return "udp:" + transport::to_string(udp->local);
-  if (const auto* tcp = std::get_if<transport::TcpAddress>(&link))
-    return "tcp:" + transport::to_string(*tcp);
+  if (const auto* udp = std::get_if<UdpReceiver>(&link)) return "udp:" + to_string(udp->local);
+  if (const auto* tcp = std::get_if<transport::TcpAddress>(&link)) return "tcp:" + to_string(*tcp);
   const auto& device = std::get<transport::SerialDevice>(link);
   return "serial:" + device.path + ":" + std::to_string(device.baud);
 }

@@ -28,7 +28,7 @@ inline constexpr int kPortMax = 65'535;  // largest UDP or TCP port
 inline constexpr int kDefaultBaud = 460'800;
 
 struct UdpReceiver {
-  transport::UdpAddress local;
+  UdpAddress local;
 };
 using ReceiverLink = std::variant<UdpReceiver, transport::TcpAddress, transport::SerialDevice>;
 using ReceiverLinks = std::array<ReceiverLink, world::kGnssUnits>;

@@ -15,7 +15,7 @@ std::uint32_t run_number() {
 
 Result<LocalReport, Problem> LocalReport::open(std::uint16_t port, telemetry::Source source) {
   if (port == 0) return LocalReport{std::nullopt, port, source, 0};
-  auto socket = transport::UdpSocket::bind({.ip = transport::kLoopbackIp, .port = 0});
+  auto socket = transport::UdpSocket::bind({.ip = kLoopbackIp, .port = 0});
   if (!socket) return Unexpected{socket.error()};
   return LocalReport{*std::move(socket), port, source, run_number()};
 }
@@ -28,8 +28,7 @@ void LocalReport::send(const telemetry::Snapshot& snapshot, Instant now) {
   packet.sequence = sequence_++;
   packet.sent = now;
   telemetry::PacketBuffer buffer;
-  socket_->send_to({.ip = transport::kLoopbackIp, .port = port_},
-                   telemetry::encode(packet, buffer, encoded_));
+  socket_->send_to({.ip = kLoopbackIp, .port = port_}, telemetry::encode(packet, buffer, encoded_));
 }
 
 }  // namespace pitwall::io

@@ -12,7 +12,7 @@
 #include <optional>
 #include <utility>
 
-#include "protocol/telemetry/registry/snapshot.hpp"
+#include "protocol/telemetry/registry/registry.hpp"
 #include "protocol/telemetry/state_packet.hpp"
 #include "protocol/transport/udp_socket.hpp"
 #include "protocol/vocabulary/result.hpp"

@@ -9,16 +9,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <cstdint>
 #include <optional>
 #include <string_view>
 
 #include "protocol/vocabulary/units.hpp"
+#include "vehicle/world/raceline.hpp"
 #include "vehicle/world/track_map.hpp"
 
 namespace pitwall::raceline {
 
-enum class Region : std::uint8_t { kInnerLane, kOuterLane, kPitLane, kTrack };
+using world::Region;
 
 const char* text_of(Region region);   // as files name it: "inner"
 const char* words_of(Region region);  // as people do: "inner lane"

@@ -16,7 +16,6 @@ constexpr double kStraightSpacing_m = 60.0;  // of waypoints where the track is 
 constexpr double kTurnSpacing_rad = 0.35;    // and at most so much turn between two
 constexpr double kPitRampShare = 0.25;       // of the pit lane, to get to its middle and back
 constexpr double kSampleStep_m = 1.0;        // at which a spline is compared with its lane
-constexpr double kExcessAllowed_m = 0.02;    // of a spline over its margin
 constexpr double kNearShare = 0.4;  // of the spacing: a second waypoint so near would make waves
 constexpr int kRoundsMax = 60;
 

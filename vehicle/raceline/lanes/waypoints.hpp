@@ -16,6 +16,8 @@
 
 namespace pitwall::raceline {
 
+inline constexpr double kExcessAllowed_m = 0.02;  // of a spline over its margin
+
 struct Waypoint {
   double s_m = kUnset, n_m = kUnset;
 };

@@ -10,12 +10,15 @@ import type * as Wire from "../wire/messages";
 import type { Checklist } from "../wire/pit";
 import { Kind, readHead, readHistory, readSnapshot } from "../wire/frame";
 import type { History as HistoryAnswer } from "../wire/frame";
+import { readLap } from "../wire/laps";
+import type { Laps } from "../wire/laps";
 import { BaseSocket } from "../wire/socket";
 import { Bench } from "./bench";
 import { BaseClock } from "./station_clock";
 import { Fields } from "./fields";
 import type { Presence } from "./presence";
 import { History } from "./history";
+import { LapStore } from "./laps";
 
 export const kKeptLines = 500;
 
@@ -73,6 +76,7 @@ export class CarSession {
   readonly benchTime = signal<Wire.BenchTime | null>(null);
   readonly track = signal<Wire.Track | null>(null);
   readonly bench = new Bench();
+  readonly laps = new LapStore();
   readonly lastError = signal<{ place: string; what: string; at: number } | null>(null);
   readonly lastStop = signal<LastStop | null>(null);
 
@@ -102,7 +106,10 @@ export class CarSession {
 
   open(url: string): void {
     this.socket = new BaseSocket(url, {
-      opened: () => (this.connected.value = true),
+      opened: () => {
+        this.laps.forget();
+        this.connected.value = true;
+      },
       closed: () => this.lose(),
       text: (message) => this.takeText(message),
       binary: (view) => this.takeBinary(view, performance.now()),
@@ -140,6 +147,12 @@ export class CarSession {
     const head = readHead(view);
     if (head === null) {
       ++this.counters.badFrames;
+      return;
+    }
+    if (head.kind === Kind.lap) {
+      const points = readLap(view);
+      if (points === null) ++this.counters.badFrames;
+      else this.laps.take(points, head.timeMs, this.hello.value?.mode === "REPLAY");
       return;
     }
     if (head.kind === Kind.history) {
@@ -226,6 +239,7 @@ export class CarSession {
       if (before && before.jumps !== m.jumps) this.forget();
       this.playback.value = m;
     },
+    laps: (m: Laps) => (this.laps.table.value = m),
     bench_time: (m: Wire.BenchTime, localMs: number) => {
       this.benchTime.value = m;
       this.clock.stands(m.time_ms, m.stands_ms, localMs);

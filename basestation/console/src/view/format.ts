@@ -70,10 +70,21 @@ export function durationText(ms: number): string {
   return s < 3600 ? rest.replace(/^0/, "") : `${Math.floor(s / 3600)}:${rest}`;
 }
 
-export const lapText = (seconds: number): string =>
-  Number.isFinite(seconds)
-    ? `${Math.floor(seconds / 60)}:${(seconds % 60).toFixed(2).padStart(5, "0")}`
-    : kDash;
+/** A lap time as m:ss with decimals. */
+export function lapTimeText(seconds: number, decimals: number): string {
+  if (!Number.isFinite(seconds)) return kDash;
+  const rounded = Number(seconds.toFixed(decimals));
+  const rest = (rounded % 60).toFixed(decimals).padStart(3 + decimals, "0");
+  return `${Math.floor(rounded / 60)}:${rest}`;
+}
+
+export const lapText = (seconds: number): string => lapTimeText(seconds, 2);
+
+/** A difference, with its sign; none at zero. */
+export function signedText(value: number, decimals: number): string {
+  const text = fixed(value, decimals);
+  return value > 0 && Number(text) !== 0 ? `+${text}` : text;
+}
 
 /** Whole numbers in their order, a run of them as its ends: "1 ... 9, 0". */
 export function runsText(numbers: readonly number[]): string {

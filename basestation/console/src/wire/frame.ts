@@ -13,6 +13,7 @@ const kPointBytes = 16;
 export const enum Kind {
   snapshot = 1,
   history = 2,
+  lap = 3,
 }
 
 export interface Head {
@@ -40,9 +41,7 @@ export interface History {
 export function readHead(view: DataView): Head | null {
   if (view.byteLength < kHeadBytes) return null;
   const kind = view.getUint8(0);
-  if (view.getUint8(1) !== kVersion || (kind !== Kind.snapshot && kind !== Kind.history)) {
-    return null;
-  }
+  if (view.getUint8(1) !== kVersion || kind < Kind.snapshot || kind > Kind.lap) return null;
   const flags = view.getUint8(3);
   return {
     kind,

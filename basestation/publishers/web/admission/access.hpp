@@ -15,7 +15,7 @@
 #include <string_view>
 #include <vector>
 
-#include "basestation/publishers/web/admission/identity.hpp"
+#include "basestation/publishers/web/admission/client.hpp"
 #include "basestation/publishers/web/admission/token_store.hpp"
 #include "protocol/vocabulary/result.hpp"
 

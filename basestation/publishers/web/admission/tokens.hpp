@@ -22,7 +22,7 @@
 #include <string_view>
 #include <vector>
 
-#include "basestation/publishers/web/admission/identity.hpp"
+#include "basestation/publishers/web/admission/client.hpp"
 #include "protocol/vocabulary/result.hpp"
 #include "protocol/vocabulary/time.hpp"
 

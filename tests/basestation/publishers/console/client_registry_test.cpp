@@ -108,6 +108,22 @@ TEST_F(Clients, HistoryIsAFrameForWhoAsked) {
   EXPECT_EQ(reported(kGarage), Types{"error"});
 }
 
+TEST_F(Clients, ALapIsAFrameForWhoAsked) {
+  EXPECT_FALSE(says(kGarage, R"({"type":"lap","lap":1})"));
+  EXPECT_EQ(reported(kGarage), Types{"error"}) << "none was driven";
+  source_.state.values[telemetry::field("track.station")] = 100.0;
+  source_.state.at(telemetry::Group::kTrack) = kNow;
+  telemetry::GroupSet groups;
+  groups.add(telemetry::Group::kTrack);
+  source_.laps_driven.note(source_.state, groups);
+  EXPECT_FALSE(says(kGarage, R"({"type":"lap","lap":1})"));
+  const auto sendings = clients_.take();
+  ASSERT_EQ(sendings.size(), 1U);
+  EXPECT_EQ(sendings[0].to, web::ClientSet{}.set(kGarage));
+  ASSERT_TRUE(sendings[0].message->frame);
+  EXPECT_EQ(sendings[0].message->frame->kind, web::FrameKind::kLap);
+}
+
 TEST_F(Clients, WhoLeftIsToldNothingAndSaysNothing) {
   clients_.left(kAnna);
   EXPECT_FALSE(says(kAnna, R"({"type":"stop","kind":"emergency"})"));

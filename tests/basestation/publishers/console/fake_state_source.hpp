@@ -31,6 +31,8 @@ struct FakeStateSource : StateSource {
                                       std::size_t) const override {
     return {{.time_s = static_cast<double>(from.ns) * 1e-9, .value = 1.0F}};
   }
+  state::LapLog laps_driven{1'000.0};
+  const state::LapLog* laps() const override { return &laps_driven; }
 };
 
 }  // namespace pitwall::publishers::console

@@ -3,7 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include "basestation/replay/read_back.hpp"
 #include "protocol/transport/file.hpp"
 #include "tests/basestation/replay/race.hpp"
 
@@ -11,7 +10,7 @@ namespace pitwall::publishers::console {
 namespace {
 
 std::unique_ptr<web::WebServer> server() {
-  auto started = web::WebServer::start({.ip = transport::kLoopbackIp, .port = 0}, {});
+  auto started = web::WebServer::start({.ip = kLoopbackIp, .port = 0}, {});
   EXPECT_TRUE(started);
   return *std::move(started);
 }
@@ -20,7 +19,8 @@ TEST(ReplayConsole, GoesOnWithTheTimeThatPasses) {
   const auto folder = transport::TemporaryFolder::create("pitwall_wall");
   replay::testing::record_race(folder->path(), seconds(6));
   const auto web = server();
-  ReplayConsole console{{}, *replay::Player::open(folder->path()), *web};
+  ReplayConsole console{
+      {}, *replay::Player::open(folder->path()), service::RecordingIndex{std::nullopt}, *web};
   EXPECT_EQ(console.player().now(), replay::testing::kRaceStart);
   for (int i = 0; i < 100; ++i) console.serve(milliseconds(40));
   EXPECT_EQ(console.player().now(), replay::testing::kRaceStart + seconds(4));
@@ -39,7 +39,8 @@ TEST(ReplayConsole, AToolIsToldTheSameAndMayWind) {
   const auto folder = transport::TemporaryFolder::create("pitwall_wall");
   replay::testing::record_race(folder->path(), seconds(6));
   const auto web = server();
-  ReplayConsole console{{}, *replay::Player::open(folder->path()), *web};
+  ReplayConsole console{
+      {}, *replay::Player::open(folder->path()), service::RecordingIndex{std::nullopt}, *web};
   Other other;
   console.tell_also(other);
   for (int i = 0; i < 50; ++i) console.serve(milliseconds(40));

@@ -36,6 +36,7 @@ TEST(Requests, AreReadAsTheProtocolHasThem) {
   EXPECT_EQ(history.field, 16384);
   EXPECT_EQ(history.to_s, 0.5);
   EXPECT_EQ(history.points, 500u);
+  EXPECT_EQ(parsed<AskLap>(R"({"type":"lap","lap":12})").lap, 12U);
   EXPECT_EQ(parsed<command::AcknowledgeAlarms>(R"({"type":"ack","all":[1,2]})").alarms.size(), 2u);
   EXPECT_EQ(parsed<command::AcknowledgeAlarms>(R"({"type":"ack","alarm":7})").alarms[0], 7u);
   EXPECT_EQ(parsed<command::ShelveAlarm>(R"({"type":"shelve","alarm":7,"minutes":5,"reason":"x"})")
@@ -133,6 +134,7 @@ TEST(Requests, AMistakeIsNamedByItsMember) {
   EXPECT_EQ(refused(R"({"type":"fly"})"), "type");
   EXPECT_EQ(refused(R"({"type":"stop"})"), "stop.kind");
   EXPECT_EQ(refused(R"({"type":"stop","kind":"gently"})"), "stop.kind");
+  EXPECT_EQ(refused(R"({"type":"lap","lap":-1})"), "lap.lap");
   EXPECT_EQ(refused(R"({"type":"history","field":1.5,"from_s":1,"to_s":0,"points":1})"),
             "history.field");
   EXPECT_EQ(refused(R"({"type":"history","field":1,"from_s":1,"to_s":2,"points":1})"),

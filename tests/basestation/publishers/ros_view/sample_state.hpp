@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "basestation/state/course.hpp"
-#include "protocol/telemetry/registry/snapshot.hpp"
+#include "protocol/telemetry/registry/registry.hpp"
 
 namespace pitwall::publishers::ros_view::testing {
 

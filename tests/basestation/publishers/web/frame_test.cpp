@@ -63,6 +63,21 @@ TEST(Frame, HistoryHasSixteenBytesAPoint) {
                                        0, 0, 0, 0x40, 0, 0, 0xC0, 0x3F, 2, 0, 0, 0}));
 }
 
+TEST(Frame, ALapStandsColumnByColumn) {
+  state::Lap lap{.id = 0x0102};
+  for (std::size_t i = 0; i < state::kLapColumns; ++i) {
+    lap.columns[i] = {static_cast<float>(i) + 0.5F, std::nanf("")};
+  }
+  const Frame frame = lap_frame(lap, 5.0, Instant{1});
+  EXPECT_EQ(frame.kind, FrameKind::kLap);
+  EXPECT_EQ(frame.count, 1);
+  ASSERT_EQ(frame.entries.size(), 16U + 5U * 2U * 4U);
+  const std::vector<std::uint8_t> begin(frame.entries.begin(), frame.entries.begin() + 28);
+  EXPECT_EQ(begin, (std::vector<std::uint8_t>{2, 1, 0,    0,    5,    0,    0,    0,   2, 0,
+                                              0, 0, 0,    0,    0xA0, 0x40, 0,    0,   0, 0x3F,
+                                              0, 0, 0xC0, 0x7F, 0,    0,    0xC0, 0x3F}));
+}
+
 TEST(Frame, ANanIsItself) {
   const Entry nan{.field = 1, .value = std::nanf("")};
   EXPECT_TRUE(nan.same(nan));

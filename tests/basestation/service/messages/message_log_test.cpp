@@ -35,6 +35,11 @@ TEST(MessageLog, KeepsTheNewestStateAndTheLastLines) {
   EXPECT_EQ(log.states().at("link"), "{2}");
   ASSERT_EQ(log.lines().at("audit").size(), MessageLog::kLines);
   EXPECT_EQ(log.lines().at("audit").front(), "5");
+  log.set_state("laps", "{3}", kAt);
+  log.clear("laps");
+  ASSERT_EQ(log.states().size(), 1U);
+  EXPECT_EQ(log.states().at("laps"), "{3}");
+  EXPECT_TRUE(log.lines().empty());
   log.clear();
   EXPECT_TRUE(log.states().empty());
   EXPECT_TRUE(log.lines().empty());

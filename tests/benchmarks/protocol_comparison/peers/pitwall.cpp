@@ -26,7 +26,7 @@ namespace {
 using namespace telemetry;  // NOLINT: the peer of this one module
 
 constexpr Duration kTick = milliseconds(10);
-constexpr transport::UdpAddress kCar{0x0A4D0001, 24'001}, kBase{0x0A4D0002, 24'000};
+constexpr UdpAddress kCar{0x0A4D0001, 24'001}, kBase{0x0A4D0002, 24'000};
 constexpr std::int64_t kTicksBack = 1'000;  // an older sample is not looked for
 
 GroupSet safety_groups() {
@@ -56,23 +56,20 @@ LinkEndpointConfig config_of(bool car) {
   return config;
 }
 
-transport::UdpSocket open_socket(transport::UdpAddress here) {
+transport::UdpSocket open_socket(UdpAddress here) {
   auto socket = transport::UdpSocket::bind(here);
   if (socket) return *std::move(socket);
   std::fprintf(stderr, "%s\n", to_string(socket.error()).c_str());
   std::exit(1);
 }
 
-void send(transport::UdpSocket& socket, const Outgoing& out) {
-  socket.send_to({out.to.ip, out.to.port}, out.bytes);
-}
+void send(transport::UdpSocket& socket, const Outgoing& out) { socket.send_to(out.to, out.bytes); }
 
 template <class End>
 void feed_all(End&& feed, transport::UdpSocket& socket,
               std::vector<transport::UdpDatagram>& batch) {
   while (const std::size_t count = socket.receive(batch))
-    for (std::size_t i = 0; i < count; ++i)
-      feed(batch[i].payload(), Address{batch[i].from.ip, batch[i].from.port}, batch[i].at);
+    for (std::size_t i = 0; i < count; ++i) feed(batch[i].payload(), batch[i].from, batch[i].at);
 }
 
 void sample(Snapshot& snapshot, Instant at) {
@@ -94,7 +91,7 @@ void drive(const Call& call) {
   transport::Ticker ticker(kTick, {begin.ns - begin.ns % kTick.ns});
   for (std::int64_t tick = 0; transport::monotonic_now() < call.end; ++tick) {
     const Instant due = ticker.next().deadline, now = transport::monotonic_now();
-    feed_all([&](auto bytes, Address from, Instant at) { car.feed(bytes, 0, from, at); }, socket,
+    feed_all([&](auto bytes, UdpAddress from, Instant at) { car.feed(bytes, 0, from, at); }, socket,
              batch);
     sample(snapshot, due);
     if (call.bulk && tick % (kBulkPeriod / kTick) == 0) car.offer(BulkKind::kPath, bulk);
@@ -168,7 +165,7 @@ void listen(const Call& call) {
     const std::array watched{socket.fd()};
     transport::wait_readable(watched, std::min(call.end, station.due()));
     feed_all(
-        [&](auto bytes, Address from, Instant at) {
+        [&](auto bytes, UdpAddress from, Instant at) {
           if (const auto arrival = station.feed(bytes, 0, from, at))
             onlooker.saw(*arrival, station.state(), transport::monotonic_now());
           while (const auto out = station.poll(transport::monotonic_now())) send(socket, *out);

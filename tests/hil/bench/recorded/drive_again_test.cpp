@@ -7,6 +7,9 @@
 
 #include "hil/bench/recorded/comparison.hpp"
 #include "tests/hil/bench/recorded/recorded_drive.hpp"
+#include "vehicle/parameters/car_setup.hpp"
+#include "vehicle/raceline/bank_builder.hpp"
+#include "vehicle/raceline/bank_file.hpp"
 
 namespace pitwall::bench {
 namespace {
@@ -62,6 +65,37 @@ TEST(DriveAgain, ACommentIsNoDifferenceAndIsToldAsAnotherFile) {
   EXPECT_TRUE(compared({.car = car, .track = {}}, remarks).differences().empty());
   EXPECT_EQ(remarks,
             (std::vector<std::string>{car + ": not the file that the run was driven with"}));
+}
+
+TEST(DriveAgain, TheBankIsThatOfTheRunOrLiesBesideTheCarFile) {
+  const auto folder = *transport::TemporaryFolder::create("pitwall-again-");
+  const std::string car =
+      changed_car(folder, "    offset_m: 0.0\n", "    bank: lines.json\n    name: inner/apex\n");
+  const std::string kept = folder.path() + "/kept.json", beside = folder.path() + "/lines.json";
+  const world::TrackDescription& track = pipeline::testing::las_vegas();
+  const std::string bank = raceline::to_json(
+      *raceline::build_bank(track, *world::TrackMap::build(track),
+                            parameters::bank_for(pipeline::testing::av21_file().params)));
+  ASSERT_TRUE(transport::write_file(kept, bank));
+  {
+    RecordedDrive{folder.path() + "/run", {car, RecordedDrive::path_of("tracks/lvms.yaml"), kept}};
+  }
+  std::vector<std::string> remarks;
+  const auto setup_from = [&](const std::string& recording, const RunFiles& files) {
+    return setup_of(*RecordedRun::open(recording), files, remarks);
+  };
+  EXPECT_EQ(setup_from(folder.path() + "/run", {})->line.number, 4U);
+  EXPECT_TRUE(remarks.empty());
+  ASSERT_TRUE(transport::write_file(kept, bank + "\n"));
+  EXPECT_EQ(setup_from(folder.path() + "/run", {})->line.number, 4U);
+  EXPECT_EQ(remarks,
+            (std::vector<std::string>{kept + ": not the file that the run was driven with"}));
+  // A run that had no bank, with this car file.
+  const auto missing = setup_from(recorded_folder(), {.car = car, .track = {}});
+  ASSERT_FALSE(missing);
+  EXPECT_NE(to_string(missing.error()).find(beside), std::string::npos);
+  ASSERT_TRUE(transport::write_file(beside, bank));
+  EXPECT_EQ(setup_from(recorded_folder(), {.car = car, .track = {}})->line.number, 4U);
 }
 
 TEST(DriveAgain, AParameterThatChangedIsFoundWithSignalAndTick) {

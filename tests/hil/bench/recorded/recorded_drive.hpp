@@ -32,7 +32,10 @@ inline const can::Database& own_database() {
 class RecordedDrive {
  public:
   explicit RecordedDrive(const std::string& folder)
-      : box_(*io::BlackBox::open(folder, path_of("cars/av21.yaml"), path_of("tracks/lvms.yaml"))) {
+      : RecordedDrive(folder,
+                      {.car = path_of("cars/av21.yaml"), .track = path_of("tracks/lvms.yaml")}) {}
+  RecordedDrive(const std::string& folder, const io::BlackBoxFiles& files)
+      : box_(*io::BlackBox::open(folder, files)) {
     for (std::uint64_t tick = 0; tick < kDrivenTicks; ++tick) drive(tick);
   }
   static std::string path_of(const std::string& in_config) {

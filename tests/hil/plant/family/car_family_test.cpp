@@ -1,6 +1,6 @@
 // A drawn car is the car that it says it is, within the ranges; files come first, unchanged.
 // SPDX-License-Identifier: Apache-2.0
-#include "hil/plant/family/car_family.hpp"
+#include "tests/hil/plant/family/car_family.hpp"
 
 #include <gtest/gtest.h>
 

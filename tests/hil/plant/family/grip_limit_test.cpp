@@ -1,15 +1,15 @@
 // The limits are those that the plant itself reaches: it brakes as hard as stated and no harder,
 // turns as hard as stated and no harder; a car at the limit uses all of its ellipse.
 // SPDX-License-Identifier: Apache-2.0
-#include "hil/plant/family/grip_limit.hpp"
+#include "tests/hil/plant/family/grip_limit.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "hil/plant/family/car_family.hpp"
 #include "protocol/vocabulary/units.hpp"
+#include "tests/hil/plant/family/car_family.hpp"
 #include "tests/hil/plant/step.hpp"
 
 namespace pitwall::plant {

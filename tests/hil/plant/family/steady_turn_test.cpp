@@ -1,15 +1,15 @@
 // Understeer as the handbook has it for a linear car, and as the yaw rate of the plant shows.
 // SPDX-License-Identifier: Apache-2.0
-#include "hil/plant/family/steady_turn.hpp"
+#include "tests/hil/plant/family/steady_turn.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "hil/plant/family/car_family.hpp"
 #include "hil/plant/plant.hpp"
 #include "hil/plant/tyre.hpp"
 #include "protocol/vocabulary/units.hpp"
+#include "tests/hil/plant/family/car_family.hpp"
 #include "tests/hil/plant/step.hpp"
 
 namespace pitwall::plant {

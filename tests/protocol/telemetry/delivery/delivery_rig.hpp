@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "protocol/telemetry/packet/body.hpp"
-#include "protocol/telemetry/packet/received.hpp"
 #include "tests/support/lossy_channel.hpp"
 
 namespace pitwall::telemetry {

@@ -11,7 +11,7 @@
 namespace pitwall::telemetry {
 namespace {
 
-constexpr Address kBase[] = {{0x0A000002, 5'000}, {0x0A000002, 5'001}};
+constexpr UdpAddress kBase[] = {{0x0A000002, 5'000}, {0x0A000002, 5'001}};
 
 // A car of two paths that knows where the base is.
 class CarOfPaths {

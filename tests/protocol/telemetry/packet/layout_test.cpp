@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "protocol/telemetry/packet/layout.hpp"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -193,7 +193,7 @@ TEST(Association, TheSlowerPathLearnsItsAddressFromCopies) {
   (*rig.base)->take_proof(1, kElsewhere, *token, rig.now);
   EXPECT_EQ((*rig.base)->proved(1), kElsewhere);
   // The same again from a third place, on either path, moves nothing.
-  const Address third{.ip = 3, .port = 3};
+  const UdpAddress third{.ip = 3, .port = 3};
   for (const PathId path : {PathId{0}, PathId{1}}) {
     EXPECT_FALSE(rig.base->feed(datagram, third, rig.now, path));
     EXPECT_FALSE((*rig.base)->probe(path));
@@ -238,7 +238,7 @@ TEST(Association, ANewAddressGetsThreeTimesWhatItSentUntilItProvesItself) {
   ASSERT_TRUE(rig.base->feed(moved, kElsewhere, rig.now));
   std::size_t to_new = 0;
   for (int i = 0; i < 100; ++i) {
-    for (const Address to : base.targets(0, 50)) {
+    for (const UdpAddress to : base.targets(0, 50)) {
       base.note_sent(0, to, 50);
       if (to == kElsewhere) to_new += 50;
     }

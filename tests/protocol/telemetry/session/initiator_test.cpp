@@ -13,12 +13,12 @@
 namespace pitwall::telemetry::testing {
 namespace {
 
-constexpr Address kMoved{.ip = 0x0A000042, .port = 6'001}, kSpare{.ip = 0x0A000003, .port = 6'001},
-    kOther{.ip = 0x0A000004, .port = 6'002};
+constexpr UdpAddress kMoved{.ip = 0x0A000042, .port = 6'001},
+    kSpare{.ip = 0x0A000003, .port = 6'001}, kOther{.ip = 0x0A000004, .port = 6'002};
 
-EndOptions with_spares(std::initializer_list<Address> spares) {
+EndOptions with_spares(std::initializer_list<UdpAddress> spares) {
   EndOptions options;
-  for (const Address spare : spares) EXPECT_TRUE(options.spare[0].push(spare));
+  for (const UdpAddress spare : spares) EXPECT_TRUE(options.spare[0].push(spare));
   return options;
 }
 
@@ -53,7 +53,7 @@ TEST(Initiator, AfterASecondOfSilenceEachKnownAddressIsOpenedTo) {
   move_base(rig);
   EXPECT_TRUE(openings(*rig.car, rig.now, kSilenceOpens).empty());
   const auto tried = openings(*rig.car, rig.now, seconds(5));
-  for (const Address to : {kMoved, kBaseAddress, kSpare, kOther}) {
+  for (const UdpAddress to : {kMoved, kBaseAddress, kSpare, kOther}) {
     ASSERT_TRUE(tried.contains(to.ip)) << to.ip;
     EXPECT_LE(tried.at(to.ip), milliseconds(500));
   }

@@ -8,7 +8,7 @@
 namespace pitwall::telemetry {
 namespace {
 
-constexpr Address kOld{.ip = 1, .port = 1}, kNew{.ip = 2, .port = 2}, kThird{.ip = 3, .port = 3};
+constexpr UdpAddress kOld{.ip = 1, .port = 1}, kNew{.ip = 2, .port = 2}, kThird{.ip = 3, .port = 3};
 
 struct Road {
   PathAddresses addresses;
@@ -17,13 +17,15 @@ struct Road {
   Instant now{seconds(1).ns};
   std::uint64_t number = 0;
 
-  void receive(Address from, bool newest = true) {
+  void receive(UdpAddress from, bool newest = true) {
     if (newest) ++number;
     addresses.receive({.from = from, .size = 100, .number = number, .newest = newest}, now,
                       randomness);
   }
-  bool proves(Address from, std::uint64_t token) { return addresses.take_proof(from, token, now); }
-  bool serves(Address address, std::size_t size = 1) const {
+  bool proves(UdpAddress from, std::uint64_t token) {
+    return addresses.take_proof(from, token, now);
+  }
+  bool serves(UdpAddress address, std::size_t size = 1) const {
     const auto targets = addresses.targets(size);
     return std::find(targets.begin(), targets.end(), address) != targets.end();
   }

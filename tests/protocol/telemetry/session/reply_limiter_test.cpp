@@ -6,7 +6,7 @@
 namespace pitwall::telemetry {
 namespace {
 
-Address source(std::uint32_t n) { return {.ip = n, .port = 1}; }
+UdpAddress source(std::uint32_t n) { return {.ip = n, .port = 1}; }
 
 TEST(Allowance, GivesItsRateAndNoMoreAtOnce) {
   Allowance allowance(20);

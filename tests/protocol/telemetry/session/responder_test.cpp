@@ -22,9 +22,9 @@ std::vector<Datagram> recorded(const KeyPair& keys, int count, Instant from) {
 TEST(Responder, OfOneStampTwoSourcesAreAnsweredAndEachOnce) {
   Rig rig;
   const Datagram opening = rig.car->poll(rig.now)->first;
-  const Address third{.ip = 3, .port = 3};
+  const UdpAddress third{.ip = 3, .port = 3};
   int answers = 0;
-  for (const Address from : {kElsewhere, kElsewhere, kCarAddress, third, kCarAddress, third}) {
+  for (const UdpAddress from : {kElsewhere, kElsewhere, kCarAddress, third, kCarAddress, third}) {
     rig.base->feed(opening, from, rig.now);
     if (const auto answer = rig.base->poll(rig.now)) {
       ++answers;
@@ -44,7 +44,7 @@ TEST(Responder, ARecordedOpeningIsRefusedAfterItsSessionAndAfterARestartThatReme
   rig.base->feed(opening, kElsewhere, rig.now + seconds(5));
   EXPECT_EQ(rig.base->refused(Refusal::kOldStamp), 0U)
       << "a second source may be the car's other way";
-  rig.base->feed(opening, Address{.ip = 4, .port = 4}, rig.now + seconds(5));
+  rig.base->feed(opening, UdpAddress{.ip = 4, .port = 4}, rig.now + seconds(5));
   EXPECT_EQ(rig.base->refused(Refusal::kOldStamp), 1U);
   End restarted(rig.keys.base, 13, {.newest_stamp = (*rig.base)->newest_stamp()});
   restarted.feed(opening, kElsewhere, rig.now + seconds(6));
@@ -60,7 +60,7 @@ TEST(Responder, WithoutMemoryReplaysCostTheirRateAndTheCarComesInAtOnce) {
   Instant now{seconds(1'000).ns};
   int answers = 0;
   for (std::size_t i = 0; i < 10'000; ++i, now += microseconds(100)) {
-    base.feed(old[i % old.size()], Address{.ip = static_cast<std::uint32_t>(i), .port = 9}, now);
+    base.feed(old[i % old.size()], UdpAddress{.ip = static_cast<std::uint32_t>(i), .port = 9}, now);
     while (base.poll(now)) ++answers;
   }
   // In one second each limit gives what it saved and what it earns.
@@ -117,7 +117,7 @@ TEST(Responder, ACarWhoseClockWentBackComesInThroughAFlood) {
   End base(keys.base, 2), car(keys.car, 3);
   Instant now{seconds(1'000).ns};
   for (std::uint32_t i = 0; i < 50'000 && !base->ready(); ++i, now += microseconds(100)) {
-    base.feed(old[i % old.size()], Address{.ip = i % 5'000, .port = 9}, now);
+    base.feed(old[i % old.size()], UdpAddress{.ip = i % 5'000, .port = 9}, now);
     if (i % 10 != 0) continue;  // each millisecond
     if (const auto opening = car.poll(now)) base.feed(opening->first, kCarAddress, now);
     while (const auto reply = base.poll(now)) {
@@ -160,7 +160,8 @@ TEST(Responder, ARecordedStampBeforeItTellsNobodyMoreThanTheLimits) {
   std::uint64_t replies = 0, to_one = 0;
   for (std::size_t i = 0; i < 100'000; ++i, now += microseconds(100)) {
     const bool one = i % 2 == 0;
-    const Address from = one ? kElsewhere : Address{.ip = static_cast<std::uint32_t>(i), .port = 1};
+    const UdpAddress from =
+        one ? kElsewhere : UdpAddress{.ip = static_cast<std::uint32_t>(i), .port = 1};
     base.feed(old[i % old.size()], from, now);
     while (const auto reply = base.poll(now)) {
       ++replies;

@@ -17,9 +17,9 @@ namespace pitwall::telemetry::testing {
 
 using Datagram = std::vector<std::uint8_t>;
 
-inline constexpr Address kCarAddress{.ip = 0x0A000001, .port = 5'001};
-inline constexpr Address kBaseAddress{.ip = 0x0A000002, .port = 6'001};
-inline constexpr Address kElsewhere{.ip = 0x0A000063, .port = 7'777};
+inline constexpr UdpAddress kCarAddress{.ip = 0x0A000001, .port = 5'001};
+inline constexpr UdpAddress kBaseAddress{.ip = 0x0A000002, .port = 6'001};
+inline constexpr UdpAddress kElsewhere{.ip = 0x0A000063, .port = 7'777};
 
 struct KeyPair {
   KeyFile car, base;
@@ -38,7 +38,7 @@ struct EndOptions {
   // nullopt: the seed in ms, so that of two cars the one with the higher seed is the later one.
   std::optional<Duration> to_utc{};
   Stamp newest_stamp = 0;
-  std::array<FixedVector<Address, kSpares>, kPaths> spare{};
+  std::array<FixedVector<UdpAddress, kSpares>, kPaths> spare{};
 };
 
 class End {
@@ -51,8 +51,8 @@ class End {
                                    .whole_schema = 2,
                                    .signed_only = options.signed_only},
                       .peer = keys.role == Role::kCar
-                                  ? std::array<Address, kPaths>{kBaseAddress, kBaseAddress}
-                                  : std::array<Address, kPaths>{},
+                                  ? std::array<UdpAddress, kPaths>{kBaseAddress, kBaseAddress}
+                                  : std::array<UdpAddress, kPaths>{},
                       .spare = options.spare,
                       .paths = options.paths,
                       .first_sequence = options.first_sequence,
@@ -63,10 +63,11 @@ class End {
   Association* operator->() { return &association_; }
   Association& operator*() { return association_; }
 
-  std::optional<Opened> feed(const Datagram& datagram, Address from, Instant now, PathId path = 0) {
+  std::optional<Opened> feed(const Datagram& datagram, UdpAddress from, Instant now,
+                             PathId path = 0) {
     return association_.feed(datagram, path, from, now, plain_);
   }
-  std::optional<std::pair<Datagram, Address>> poll(Instant now, PathId path = 0) {
+  std::optional<std::pair<Datagram, UdpAddress>> poll(Instant now, PathId path = 0) {
     const std::size_t size = association_.poll_size(path, now);
     const auto due = association_.poll(path, now, out_);
     EXPECT_LE(due ? due->bytes.size() : 0, size);
@@ -92,7 +93,7 @@ class End {
 };
 
 // Exchanges the opening and its answer: the car has keys, the base waits for the first packet.
-inline void exchange(End& car, End& base, Instant now, Address car_at = kCarAddress) {
+inline void exchange(End& car, End& base, Instant now, UdpAddress car_at = kCarAddress) {
   const auto opening = car.poll(now);
   ASSERT_TRUE(opening);
   base.feed(opening->first, car_at, now);
@@ -103,7 +104,7 @@ inline void exchange(End& car, End& base, Instant now, Address car_at = kCarAddr
 }
 
 // Establishes a session that works in both directions.
-inline void establish(End& car, End& base, Instant now, Address car_at = kCarAddress) {
+inline void establish(End& car, End& base, Instant now, UdpAddress car_at = kCarAddress) {
   exchange(car, base, now, car_at);
   ASSERT_TRUE(car->ready());
   ASSERT_TRUE(base.feed(car.seal(1, now), car_at, now));

@@ -234,10 +234,9 @@ inline Params recommended() {
                     .hold_brake_kpa = 800.0};
   p.steering = {.bicycle = {.wheelbase_m = 2.971, .understeer_rad_per_mps2 = 0.0002},
                 .learning = {},
-                .bandwidth_rad_per_s = 1.2,
-                .damping = 1.0,
+                .bandwidth_rad_per_s = 1.4,
+                .damping = 0.85,
                 .lead_s = 0.3,
-                .preview_s = 0.06,
                 .gain_share = 0.3,
                 .observer_s = 0.5,
                 .observer_share = 0.5,

@@ -107,5 +107,60 @@ TEST(Line, RefusesToLeaveTheRoad) {
   }
 }
 
+// A bank whose only line lies at this offset from the reference line.
+world::RacelineBank bank_at(const world::TrackMap& track, double offset_m) {
+  const Line line = build_line(track, line_params(offset_m)).value();
+  world::Raceline raceline{.name = "aside", .length_m = line.length_m, .points = {}};
+  for (const LinePoint& p : line.points)
+    raceline.points.push_back({p.x_m, p.y_m, p.yaw_rad, p.curvature_per_m, p.bank_rad});
+  return {.track = "stadium", .track_fingerprint = "", .lines = {raceline}};
+}
+
+LineParams from_bank() {
+  LineParams p = line_params(0.0);
+  p.bank = "bank.json", p.name = "aside";
+  return p;
+}
+
+TEST(Line, ARacelineAtAnOffsetIsTheLineAtThatOffset) {
+  const world::TrackMap track = testing::stadium();
+  for (const double offset : {-5.0, 0.0, 4.0}) {
+    const Line line = build_line(track, line_params(offset)).value();
+    const world::RacelineBank bank = bank_at(track, offset);
+    const Line same = build_line(track, from_bank(), &bank).value();
+    EXPECT_EQ(line.number, 0u);
+    EXPECT_EQ(same.number, 1u);
+    EXPECT_EQ(same.length_m, line.length_m);
+    EXPECT_NEAR(same.spacing_m, line.spacing_m, 1e-12);
+    ASSERT_EQ(same.points.size(), line.points.size());
+    for (std::size_t i = 0; i < line.points.size(); ++i) {
+      const LinePoint &a = line.points[i], &b = same.points[i];
+      EXPECT_NEAR(a.s_m, b.s_m, 1e-9);
+      EXPECT_NEAR(std::remainder(a.track_s_m - b.track_s_m, track.length_m()), 0.0, 1e-3) << i;
+      EXPECT_EQ(a.x_m, b.x_m);
+      EXPECT_EQ(a.cos_yaw, b.cos_yaw);
+      EXPECT_EQ(a.curvature_per_m, b.curvature_per_m);
+      EXPECT_NEAR(a.speed_mps, b.speed_mps, 1e-9);
+      EXPECT_NEAR(a.cold_speed_mps, b.cold_speed_mps, 1e-9);
+      EXPECT_NEAR(a.room_left_m, b.room_left_m, 1e-4) << i;
+      EXPECT_NEAR(a.room_right_m, b.room_right_m, 1e-4) << i;
+    }
+  }
+}
+
+TEST(Line, RefusesALineThatItsBankLacks) {
+  const world::TrackMap track = testing::stadium();
+  world::RacelineBank bank = bank_at(track, 0.0);
+  bank.source = "bank.json";
+  LineParams params = from_bank();
+  params.name = "inner/apex";
+  const auto line = build_line(track, params, &bank);
+  ASSERT_FALSE(line);
+  EXPECT_EQ(line.error().place, "line.name");
+  EXPECT_NE(line.error().what.find("bank.json has no line \"inner/apex\", but aside"),
+            std::string::npos)
+      << line.error().what;
+}
+
 }  // namespace
 }  // namespace pitwall::planning

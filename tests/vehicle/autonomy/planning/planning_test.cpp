@@ -3,7 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "tests/support/allocation_guard.hpp"
 #include "tests/vehicle/autonomy/planning/stadium.hpp"
@@ -127,6 +129,57 @@ TEST(Planning, TrajectoriesAreDrivableAllRound) {
     EXPECT_NEAR(out.line_offset_m, 0.0, 0.02);
   }
   EXPECT_GT(rig.s_m, rig.line.length_m);
+}
+
+// The time between two points is the integral of ds / v, with v squared linear in s: a constant
+// acceleration. By the midpoint rule.
+double integrated_s(double step_m, double from_mps, double to_mps) {
+  constexpr int kSlices = 20'000;
+  double time_s = 0.0;
+  for (int i = 0; i < kSlices; ++i) {
+    const double u = (i + 0.5) / kSlices;
+    const double v2 = from_mps * from_mps + u * (to_mps * to_mps - from_mps * from_mps);
+    time_s += step_m / kSlices / std::sqrt(v2);
+  }
+  return time_s;
+}
+
+TEST(Planning, TheTimeOfATrajectoryIsTheIntegralOfDistanceOverSpeed) {
+  PlanningRig rig;
+  rig.speed_mps = 20.0;
+  for (int i = 0; i < 60; ++i) (void)rig.tick(green(60.0));
+  const Output out = rig.tick(green(60.0));
+  for (const world::Trajectory* t : {&out.drive, &out.stop}) {
+    EXPECT_EQ(t->points[0].time_s, 0.0);
+    for (std::size_t i = 1; i < t->points.size(); ++i) {
+      const auto &a = t->points[i - 1], &b = t->points[i];
+      if (b.speed_mps == 0.0) break;
+      EXPECT_NEAR(b.time_s - a.time_s, integrated_s(b.s_m - a.s_m, a.speed_mps, b.speed_mps), 1e-5)
+          << i;
+    }
+  }
+  EXPECT_TRUE(std::isfinite(out.drive.points.back().time_s));
+  EXPECT_EQ(out.stop.points.back().time_s, std::numeric_limits<double>::infinity());
+  for (std::size_t i = 1; i < out.stop.points.size(); ++i)
+    EXPECT_GE(out.stop.points[i].time_s, out.stop.points[i - 1].time_s);
+}
+
+// Beside the line, in a merge, and on the way of a stop to the low side of the road.
+TEST(Planning, TheRoomOfATrajectoryIsThatOfTheTrackMap) {
+  PlanningRig rig;
+  rig.offset_m = -5.0, rig.speed_mps = 40.0, rig.s_m = 300.0;
+  const Output out = rig.tick(green(40.0));
+  double least_m = 100.0, most_m = 0.0;
+  for (const world::Trajectory* t : {&out.drive, &out.stop})
+    for (const world::TrajectoryPoint& p : t->points) {
+      const world::Curvilinear place = rig.track.project(p.x_m, p.y_m);
+      const world::TrackPoint road = rig.track.at(place.s_m);
+      EXPECT_NEAR(p.room_left_m, road.width_left_m - place.n_m, 1e-3);
+      EXPECT_NEAR(p.room_right_m, road.width_right_m + place.n_m, 1e-3);
+      least_m = std::min(least_m, p.room_right_m), most_m = std::max(most_m, p.room_right_m);
+    }
+  EXPECT_LT(least_m, 3.1);
+  EXPECT_GT(most_m, 8.0 - 0.1);
 }
 
 TEST(Planning, FollowingTheStopBringsTheCarToRest) {

@@ -31,7 +31,7 @@ TEST(LocalReport, IsTheSnapshotAtAPortOfThisMachine) {
   EXPECT_TRUE(testing::comes_true([&] {
     const std::size_t count = listener->receive(inbox);
     for (std::size_t i = 0; i < count; ++i) {
-      EXPECT_EQ(inbox[i].from.ip, transport::kLoopbackIp);
+      EXPECT_EQ(inbox[i].from.ip, kLoopbackIp);
       received.push_back(*telemetry::parse(inbox[i].payload()));
     }
     return received.size() == 2;

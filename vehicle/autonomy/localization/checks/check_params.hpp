@@ -46,12 +46,12 @@ struct CheckParams {
   // Difference between the units, in addition to three combined sigmas.
   double agree_position_m = 0.08, agree_velocity_mps = 0.3, agree_heading_rad = 0.02;
   double agree_within_s = 0.2;  // largest time difference of compared residuals
-  double worse_factor = 1.5;    // the blamed unit deviates by this factor more
+  double worse_factor = 1.5;    // the refused unit deviates by this factor more
   double drift_memory_s = 5.0;  // memory of the drift detector of one unit
   double course_speed_min_mps = 10.0, course_max_rad = 0.15;
   // IMUs: relative to each other and to the rate of the course.
   double imu_rate_max_rad_per_s = 0.03, imu_force_max_mps2 = 1.5;
-  double imu_contradict_s = 0.04;     // duration before one is blamed
+  double imu_contradict_s = 0.04;     // duration before one is found faulty
   double imu_offset_memory_s = 20.0;  // time constant of their constant difference
   // Wheels: relative to each other and to the car.
   double wheel_spread_mps = 0.8, wheel_spread_per_speed = 0.04;

@@ -15,7 +15,7 @@ struct Offset {
   double x_m, y_m;
 };
 
-Offset less_the_way(const DriftWatch& watch, double x_m, double y_m, Instant at) {
+Offset subtract_path(const DriftWatch& watch, double x_m, double y_m, Instant at) {
   const double since_s = (watch.at - at).seconds();
   return {x_m - (watch.gone_x_m - watch.vx_mps * since_s),
           y_m - (watch.gone_y_m - watch.vy_mps * since_s)};
@@ -40,7 +40,7 @@ void forget(DriftWatch& watch) { watch = {}; }
 double stray_m(const DriftWatch& watch, std::size_t unit, double x_m, double y_m, Instant at) {
   const DriftWatch::Unit& u = watch.units[unit];
   if (!watch.moving || !u.known) return kUnset;
-  const Offset offset = less_the_way(watch, x_m, y_m, at);
+  const Offset offset = subtract_path(watch, x_m, y_m, at);
   return std::hypot(offset.x_m - u.x_m, offset.y_m - u.y_m);
 }
 
@@ -50,7 +50,7 @@ void learn(const CheckParams& params, DriftWatch& watch, std::size_t unit, doubl
   DriftWatch::Unit& u = watch.units[unit];
   const double dt_s = (at - u.at).seconds();
   if (u.known && dt_s <= 0.0) return;
-  const Offset offset = less_the_way(watch, x_m, y_m, at);
+  const Offset offset = subtract_path(watch, x_m, y_m, at);
   const bool follows = u.known && dt_s <= kAwayMax_s;
   const double share = follows ? std::min(dt_s / params.drift_memory_s, 1.0) : 1.0;
   u.x_m += share * (offset.x_m - u.x_m);

@@ -66,31 +66,31 @@ std::optional<Units> missed_turning(const ImuWatch& watch, double bank_rad, Inst
   return std::nullopt;
 }
 
-std::optional<Units> missed(const ImuWatch& watch, const ImuWitness& witness, std::size_t axis,
+std::optional<Units> missed(const ImuWatch& watch, const ImuReference& reference, std::size_t axis,
                             Instant now) {
   const auto from = [&](double expected) {
     return Units{std::abs(watch.units[0].mean[axis] - expected),
                  std::abs(watch.units[1].mean[axis] - expected)};
   };
-  if (axis < kForceX && witness.stands) return from(0.0);
-  if (axis == kRateZ) return missed_turning(watch, witness.bank_rad, now);
-  if (axis == kForceX && std::isfinite(witness.accel_mps2)) return from(witness.accel_mps2);
+  if (axis < kForceX && reference.stands) return from(0.0);
+  if (axis == kRateZ) return missed_turning(watch, reference.bank_rad, now);
+  if (axis == kForceX && std::isfinite(reference.accel_mps2)) return from(reference.accel_mps2);
   // Whose forces across do not fit its turning and its speed.
-  if (axis == kForceY && std::isfinite(witness.speed_mps)) {
+  if (axis == kForceY && std::isfinite(reference.speed_mps)) {
     const double turning = 0.5 * (watch.units[0].mean[kRateZ] + watch.units[1].mean[kRateZ]);
-    return from(steering::lateral_mps2({witness.speed_mps, turning, witness.bank_rad}));
+    return from(steering::lateral_mps2({reference.speed_mps, turning, reference.bank_rad}));
   }
   return std::nullopt;
 }
 
-std::optional<std::size_t> liar(const CheckParams& params, const ImuWatch& watch,
-                                const ImuWitness& witness, Instant now) {
-  // Every axis that is apart may have a witness; the worst first, then the others.
+std::optional<std::size_t> contradicted_unit(const CheckParams& params, const ImuWatch& watch,
+                                             const ImuReference& reference, Instant now) {
+  // Any axis on which the units differ may have a reference: the worst axis first, then the others.
   const std::size_t worst = worst_axis(params, watch);
   for (std::size_t i = 0; i < kImuAxes; ++i) {
     const std::size_t axis = (worst + i) % kImuAxes;
     if (!(excess(params, watch, axis) > 1.0)) continue;
-    const auto off = missed(watch, witness, axis, now);
+    const auto off = missed(watch, reference, axis, now);
     if (!off) continue;
     if ((*off)[0] > params.worse_factor * (*off)[1]) return 0;
     if ((*off)[1] > params.worse_factor * (*off)[0]) return 1;
@@ -136,7 +136,8 @@ void note_course(ImuWatch& watch, std::size_t receiver, Instant at, double cours
   }
 }
 
-void watch_imu(const CheckParams& params, ImuWatch& watch, const ImuWitness& witness, Instant now) {
+void watch_imu(const CheckParams& params, ImuWatch& watch, const ImuReference& reference,
+               Instant now) {
   constexpr double kTick_s = 0.01;
   const auto alive = [&](const ImuWatch::Unit& unit) {
     return unit.received && (now - unit.at).seconds() <= params.imu_gap_max_s;
@@ -152,11 +153,11 @@ void watch_imu(const CheckParams& params, ImuWatch& watch, const ImuWitness& wit
   watch.apart = apart;
   watch.together = together;
   const bool long_apart = apart && now - watch.apart_since >= from_seconds(params.imu_contradict_s);
-  if (long_apart && !watch.blamed) watch.blamed = liar(params, watch, witness, now);
+  if (long_apart && !watch.faulty) watch.faulty = contradicted_unit(params, watch, reference, now);
   const bool long_together =
       together && now - watch.together_since >= from_seconds(params.readmit_after_s);
-  if (long_together) watch.blamed.reset();
-  if (together && !watch.blamed) learn_offset(params, watch, kTick_s);
+  if (long_together) watch.faulty.reset();
+  if (together && !watch.faulty) learn_offset(params, watch, kTick_s);
 }
 
 }  // namespace pitwall::localization

@@ -2,14 +2,15 @@
 // whose yaw rate contradicts the course over ground, or whose acceleration contradicts the change
 // of speed.
 //
-//     unit 0   ____/----      apart since here; the course agrees with unit 1: unit 0 is blamed
+//     unit 0   ____/----      apart since here; the course agrees with unit 1: unit 0 is faulty
 //     unit 1   _________      after imu_contradict_s, and free again after readmit_after_s together
 //
 //   in     samples of both units (Body, rad/s and m/s^2), courses over ground (rad), and at each
 //          tick the motion from other sensors
-//   out    the blamed unit, if any; whether the units differ; their constant difference is learned
+//   out    the faulty unit, if any; whether the units differ; their constant difference is learned
 //   invariants
-//          without another sensor no unit is blamed. Exchanging the units exchanges the result
+//          without another sensor no unit is found faulty; exchanging the units exchanges the
+//          result
 //   cost   O(1) per sample; no allocation
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
@@ -53,7 +54,7 @@ struct ImuWatch {
   double offset_known_s = 0.0;
   bool apart = false, together = false;
   Instant apart_since{}, together_since{};
-  std::optional<std::size_t> blamed;
+  std::optional<std::size_t> faulty;
 };
 static_assert(std::is_trivially_copyable_v<ImuWatch>);
 
@@ -65,11 +66,12 @@ void note(ImuWatch& watch, const world::ImuSample& sample);
 void note_course(ImuWatch& watch, std::size_t receiver, Instant at, double course_rad);
 
 // Motion of the car from other sensors; unset if they do not provide it.
-struct ImuWitness {
+struct ImuReference {
   double bank_rad = 0.0, speed_mps = kUnset;
   double accel_mps2 = kUnset;  // longitudinal, from the wheels
   bool stands = false;         // all wheel speeds are zero
 };
-void watch_imu(const CheckParams& params, ImuWatch& watch, const ImuWitness& witness, Instant now);
+void watch_imu(const CheckParams& params, ImuWatch& watch, const ImuReference& reference,
+               Instant now);
 
 }  // namespace pitwall::localization

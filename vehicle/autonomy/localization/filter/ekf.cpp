@@ -6,7 +6,7 @@
 
 #include "protocol/vocabulary/check.hpp"
 #include "vehicle/autonomy/localization/filter/ekf_model.hpp"
-#include "vehicle/autonomy/localization/filter/integration_step.hpp"
+#include "vehicle/autonomy/localization/filter/measurement.hpp"
 
 namespace pitwall::localization {
 namespace {

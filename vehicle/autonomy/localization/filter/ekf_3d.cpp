@@ -6,7 +6,7 @@
 #include <type_traits>
 
 #include "vehicle/autonomy/localization/filter/ekf_3d_errors.hpp"
-#include "vehicle/autonomy/localization/filter/integration_step.hpp"
+#include "vehicle/autonomy/localization/filter/measurement.hpp"
 #include "vehicle/autonomy/localization/filter/rotation.hpp"
 
 namespace pitwall::localization {
@@ -43,7 +43,7 @@ Drive complete(const SpatialBelief& b, const Imu& imu) {
   return d;
 }
 
-bool stands_in(const Imu& imu) {
+bool is_substitute(const Imu& imu) {
   double sum = 0.0;
   for (std::size_t i = 0; i < 3; ++i) sum += imu.rate_rad_per_s[i] + imu.force_mps2[i];
   return !std::isfinite(sum);
@@ -88,14 +88,14 @@ Course course_of(const SpatialBelief& b, const Measurement* next_imu, Instant un
   }
   c.from = b.last_imu;
   c.from_at = b.last_imu_at;
-  c.blind = b.imu_stands_in;
+  c.blind = b.imu_is_substitute;
   if (next_imu == nullptr) {
     c.blind = c.blind || (until - c.from_at).seconds() > kImuGapMax_s;
     return c;
   }
   c.to = at_centre(b, *next_imu);
   c.length_s = (next_imu->at - c.from_at).seconds();
-  c.blind = c.blind || stands_in(next_imu->imu) || c.length_s > kImuGapMax_s;
+  c.blind = c.blind || is_substitute(next_imu->imu) || c.length_s > kImuGapMax_s;
   if (c.blind || c.length_s <= 0.0) return c;
   const Vector3d change =
       (as_vector(c.to.rate_rad_per_s) - as_vector(c.from.rate_rad_per_s)) / c.length_s;
@@ -275,9 +275,9 @@ void advance(SpatialBelief& b, const SpatialParams& p, Instant to, const Measure
   b.now = course.at(to);
 }
 
-void hear_imu(SpatialBelief& b, const SpatialParams& p, const Measurement& m) {
-  b.imu_stands_in = stands_in(m.imu);
-  if (!b.imu_stands_in) apply_unit(b, p, m.unit);
+void apply_imu(SpatialBelief& b, const SpatialParams& p, const Measurement& m) {
+  b.imu_is_substitute = is_substitute(m.imu);
+  if (!b.imu_is_substitute) apply_unit(b, p, m.unit);
   b.last_imu = b.now = at_centre(b, m);
   b.last_imu_at = m.at;
   b.last_imu_arm = m.arm;

@@ -122,7 +122,7 @@ struct SpatialBelief {
   Instant last_imu_at{};
   std::uint8_t last_imu_unit = 0;
   bool imu_received = false;
-  bool imu_stands_in = false;  // the sample is from a model, not from an IMU
+  bool imu_is_substitute = false;  // the sample is from a model, not from an IMU
   std::array<double, world::kGnssUnits> unit_sigma_m{};  // last reported sigma
   std::array<Streak, kStreaks> streaks{};
   std::array<Instant, kModels> model_at{};
@@ -131,6 +131,6 @@ struct SpatialBelief {
 // Advances the belief to `to` with the IMU as far as it is known.
 void advance(SpatialBelief& b, const SpatialParams& p, Instant to, const Measurement* next_imu);
 // Takes a kImu measurement at its instant.
-void hear_imu(SpatialBelief& b, const SpatialParams& p, const Measurement& m);
+void apply_imu(SpatialBelief& b, const SpatialParams& p, const Measurement& m);
 
 }  // namespace pitwall::localization

@@ -111,7 +111,7 @@ std::optional<ModelOf> model_of(Kind kind) {
   return std::nullopt;
 }
 
-bool says_nothing_new(const SpatialBelief& b, const Measurement& m) {
+bool is_redundant(const SpatialBelief& b, const Measurement& m) {
   const auto model = model_of(m.kind);
   return model && (m.at - b.model_at[static_cast<std::size_t>(*model)]).seconds() < kModelEvery_s;
 }
@@ -144,11 +144,11 @@ void apply_sigma(SpatialBelief& b, const Measurement& m) {
 
 Innovation SpatialModel::fold(SpatialBelief& b, const SpatialParams& p, const Measurement& m,
                               const Measurement* next_imu) {
-  if (says_nothing_new(b, m)) return {.accepted = true, .nis = kUnset, .size = 0};
+  if (is_redundant(b, m)) return {.accepted = true, .nis = kUnset, .size = 0};
   advance(b, p, m.at, next_imu);
   switch (m.kind) {
     case Kind::kImu:
-      hear_imu(b, p, m);
+      apply_imu(b, p, m);
       return {.accepted = true, .nis = 0.0, .size = 0};
     case Kind::kWiden:
       widen(b, kDp, {m.sigma_a, m.sigma_b, 0.0});

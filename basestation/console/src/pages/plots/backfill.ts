@@ -9,6 +9,8 @@ import type { Earlier } from "./series";
 
 const kBackS = 600;
 const kPoints = 3000;
+/** Of a recording, whose older rows this console has not seen played. */
+const kRecordedPoints = 12_000;
 
 const answers = new Map<string, Earlier | null>();
 
@@ -28,12 +30,12 @@ export function requestEarlier(path: string, car = session.shownCar.value): void
     field: info.id,
     from_s: kBackS,
     to_s: 0,
-    points: kPoints,
+    points: car.playback.value ? kRecordedPoints : kPoints,
   });
   if (!sent) return;
   answers.set(key, null);
   car.awaitHistory(info.id, (answer) => answers.set(key, answer));
 }
 
-/** A new connection or catalogue: what was answered belongs to another base. */
+/** A new connection, or a jump of a replay: what was answered lies elsewhere. */
 export const forgetEarlier = (): void => answers.clear();

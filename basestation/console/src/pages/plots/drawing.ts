@@ -31,7 +31,8 @@ function agoText(atS: number): string {
   return Math.abs(ago) < 0.05 ? "0" : `\u2212${Math.abs(ago).toFixed(Math.abs(ago) < 10 ? 1 : 0)}`;
 }
 
-function axes(axis: PlotAxis, lines: readonly Line[]): uPlot.Axis[] {
+/** Of time or of distance, and of values in a unit. */
+export function axesOf(axis: PlotAxis, unit: string): uPlot.Axis[] {
   const { dim, line } = colours();
   const looks = {
     stroke: dim,
@@ -50,7 +51,7 @@ function axes(axis: PlotAxis, lines: readonly Line[]): uPlot.Axis[] {
     { ...looks, size: 28, space: 80, ...along },
     {
       ...looks,
-      label: axisUnits(lines) || undefined,
+      label: unit || undefined,
       labelFont: kFont,
       labelSize: 18,
       labelGap: 0,
@@ -62,7 +63,7 @@ function axes(axis: PlotAxis, lines: readonly Line[]): uPlot.Axis[] {
 }
 
 /** The corners of the track as bands with their names. */
-function drawCorners(plot: uPlot): void {
+export function drawCorners(plot: uPlot): void {
   const { top, height } = plot.bbox;
   const pen = plot.ctx;
   const track = session.track.value;
@@ -116,7 +117,7 @@ export function optionsOf(axis: PlotAxis, lines: readonly Line[], box: HTMLEleme
       drag: { x: false, y: false },
     },
     scales: { x: { time: false, auto: false } },
-    axes: axes(axis, lines),
+    axes: axesOf(axis, axisUnits(lines)),
     series: [{}, ...lines.map((line, i) => looksOf(line, compared.value ? line.field : i))],
     hooks:
       axis === "time"

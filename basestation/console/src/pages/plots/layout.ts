@@ -13,11 +13,14 @@ export interface ChartSpec {
 /** Time before the moment shown, or metres along the lap with the newest laps over each other. */
 export type PlotAxis = "time" | "distance";
 
+/** Or two laps against each other, with charts of its own. */
+export type PlotView = PlotAxis | "laps";
+
 export interface PlotLayout {
   version: 1;
   window_s: number;
   /** Not there: time. */
-  axis?: PlotAxis;
+  axis?: PlotView;
   charts: ChartSpec[];
 }
 
@@ -95,7 +98,7 @@ export function readPlotLayout(json: unknown): PlotLayout | null {
   if (!Array.isArray(from?.charts) || typeof from.window_s !== "number") return null;
   if (!(from.window_s >= 1 && from.window_s <= 600)) return null;
   const axis = from.axis ?? "time";
-  if (axis !== "time" && axis !== "distance") return null;
+  if (axis !== "time" && axis !== "distance" && axis !== "laps") return null;
   const charts: ChartSpec[] = [];
   for (const chart of from.charts.slice(0, kMostCharts)) {
     if (typeof chart?.title !== "string" || !Array.isArray(chart.fields)) return null;

@@ -6,9 +6,11 @@
 import { useEffect } from "preact/hooks";
 import * as session from "../../store/session";
 import { finderShown } from "../../frame/keys";
+import { LapsCompared } from "../laps/view";
 import { Chart } from "./chart";
-import { requestEarlier } from "./backfill";
+import { forgetEarlier, requestEarlier } from "./backfill";
 import { changeLayout, kPresets, kWindowsS, plotLayout } from "./layout";
+import type { PlotAxis, PlotLayout } from "./layout";
 import { compared, comparedNumber } from "./lines";
 
 const columnsFor = (charts: number): number =>
@@ -38,17 +40,41 @@ function CompareWith() {
   );
 }
 
+function Charts({ layout, axis }: { layout: PlotLayout; axis: PlotAxis }) {
+  return (
+    <div
+      class="charts"
+      style={{
+        gridTemplateColumns: `repeat(${columnsFor(layout.charts.length)}, minmax(0, 1fr))`,
+      }}
+    >
+      {layout.charts.map((spec, i) => (
+        <Chart
+          spec={spec}
+          index={i}
+          windowS={layout.window_s}
+          axis={axis}
+          key={spec.title + spec.fields}
+        />
+      ))}
+      {layout.charts.length === 0 && <p class="empty">Press / to add a field.</p>}
+    </div>
+  );
+}
+
 export function PlotsPage() {
   const layout = plotLayout.value;
   const axis = layout.axis ?? "time";
   const other = compared.value;
   const ready = session.fields.value.info.length > 0;
+  const jumps = session.playback.value?.jumps;
+  useEffect(forgetEarlier, [jumps]);
   useEffect(() => {
     if (!ready) return;
     const paths = layout.charts.flatMap((chart) => chart.fields);
     paths.forEach((path) => requestEarlier(path));
     if (other) paths.forEach((path) => requestEarlier(path, other));
-  }, [layout, ready, other]);
+  }, [layout, ready, other, jumps]);
   return (
     <main class="page plots">
       <div class="tools" role="toolbar" aria-label="plots">
@@ -57,7 +83,13 @@ export function PlotsPage() {
             type="button"
             key={name}
             aria-pressed={layout.charts === kPresets[name].charts}
-            onClick={() => changeLayout({ ...kPresets[name], window_s: layout.window_s, axis })}
+            onClick={() =>
+              changeLayout({
+                ...kPresets[name],
+                window_s: layout.window_s,
+                axis: axis === "laps" ? "time" : axis,
+              })
+            }
           >
             {name}
           </button>
@@ -72,12 +104,13 @@ export function PlotsPage() {
           >
             <option value="time">time</option>
             <option value="distance">distance, lap by lap</option>
+            <option value="laps">distance, against a reference lap</option>
           </select>
         </label>
         <label>
           window
           <select
-            disabled={axis === "distance"}
+            disabled={axis !== "time"}
             value={String(layout.window_s)}
             onChange={(e) => changeLayout({ ...layout, window_s: Number(e.currentTarget.value) })}
           >
@@ -92,27 +125,11 @@ export function PlotsPage() {
           Add field <kbd>/</kbd>
         </button>
         {session.hasSeveral.value && <CompareWith />}
-        {axis === "distance" && !session.track.value && (
+        {axis !== "time" && !session.track.value && (
           <span class="sum">Without a track there is no distance.</span>
         )}
       </div>
-      <div
-        class="charts"
-        style={{
-          gridTemplateColumns: `repeat(${columnsFor(layout.charts.length)}, minmax(0, 1fr))`,
-        }}
-      >
-        {layout.charts.map((spec, i) => (
-          <Chart
-            spec={spec}
-            index={i}
-            windowS={layout.window_s}
-            axis={axis}
-            key={spec.title + spec.fields}
-          />
-        ))}
-        {layout.charts.length === 0 && <p class="empty">Press / to add a field.</p>}
-      </div>
+      {axis === "laps" ? <LapsCompared /> : <Charts layout={layout} axis={axis} />}
     </main>
   );
 }

@@ -5,6 +5,7 @@
 // SPDX-License-Identifier: Apache-2.0
 import { Bar } from "../../view/bar";
 import { lapText } from "../../view/format";
+import { lineText, reasonText } from "./limit_words";
 import { kGaugesHz } from "../../view/painting";
 import { Line, Tile, Value } from "../../view/value";
 
@@ -34,6 +35,11 @@ export function SpeedPanel() {
           { path: "planner.operator_limit", label: "limit of the operator" },
         ]}
       />
+      <div class="limit">
+        <Line label="limited by" path="planner.reason" text={reasonText} />
+        <Line label="line" path="planner.line" text={lineText} unit={false} />
+        <Line label="from the line" path="planner.line_offset" decimals={1} />
+      </div>
       <div class="gauges">
         <Line label="rpm" path="engine.speed" unit={false} />
         <Bar path="engine.speed" label="engine speed" max={kTopRpm} />

@@ -14,7 +14,7 @@ constexpr std::size_t kRateZ = 2, kForceX = 3, kForceY = 4;
 struct ImuRig {
   CheckParams params{};
   ImuWatch watch{};
-  ImuWitness witness{.speed_mps = 60.0, .accel_mps2 = 0.0};
+  ImuReference reference{.speed_mps = 60.0, .accel_mps2 = 0.0};
   std::array<ImuAxes, 2> error{};
   double yaw_rate = 0.25;
   bool has_course = true;
@@ -32,7 +32,7 @@ struct ImuRig {
         world::ImuSample s{.unit = unit, .at = now()};
         s.rate_rad_per_s = {error[unit][0], error[unit][1], yaw_rate + error[unit][kRateZ]};
         s.specific_force_mps2 = {error[unit][kForceX],
-                                 witness.speed_mps * yaw_rate + error[unit][kForceY],
+                                 reference.speed_mps * yaw_rate + error[unit][kForceY],
                                  9.8 + error[unit][5]};
         note(watch, s);
       }
@@ -41,16 +41,16 @@ struct ImuRig {
       const int at = ms - 35;
       note_course(watch, 0, now() - milliseconds(35), wrap_pi(yaw_rate * at * 1e-3));
     }
-    watch_imu(params, watch, witness, now());
+    watch_imu(params, watch, reference, now());
   }
   void run(double for_s) {
     for (int i = 0; i < static_cast<int>(for_s * 100); ++i) tick();
   }
-  // How long until somebody is blamed.
-  double blamed_after_s() {
+  // Time until one unit is found faulty.
+  double faulty_after_s() {
     for (int i = 0; i < 300; ++i) {
       tick();
-      if (watch.blamed) return 0.01 * (i + 1);
+      if (watch.faulty) return 0.01 * (i + 1);
     }
     return kUnset;
   }
@@ -62,23 +62,24 @@ TEST(ImuWatch, TwoThatAgreeAreNotApart) {
   for (int i = 0; i < 1000; ++i) {
     rig.tick();
     ASSERT_FALSE(rig.watch.apart);
-    ASSERT_FALSE(rig.watch.blamed);
+    ASSERT_FALSE(rig.watch.faulty);
   }
   EXPECT_NEAR(rig.watch.offset[kRateZ], 0.004, 0.001);
 }
 
-// The law for each unit, sign and axis that has a witness: who lies is blamed within 200 ms, and
-// exchanging the units exchanges the blame.
+// For each unit, sign and axis that has a reference: the faulty unit is found within 200 ms, and
+// exchanging the units exchanges the result.
 TEST(ImuWatch, WhoLiesIsBlamedInTime) {
-  for (const std::size_t liar : {0U, 1U}) {
+  for (const std::size_t faulty_unit : {0U, 1U}) {
     for (const double sign : {-1.0, 1.0}) {
       for (const auto& [axis, size] :
            {std::pair{kRateZ, 0.05}, {kRateZ, 0.5}, {kForceX, 3.0}, {kForceY, 3.0}}) {
         ImuRig rig;
         rig.run(5.0);
-        rig.error[liar][axis] = sign * size;
-        EXPECT_LE(rig.blamed_after_s(), 0.20) << liar << " axis " << axis << " " << sign * size;
-        EXPECT_EQ(rig.watch.blamed, liar) << axis << " " << sign * size;
+        rig.error[faulty_unit][axis] = sign * size;
+        EXPECT_LE(rig.faulty_after_s(), 0.20)
+            << faulty_unit << " axis " << axis << " " << sign * size;
+        EXPECT_EQ(rig.watch.faulty, faulty_unit) << axis << " " << sign * size;
       }
     }
   }
@@ -89,14 +90,14 @@ TEST(ImuWatch, TheBlameEndsAfterAWhileTogether) {
   rig.run(3.0);
   rig.error[0][kRateZ] = 0.1;
   rig.run(0.5);
-  ASSERT_EQ(rig.watch.blamed, 0U);
+  ASSERT_EQ(rig.watch.faulty, 0U);
   rig.run(20.0);
-  ASSERT_EQ(rig.watch.blamed, 0U) << "it is not learned away";
+  ASSERT_EQ(rig.watch.faulty, 0U) << "it is not learned away";
   rig.error[0][kRateZ] = 0.0;
   rig.run(0.5);
-  EXPECT_EQ(rig.watch.blamed, 0U);
+  EXPECT_EQ(rig.watch.faulty, 0U);
   rig.run(rig.params.readmit_after_s);
-  EXPECT_FALSE(rig.watch.blamed);
+  EXPECT_FALSE(rig.watch.faulty);
 }
 
 TEST(ImuWatch, WithoutAWitnessNobodyIsBlamed) {
@@ -104,7 +105,7 @@ TEST(ImuWatch, WithoutAWitnessNobodyIsBlamed) {
   rig.has_course = false;
   rig.run(3.0);
   rig.error[0][kRateZ] = 0.1;
-  EXPECT_TRUE(std::isnan(rig.blamed_after_s()));
+  EXPECT_TRUE(std::isnan(rig.faulty_after_s()));
   EXPECT_TRUE(rig.watch.apart) << "but it is seen";
 }
 
@@ -112,11 +113,11 @@ TEST(ImuWatch, AtRestAUnitThatTurnsIsBlamed) {
   ImuRig rig;
   rig.yaw_rate = 0.0;
   rig.has_course = false;
-  rig.witness = {.speed_mps = 0.0, .accel_mps2 = 0.0, .stands = true};
+  rig.reference = {.speed_mps = 0.0, .accel_mps2 = 0.0, .stands = true};
   rig.run(3.0);
   rig.error[1][kRateZ] = -0.1;
-  rig.blamed_after_s();
-  EXPECT_EQ(rig.watch.blamed, 1U);
+  rig.faulty_after_s();
+  EXPECT_EQ(rig.watch.faulty, 1U);
 }
 
 TEST(ImuWatch, OneThatIsSilentIsNotComparedWith) {
@@ -127,7 +128,7 @@ TEST(ImuWatch, OneThatIsSilentIsNotComparedWith) {
   rig.error[0][kRateZ] = 0.3;
   rig.run(1.0);
   EXPECT_FALSE(rig.watch.apart);
-  EXPECT_FALSE(rig.watch.blamed);
+  EXPECT_FALSE(rig.watch.faulty);
 }
 
 TEST(ImuWatch, EnteringATurnBlamesNobody) {

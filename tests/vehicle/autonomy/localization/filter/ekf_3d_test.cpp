@@ -117,7 +117,7 @@ TEST(Ekf3d, AnHonestImuCarriesTheCarRound) {
   for (const auto& arrival : drive.run(kFor_s)) {
     if (arrival.measurement.kind != Kind::kImu) continue;
     advance(b, p, arrival.measurement.at, &arrival.measurement);
-    hear_imu(b, p, arrival.measurement);
+    apply_imu(b, p, arrival.measurement);
   }
   const double t = (b.at - Instant{}).seconds();
   const testing::Pose to = oval.pose(t);
@@ -144,8 +144,8 @@ TEST(Ekf3d, WhatStandsInForAnImuIsFilledFromTheRoad) {
     m.imu.rate_rad_per_s[2] = level.rate(t).z();
     m.imu.force_mps2 = {level.force(t).x(), level.force(t).y(), kUnset};
     advance(b, p, m.at, &m);
-    hear_imu(b, p, m);
-    EXPECT_TRUE(b.imu_stands_in);
+    apply_imu(b, p, m);
+    EXPECT_TRUE(b.imu_is_substitute);
     for (const double x : b.last_imu.rate_rad_per_s) EXPECT_TRUE(std::isfinite(x));
     EXPECT_NEAR(b.last_imu.force_mps2[2], level.force(t).z(), 1.5);
   }
@@ -158,13 +158,13 @@ TEST(Ekf3d, AnotherImuHasOtherBiases) {
   const SpatialParams p = testing::recommended_spatial();
   SpatialBelief b = in_turn();
   Measurement m{.kind = Kind::kImu, .unit = 1, .imu = {{0.0, 0.0, 0.3}, {0.0, 14.0, 16.0}}};
-  hear_imu(b, p, m);
+  apply_imu(b, p, m);
   EXPECT_EQ(b.gyro_bias_rad_per_s[2], 0.0);
   EXPECT_EQ(b.accel_scale, 0.0);
   const Eigen::Map<const ErrorMatrix> cov(b.covariance.data());
   EXPECT_NEAR(std::sqrt(cov(kDbg, kDbg)), p.gyro_bias_start_rad_per_s, 1e-15);
   b.gyro_bias_rad_per_s[2] = 0.001;
-  hear_imu(b, p, m);  // the same again
+  apply_imu(b, p, m);  // the same again
   EXPECT_EQ(b.gyro_bias_rad_per_s[2], 0.001);
 }
 

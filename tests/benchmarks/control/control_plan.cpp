@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tests/benchmarks/control/control_plan.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "protocol/vocabulary/check.hpp"
+#include "protocol/vocabulary/units.hpp"
+
+namespace pitwall::control_bench {
+namespace {
+
+constexpr Duration kLaunch = seconds(40), kChange = seconds(15), kStop = seconds(30);
+constexpr double kHoldLeast_s = 60.0;
+constexpr double kFastest_mph = 147.0;
+
+double speed_mph_of(const grading::Bracket& bracket) {
+  constexpr double kOpenEnd_mps = 1e6;
+  if (bracket.to_mps > kOpenEnd_mps) return kFastest_mph;
+  return std::round(to_mph(0.5 * (bracket.from_mps + bracket.to_mps)));
+}
+
+}  // namespace
+
+Plan plan_of(const scenario::Scenario& like, double track_length_m) {
+  const auto green = std::ranges::find_if(like.race_control, [](const scenario::FlagChange& f) {
+    return f.track == world::TrackFlag::kGreen;
+  });
+  CHECK(green != like.race_control.end());
+  Plan plan{.scenario = like, .windows = {}};
+  scenario::Scenario& s = plan.scenario;
+  s.race_control = {like.race_control.begin(), green};
+  s.expect.clear();
+  s.faults.clear();
+  Duration at = green->at;
+  Duration before_window = kLaunch;
+  for (std::size_t i = grading::kBrackets.size(); i-- > 0;) {
+    const double speed_mph = speed_mph_of(grading::kBrackets[i]);
+    const double speed_mps = from_mph(speed_mph);
+    s.race_control.push_back(
+        {.at = at, .track = world::TrackFlag::kGreen, .round_target_speed_mph = speed_mph});
+    const Duration from = at + before_window;
+    at = from + from_seconds(std::max(kHoldLeast_s, track_length_m / speed_mps));
+    plan.windows.push_back({i, speed_mps, from, at});
+    before_window = kChange;
+  }
+  s.race_control.push_back({.at = at, .track = world::TrackFlag::kRed});
+  s.duration = at + kStop;
+  return plan;
+}
+
+std::vector<World> worlds() {
+  std::vector<World> all{{laps::kNominal, "", {}},
+                         {"compliant car", "hil/config/plants/av21_compliant.yaml", {}},
+                         {"Putnam car", "hil/config/plants/av21_putnam.yaml", {}}};
+  for (const laps::Case& c : laps::cases())
+    if (c.name != laps::kNominal) all.push_back({c.name, "", c.perturb});
+  return all;
+}
+
+}  // namespace pitwall::control_bench

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "vehicle/parameters/car_setup.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <string_view>
+
+#include "protocol/vocabulary/units.hpp"
+#include "vehicle/raceline/bank_file.hpp"
+
+namespace pitwall::parameters {
+namespace {
+
+constexpr std::string_view kTrackMark = "<track>";
+
+std::string folder_with_slash(const std::string& path) {
+  return path.substr(0, path.rfind('/') + 1);
+}
+
+std::string stem_of(const std::string& path) {
+  const std::string name = path.substr(path.rfind('/') + 1);
+  return name.substr(0, name.rfind('.'));
+}
+
+}  // namespace
+
+std::string bank_path(const CarFile& car, const world::TrackDescription& track) {
+  std::string path = car.params.planning.line.bank;
+  if (path.empty()) return path;
+  if (const std::size_t at = path.find(kTrackMark); at != std::string::npos)
+    path.replace(at, kTrackMark.size(), stem_of(track.source));
+  return path.starts_with('/') ? path : folder_with_slash(car.source) + path;
+}
+
+raceline::BankParams bank_for(const pipeline::CarParams& car) {
+  const double beside_m = car.planning.line.wall_clearance_m - 0.5 * car.width_m;
+  return {.car_width_m = car.width_m, .clearance_m = beside_m + raceline::kExcessAllowed_m};
+}
+
+envelope::EnvelopeParams envelope_of(const pipeline::CarParams& car, const world::TrackMap& track,
+                                     std::optional<double> tyre_c) {
+  const planning::LineParams& line = car.planning.line;
+  double bank_rad = 0.0;
+  for (std::size_t i = 0; i < track.size(); ++i)
+    bank_rad = std::max(bank_rad, std::abs(track.point(i).bank_rad));
+  return {.friction = tyre_c ? envelope::on_tyres(line.friction, *tyre_c) : line.friction,
+          .grip_share = line.grip_share,
+          .speed_max_mps = line.speed_max_mps,
+          .bank_most_rad = bank_rad,
+          .steering = envelope::SteeringLimit{.limits = pipeline::angles_of(car),
+                                              .car = car.control.steering.bicycle,
+                                              .share = car.planning.steer_share}};
+}
+
+raceline::CarLimits limits_of(const pipeline::CarParams& car,
+                              const envelope::EnvelopeTable& table) {
+  const double ratio = car.outbound.steering_ratio;
+  constexpr double kStanding_mps = 0.0;  // where the steering reaches furthest
+  return {.width_m = car.width_m,
+          .wheelbase_m = car.control.steering.bicycle.wheelbase_m,
+          .steer_max_rad = from_deg(safety::steer_limit_deg(car.gate, kStanding_mps)) / ratio,
+          .steer_rate_max_rad_per_s = from_deg(car.gate.steer_slew_deg_per_s) / ratio,
+          .corner_speed_mps =
+              [&table](double curvature_per_m, double bank_rad) {
+                return table.corner_speed_mps(table.place(curvature_per_m, bank_rad));
+              },
+          .envelope = &table};
+}
+
+Result<pipeline::Setup, Problem> set_up(const CarFile& car, const world::TrackDescription& track,
+                                        const ReadFile& read_file) {
+  const std::string path = bank_path(car, track);
+  if (path.empty()) return pipeline::prepare(car.params, track);
+  const auto map = world::TrackMap::build(track);
+  if (!map) return Unexpected{map.error()};
+  const auto text = read_file(path);
+  if (!text) return Unexpected{text.error()};
+  if (text->size() > raceline::kMaxBankBytes) return refuse(path, "is too large for a bank");
+  const envelope::EnvelopeTable table{envelope_of(car.params, *map)};
+  const auto bank = raceline::read_bank(*text, path, track, *map, limits_of(car.params, table));
+  if (!bank) return Unexpected{bank.error()};
+  pipeline::CarParams params = car.params;
+  params.planning.line.bank = path;  // as it was found, for messages and recordings
+  return pipeline::prepare(params, track, &*bank);
+}
+
+}  // namespace pitwall::parameters
