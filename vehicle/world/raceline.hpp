@@ -35,7 +35,7 @@ struct Raceline {
   Region region = Region::kInnerLane;  // where the whole car stays
   double length_m = kUnset;
   std::vector<RacelinePoint> points;  // the last one is a step before the first
-  std::vector<LapPoint> lap;          // of each point; empty without a profile
+  std::vector<LapPoint> lap = {};     // of each point; empty without a profile
   double lap_s = kUnset;
 
   double spacing_m() const { return length_m / static_cast<double>(points.size()); }
