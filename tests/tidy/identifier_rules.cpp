@@ -118,7 +118,7 @@ const std::vector<PrivateName> kPrivateNames{
     {"confess", "report_lost", {}},
     {"deed", "action", {}},
     {"deeds", "actions", {}},
-    {"descend", "apply_link_loss_policy", {"vehicle", "tests/vehicle"}},
+    {"descend", "apply_link_loss_policy", {"vehicle/safety", "tests/vehicle/safety"}},
     {"desk", "what it is: server, register, transmitter, queue", {}},
     {"desk_", "what it is: server, register, transmitter, queue", {}},
     {"dog", "watchdog", {"vehicle/safety", "tests/vehicle/safety"}},

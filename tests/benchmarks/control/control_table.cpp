@@ -137,7 +137,10 @@ std::vector<Gate> gates_of(const std::vector<ControlRow>& rows) {
                [&](const ControlRow& r, std::size_t i, const ErrorStatistics& s) {
                  perturbed.add(r, i, s.mean_m(), kGoals[i].perturbed_mean_m);
                });
-  return {held_gate(rows), half.gate(), nominal_mean.gate(), nominal_max.gate(), perturbed.gate()};
+  std::vector<Gate> gates{held_gate(rows), half.gate(), nominal_mean.gate(), nominal_max.gate()};
+  if (std::ranges::any_of(rows, [](const ControlRow& r) { return !is_nominal(r); }))
+    gates.push_back(perturbed.gate());
+  return gates;
 }
 
 bool all_held(const std::vector<ControlRow>& rows) {

@@ -1,10 +1,10 @@
 // Table, JSON and gates of the control benchmark: a row per track, world and control law.
-//   gates  kept ones decide the exit code; each is printed with its worst figure
+//   gates  they decide the exit code; each is printed with the figure that is worst for it
 //          held       every law holds every speed of the nominal world for a minute
 //          half       above 40 m/s, on every track: our mean error is at most half of that of
 //                     `paper_lqr` in the same world, or 0.05 m, whichever is larger
 //          nominal    means and maxima in the nominal world are at most the goals
-//          perturbed  so are the means in the worst perturbed world
+//          other      so are the means in the worst other world, if one was driven
 //   units  m, m/s
 //   source the goals: chosen before the first run, from the figures of the paper's season one
 //          (Saba et al.), a tenth to a third of them
