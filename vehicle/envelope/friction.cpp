@@ -29,7 +29,9 @@ double braked_axles_mps2(const FrictionParams& car, double load_mps2, double lef
 // The largest acceleration that the rear axle carries when `left` of the friction is its own.
 double driven_axle_mps2(const FrictionParams& car, double load_mps2, double left) {
   const double m = left * car.long_friction;
-  return m * (1.0 - car.load_front) * load_mps2 / (1.0 - m * car.load_shift);
+  // A rear axle that gains load faster than the drive needs it never limits.
+  const double gains = m * car.load_shift;
+  return gains < 1.0 ? m * (1.0 - car.load_front) * load_mps2 / (1.0 - gains) : HUGE_VAL;
 }
 
 }  // namespace

@@ -27,7 +27,7 @@ CAR_WIDTH_M, CLEARANCE_M = 2.0, 0.3
 SHARE = 0.01              # that ours may take longer
 SECONDS_MOST = 60.0       # of the program
 MOVE_M = 1e-4             # of the differences
-ROUNDS = 100
+ROUNDS = 40  # after 100 its lap is 55.434 s, 0.16 % faster than after 40
 
 
 def expect(condition, what):
@@ -124,12 +124,14 @@ def offsets_of(line, x, y, yaw):
 def main():
     with tempfile.TemporaryDirectory() as folder:
         track, bank = Path(folder, "circuit.yaml"), Path(folder, "bank.json")
-        table = Path(folder, "envelope.csv")
+        table, car = Path(folder, "envelope.csv"), Path(folder, "car.yaml")
         track.write_text(circuit.yaml_text())
+        av21 = (TREE / "vehicle/config/cars/av21.yaml").read_text()
+        car.write_text(av21.replace("\nwidth_m: 1.93", f"\nwidth_m: {CAR_WIDTH_M}"))
+        expect(f"width_m: {CAR_WIDTH_M}" in car.read_text(), "the car file has no width of 1.93 m")
         begin = time.monotonic()
         done = subprocess.run(
-            [PROGRAM, track, "--car", TREE / "vehicle/config/cars/av21.yaml", "--out", bank,
-             "--envelope", table, "--minimum-time", "--car-width", str(CAR_WIDTH_M),
+            [PROGRAM, track, "--car", car, "--out", bank, "--envelope", table, "--minimum-time",
              "--clearance", str(CLEARANCE_M)], capture_output=True, text=True, timeout=120)
         took_s = time.monotonic() - begin
         expect(done.returncode == 0, done.stderr)

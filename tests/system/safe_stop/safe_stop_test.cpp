@@ -17,7 +17,8 @@ constexpr double kWarm_c = 85.0, kCold_c = 30.0;
 const auto kPlaces = ::testing::Values(440.0, 560.0, 700.0, 850.0, 1560.0, 1680.0, 1830.0, 1970.0);
 
 constexpr double kCrossTrackMax_m = 0.6, kUseMax = 0.9, kJerkMax_mps3 = 15.0;
-constexpr double kWarmFrom_mps = 67.0, kColdFrom_mps = 60.0;
+// On cold tyres the rear axle, which alone drives, limits the speed of the turns to 59.2 m/s.
+constexpr double kWarmFrom_mps = 67.0, kColdFrom_mps = 59.0;
 
 void expect_on_track(const StopFigures& f) {
   EXPECT_TRUE(f.begun);
