@@ -20,9 +20,6 @@ namespace {
 using control_bench::ControlRow;
 using control_bench::World;
 
-constexpr std::array kScenarios{"hil/scenarios/lvms_flying_lap.yaml",
-                                "hil/scenarios/ims_flying_lap.yaml",
-                                "hil/scenarios/tms_flying_lap.yaml"};
 constexpr std::array kLaws{std::pair{control::LateralLaw::kPaperLqr, control_bench::kPaper},
                            std::pair{control::LateralLaw::kFeedForward, control_bench::kOurs}};
 constexpr unsigned kWorkers = 2;
@@ -53,7 +50,7 @@ Result<Job, Problem> job_of(const bench::Loaded& on, const World& world,
 
 Result<std::vector<Job>, Problem> jobs_of(const std::string& only) {
   std::vector<Job> jobs;
-  for (const char* file : kScenarios) {
+  for (const char* file : laps::kScenarios) {
     const auto on = bench::load(file, "");
     if (!on) return Unexpected{on.error()};
     for (const World& world : control_bench::worlds()) {

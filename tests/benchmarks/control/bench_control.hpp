@@ -1,4 +1,4 @@
-// Subcommand `pitwall-benchmarks control [--worlds all] [--json FILE]`: the paper's speed-bracket
+// Subcommand `pitwall-benchmarks control [--only NAME] [--json FILE]`: the paper's speed-bracket
 // LQR and our control law, on the same line, at the same speeds, in the same run.
 //
 //   in     hil/scenarios/{lvms,ims,tms}_flying_lap.yaml and the car file that they name

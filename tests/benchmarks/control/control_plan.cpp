@@ -2,7 +2,6 @@
 #include "tests/benchmarks/control/control_plan.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "protocol/vocabulary/check.hpp"

@@ -7,6 +7,7 @@
 
 #include "protocol/json/json_text.hpp"
 #include "protocol/vocabulary/text.hpp"
+#include "tests/benchmarks/laps/bracket_text.hpp"
 #include "tests/benchmarks/laps/lap_plan.hpp"
 
 namespace pitwall::control_bench {
@@ -18,11 +19,6 @@ using grading::kBrackets;
 
 constexpr double kFast_mps = 40.0, kSmall_m = 0.05, kHalf = 0.5;
 constexpr std::uint64_t kHeldTicks = 5900;  // a minute, less a second at the edges of a bracket
-
-std::string name_of(const Bracket& b) {
-  return b.to_mps > 1e6 ? formatted(">%.0f", b.from_mps)
-                        : formatted("%.0f-%.0f", b.from_mps, b.to_mps);
-}
 
 bool is_nominal(const ControlRow& r) { return r.world == laps::kNominal; }
 
@@ -37,7 +33,7 @@ class Worst {
     ratio_ = std::isfinite(figure_m) ? figure_m / bound_m : HUGE_VAL;
     gate_.held = gate_.held && figure_m <= bound_m;
     gate_.worst = formatted("%.3f of %.3f m: %s %s %s m/s", figure_m, bound_m, row.track.c_str(),
-                            row.world.c_str(), name_of(kBrackets[bracket]).c_str());
+                            row.world.c_str(), laps::bracket_name(kBrackets[bracket]).c_str());
   }
   void early(const ControlRow& row) {
     gate_.held = false, ratio_ = HUGE_VAL;
@@ -76,8 +72,9 @@ Gate held_gate(const std::vector<ControlRow>& rows) {
       const std::uint64_t ticks = r.cross_track.by_bracket[i].samples;
       if (ticks >= kHeldTicks) continue;
       gate.held = false;
-      gate.worst = formatted("%s %s %s m/s: %.1f s", r.track.c_str(), r.law.c_str(),
-                             name_of(kBrackets[i]).c_str(), 0.01 * static_cast<double>(ticks));
+      gate.worst =
+          formatted("%s %s %s m/s: %.1f s", r.track.c_str(), r.law.c_str(),
+                    laps::bracket_name(kBrackets[i]).c_str(), 0.01 * static_cast<double>(ticks));
     }
   return gate;
 }
@@ -95,22 +92,12 @@ std::string row_text(const ControlRow& r) {
 }
 
 std::string row_json(const ControlRow& r) {
-  json::Array brackets;
-  for (std::size_t i = 0; i < kBrackets.size(); ++i) {
-    const ErrorStatistics& s = r.cross_track.by_bracket[i];
-    brackets.json(json::Object{}
-                      .number("from_mps", kBrackets[i].from_mps)
-                      .number("samples", s.samples)
-                      .number("mean_m", s.mean_m())
-                      .number("max_m", s.max_m)
-                      .str());
-  }
   return json::Object{}
       .text("track", r.track)
       .text("world", r.world)
       .text("law", r.law)
       .text("end", r.end)
-      .json("brackets", brackets.str())
+      .json("brackets", laps::brackets_json(r.cross_track))
       .str();
 }
 
@@ -152,7 +139,7 @@ std::string to_text(const std::vector<ControlRow>& rows) {
       "SIMULATION, lockstep, estimator in the loop. True cross-track error at held speeds, m, by "
       "bracket (m/s).\n" +
       formatted("%-6s %-20s %-13s %-5s", "track", "world", "law", "");
-  for (const Bracket& b : kBrackets) out += formatted("%7s ", name_of(b).c_str());
+  for (const Bracket& b : kBrackets) out += formatted("%7s ", laps::bracket_name(b).c_str());
   out += '\n';
   for (const ControlRow& row : rows) out += row_text(row);
   out += formatted("%-6s %-20s %-13s %-5s", "paper", "a real car", kPaper, "mean");

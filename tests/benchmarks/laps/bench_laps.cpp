@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tests/benchmarks/laps/bench_laps.hpp"
 
-#include <array>
 #include <atomic>
 #include <cstdio>
 #include <utility>
@@ -19,9 +18,6 @@
 namespace pitwall::benchmarks {
 namespace {
 
-constexpr std::array kScenarios{"hil/scenarios/lvms_flying_lap.yaml",
-                                "hil/scenarios/ims_flying_lap.yaml",
-                                "hil/scenarios/tms_flying_lap.yaml"};
 constexpr unsigned kWorkers = 2;
 
 struct Job {
@@ -31,7 +27,7 @@ struct Job {
 
 Result<std::vector<bench::Loaded>, Problem> shipped() {
   std::vector<bench::Loaded> all;
-  for (const char* file : kScenarios) {
+  for (const char* file : laps::kScenarios) {
     auto loaded = bench::load(file, "");
     if (!loaded) return Unexpected{loaded.error()};
     all.push_back(*std::move(loaded));
@@ -41,7 +37,7 @@ Result<std::vector<bench::Loaded>, Problem> shipped() {
 
 // The first scenario's car and calls, on another track.
 Result<std::vector<bench::Loaded>, Problem> custom(const std::string& track_file) {
-  const auto like = bench::load(kScenarios.front(), "");
+  const auto like = bench::load(laps::kScenarios.front(), "");
   if (!like) return Unexpected{like.error()};
   const auto text = transport::read_file(track_file);
   if (!text) return Unexpected{text.error()};

@@ -8,6 +8,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -15,6 +16,11 @@
 #include "vehicle/pipeline/setup.hpp"
 
 namespace pitwall::laps {
+
+// Of flying laps, one for each track.
+inline constexpr std::array kScenarios{"hil/scenarios/lvms_flying_lap.yaml",
+                                       "hil/scenarios/ims_flying_lap.yaml",
+                                       "hil/scenarios/tms_flying_lap.yaml"};
 
 inline constexpr const char* kNominal = "nominal";
 

@@ -6,6 +6,7 @@
 
 #include "protocol/json/json_text.hpp"
 #include "protocol/vocabulary/text.hpp"
+#include "tests/benchmarks/laps/bracket_text.hpp"
 
 namespace pitwall::laps {
 namespace {
@@ -20,9 +21,7 @@ std::string cell(double value, const char* pattern = "%6.3f ") {
 
 std::string head() {
   std::string out = formatted(kWhere, "track", "perturbation") + "laps fly   mean   peak ";
-  for (const grading::Bracket& b : kBrackets)
-    out += b.to_mps > 1e6 ? formatted("%6s ", formatted(">%.0f", b.from_mps).c_str())
-                          : formatted("%6s ", formatted("%.0f-%.0f", b.from_mps, b.to_mps).c_str());
+  for (const grading::Bracket& b : kBrackets) out += formatted("%6s ", bracket_name(b).c_str());
   return out + "   all    max  end\n";
 }
 
@@ -57,16 +56,6 @@ std::string gate(const char* what, bool held) {
 }
 
 std::string json_of(const LapRow& r) {
-  json::Array brackets;
-  for (std::size_t i = 0; i < kBrackets.size(); ++i) {
-    const grading::ErrorStatistics& s = r.cross_track.by_bracket[i];
-    brackets.json(json::Object{}
-                      .number("from_mps", kBrackets[i].from_mps)
-                      .number("samples", s.samples)
-                      .number("mean_m", s.mean_m())
-                      .number("max_m", s.max_m)
-                      .str());
-  }
   return json::Object{}
       .text("track", r.track)
       .text("perturbation", r.perturbation)
@@ -79,7 +68,7 @@ std::string json_of(const LapRow& r) {
       .number("side_slip_max_rad", r.slip_max_rad)
       .number("cross_track_mean_m", r.cross_track.overall.mean_m())
       .number("cross_track_max_m", r.cross_track.overall.max_m)
-      .json("brackets", brackets.str())
+      .json("brackets", brackets_json(r.cross_track))
       .number("left_at_s", r.at_s)
       .number("left_station_m", r.station_m)
       .number("left_speed_mps", r.speed_mps)
