@@ -37,7 +37,8 @@ double yaw_rate(const ReckoningParams& p, ReckoningState& s, double by_steering,
 
 double slip_of(const ReckoningParams& p, double speed_mps, double rate, double bank_rad) {
   const double lateral_mps2 = steering::lateral_mps2({speed_mps, rate, bank_rad});
-  return p.cg_to_rear_m * rate - speed_mps * p.rear_slip_rad_per_mps2 * lateral_mps2;
+  return p.bicycle.cg_to_rear_m * rate -
+         speed_mps * p.bicycle.rear_slip_rad_per_mps2 * lateral_mps2;
 }
 
 // Along the held motion, forward or back; exact to second order.

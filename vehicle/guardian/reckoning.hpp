@@ -43,8 +43,6 @@ struct ReceiverMounting {
 
 struct ReckoningParams {
   std::array<ReceiverMounting, world::kGnssUnits> units;
-  double cg_to_rear_m = 1.247;             // [0.5, 3]
-  double rear_slip_rad_per_mps2 = 0.0014;  // [0, 0.02]
   steering::Bicycle bicycle;
   double steering_ratio = 19.5;              // [10, 25]
   Duration gyro_age_max = milliseconds(50);  // [10, 200] ms

@@ -49,12 +49,6 @@ planning::LineParams read_line(yaml::StrictMap map) {
   return line;
 }
 
-control::BicycleParams read_bicycle(yaml::StrictMap map) {
-  control::BicycleParams car;
-  read_ranges(map, control::kBicycleRanges, car);
-  return car;
-}
-
 control::LateralParams read_lateral(yaml::StrictMap map) {
   control::LateralParams lateral;
   std::vector<yaml::StrictMap> brackets = map.maps("brackets");
@@ -118,7 +112,6 @@ planning::Params read_planning(yaml::StrictMap map) {
 
 control::Params read_control(yaml::StrictMap map) {
   control::Params p;
-  p.bicycle = read_bicycle(map.map("bicycle"));
   yaml::StrictMap lateral = map.map("lateral");
   p.drive_law = read_law(lateral, "drive_law");
   p.lateral = read_lateral(lateral);

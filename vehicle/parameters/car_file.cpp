@@ -17,10 +17,25 @@ pipeline::Rates read_rates(yaml::StrictMap map) {
 
 steering::Params read_steering(yaml::StrictMap map) {
   steering::Params p;
-  read_ranges(map, steering::kBicycleRanges, p.bicycle);
   read_ranges(map, steering::kLearningRanges, p.learning);
   read_ranges(map, steering::kRanges, p);
   return p;
+}
+
+// Each module has its own share of it.
+void read_bicycle(yaml::StrictMap map, pipeline::CarParams& car) {
+  steering::Bicycle bicycle;
+  read_ranges(map, steering::kBicycleRanges, bicycle);
+  read_ranges(map, control::kBicycleRanges, car.control.bicycle);
+  car.control.bicycle.cg_to_front_m = bicycle.wheelbase_m - bicycle.cg_to_rear_m;
+  car.control.bicycle.cg_to_rear_m = bicycle.cg_to_rear_m;
+  localization::FilterParams& filter = car.localization.filter;
+  filter.planar.cg_to_rear_m = filter.spatial.cg_to_rear_m = bicycle.cg_to_rear_m;
+  filter.planar.rear_slip_rad_per_mps2 = filter.spatial.rear_slip_rad_per_mps2 =
+      bicycle.rear_slip_rad_per_mps2;
+  car.localization.bicycle = bicycle;
+  car.supervisor.faults.oversteer.bicycle = bicycle;
+  car.control.steering.bicycle = car.supervisor.safe_stop.steering.bicycle = bicycle;
 }
 
 CarFile read_root(yaml::StrictMap& map) {
@@ -39,21 +54,19 @@ CarFile read_root(yaml::StrictMap& map) {
   read_safety(map.map("safety"), car.params);
   read_radio(map.map("radio"), car.params);
   // Written once in the file, known to modules that must not include each other.
-  steering::Params steering = read_steering(map.map("steering"));
-  const auto& filter = car.params.localization.filter.spatial;
-  steering.bicycle.cg_to_rear_m = filter.cg_to_rear_m;
-  steering.bicycle.rear_slip_rad_per_mps2 = filter.rear_slip_rad_per_mps2;
   safety::SafeStopParams& stop = car.params.supervisor.safe_stop;
-  stop.steering = car.params.control.steering = steering;
-  stop.tyres = car.params.planning.line.friction.tyres;
+  stop.steering = car.params.control.steering = read_steering(map.map("steering"));
+  read_bicycle(map.map("bicycle"), car.params);
+  const envelope::FrictionParams& friction = car.params.planning.line.friction;
+  stop.tyres = friction.tyres;
+  stop.downforce_per_m = friction.downforce_per_m;
+  stop.drag_per_m = friction.drag_per_m;
   car.params.planning.stop_friction = stop.friction;
   static_assert(envelope::kGears == control::kGears);
   envelope::Engine& engine = car.params.planning.line.friction.engine;
   engine.mass_kg = car.params.control.bicycle.mass_kg;
   engine.up_above_mps = car.params.control.gear.up_above_mps;
   engine.down_below_mps = car.params.control.gear.down_below_mps;
-  car.params.supervisor.faults.oversteer.bicycle = steering.bicycle;
-  car.params.localization.bicycle = steering.bicycle;
   car.params.localization.steering_ratio = car.params.outbound.steering_ratio;
   return car;
 }

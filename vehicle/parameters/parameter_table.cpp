@@ -54,7 +54,6 @@ std::string autonomy_lines() {
          lines_of("planning.line.friction.engine", envelope::kEngineRanges) +
          lines_of("planning", planning::kRanges) +
          lines_of("planning.stop", planning::kStopPathRanges) +
-         lines_of("control.bicycle", control::kBicycleRanges) +
          lines_of("control.lateral", control::kLateralRanges) +
          lines_of("control.longitudinal", control::kLongitudinalRanges) +
          lines_of("control.gear", control::kGearRanges);
@@ -82,7 +81,8 @@ std::string parameter_table() {
          lines_of("gateway.handshake", gateway::kHandshakeTimes) +
          lines_of("gateway.handshake", gateway::kHandshakeRanges) +
          lines_of("gateway.outbound", gateway::kOutboundRanges) +
-         lines_of("steering", steering::kBicycleRanges) +
+         lines_of("bicycle", steering::kBicycleRanges) +
+         lines_of("bicycle", control::kBicycleRanges) +
          lines_of("steering", steering::kLearningRanges) + lines_of("steering", steering::kRanges) +
          autonomy_lines() + safety_lines();
 }

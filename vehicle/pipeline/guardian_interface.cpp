@@ -13,8 +13,6 @@ guardian::Params guardian_params(const CarParams& params) {
                               .z_m = unit.antenna.z_m,
                               .baseline_yaw_rad = unit.baseline_yaw_rad};
   }
-  out.reckoning.cg_to_rear_m = located.filter.spatial.cg_to_rear_m;
-  out.reckoning.rear_slip_rad_per_mps2 = located.filter.spatial.rear_slip_rad_per_mps2;
   out.reckoning.bicycle = located.bicycle;
   out.reckoning.steering_ratio = params.outbound.steering_ratio;
   out.following = safety::following_of(params.supervisor);

@@ -51,6 +51,8 @@ inline constexpr auto kBicycleRanges = std::to_array<world::NamedRange<Bicycle>>
     {"wheelbase_m", &Bicycle::wheelbase_m, 2.5, 3.5},
     {"understeer_rad_per_mps2", &Bicycle::understeer_rad_per_mps2, kUndersteer_rad_per_mps2.least,
      kUndersteer_rad_per_mps2.most},
+    {"cg_to_rear_m", &Bicycle::cg_to_rear_m, 0.5, 2.0},
+    {"rear_slip_rad_per_mps2", &Bicycle::rear_slip_rad_per_mps2, 0.0, 0.02},
 });
 
 inline constexpr std::size_t kLearnedNumbers = 4;

@@ -126,8 +126,8 @@ TEST(GuardianTakeOver, TheBankingOfThePathCountsFromTheCarsLastWordOn) {
   car->tick();
   ASSERT_EQ(car->mode(), Mode::kDriving);
   const double v_mps = car->state.reckoning.pose.speed_mps;
-  const double slip_mps =
-      v_mps * car->params.reckoning.rear_slip_rad_per_mps2 * kGravity_mps2 * std::sin(kBank_rad);
+  const double slip_mps = v_mps * car->params.reckoning.bicycle.rear_slip_rad_per_mps2 *
+                          kGravity_mps2 * std::sin(kBank_rad);
   const double down_m = slip_mps * std::cos(kBank_rad) * (car->now - before.at).seconds();
   EXPECT_GT(down_m, 0.005);
   EXPECT_NEAR(car->state.reckoning.pose.y_m - before.y_m, down_m, 1e-9);

@@ -22,8 +22,8 @@ struct Circle {
   double angle_rad = 0.0;
 
   Circle() {
-    params.cg_to_rear_m = 0.0;
-    params.rear_slip_rad_per_mps2 = 0.0;
+    params.bicycle.cg_to_rear_m = 0.0;
+    params.bicycle.rear_slip_rad_per_mps2 = 0.0;
     for (ReceiverMounting& unit : params.units) unit = {};
   }
   double x_m() const { return kCircleRadius_m * std::sin(angle_rad); }

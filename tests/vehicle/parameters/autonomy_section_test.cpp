@@ -133,12 +133,6 @@ Reported planning(const CarParams& p) {
 
 Reported control(const CarParams& p) {
   Reported reported{
-      {"control.bicycle.mass_kg", p.control.bicycle.mass_kg},
-      {"control.bicycle.yaw_inertia_kg_m2", p.control.bicycle.yaw_inertia_kg_m2},
-      {"control.bicycle.cg_to_front_m", p.control.bicycle.cg_to_front_m},
-      {"control.bicycle.cg_to_rear_m", p.control.bicycle.cg_to_rear_m},
-      {"control.bicycle.cornering_front_n_per_rad", p.control.bicycle.cornering_front_n_per_rad},
-      {"control.bicycle.cornering_rear_n_per_rad", p.control.bicycle.cornering_rear_n_per_rad},
       {"control.lateral.lookahead_base_m", p.control.lateral.lookahead_base_m},
       {"control.lateral.lookahead_per_speed_s", p.control.lateral.lookahead_per_speed_s},
       {"control.lateral.angle_max_rad", p.control.lateral.angle_max_rad},
@@ -179,15 +173,13 @@ Reported control(const CarParams& p) {
 
 Reported steering(const steering::Params& p) {
   Reported reported;
-  for (const auto& r : steering::kBicycleRanges)
-    reported["steering." + std::string(r.name)] = p.bicycle.*r.value;
   for (const auto& r : steering::kLearningRanges)
     reported["steering." + std::string(r.name)] = p.learning.*r.value;
   for (const auto& r : steering::kRanges) reported["steering." + std::string(r.name)] = p.*r.value;
   return reported;
 }
 
-// One section, known to all that steer along a path; the bicycle also to who reckons without gyros.
+// One section, known to all that steer along a path.
 TEST(AutonomySection, EachNumberOfSteeringMovesItsOwnParameterWhereverItIsKnown) {
   const auto in_a_stop = [](const CarParams& p) {
     return steering(p.supervisor.safe_stop.steering);
@@ -195,15 +187,38 @@ TEST(AutonomySection, EachNumberOfSteeringMovesItsOwnParameterWhereverItIsKnown)
   const auto in_control = [](const CarParams& p) { return steering(p.control.steering); };
   testing::expect_each_number_to_move_its_own("steering", in_a_stop);
   testing::expect_each_number_to_move_its_own("steering", in_control);
-  const auto other = with(with(av21(), "wheelbase_m: 2.971", "wheelbase_m: 3.1"),
-                          "understeer_rad_per_mps2: 0.0002", "understeer_rad_per_mps2: 0.0005");
-  const auto car = read_car(other, "car.yaml");
+}
+
+// One section; mass, inertia and stiffnesses are the regulator's.
+TEST(AutonomySection, EachNumberOfTheBicycleMovesItsOwnParameterWhereverItIsKnown) {
+  using Known = const steering::Bicycle& (*)(const CarParams&);
+  const std::vector<Known> known{[](const CarParams& p) -> auto& {return p.control.steering.bicycle;
+}
+, [](const CarParams& p) -> auto& { return p.supervisor.safe_stop.steering.bicycle; }
+, [](const CarParams& p) -> auto& { return p.supervisor.faults.oversteer.bicycle; }
+, [](const CarParams& p) -> auto& { return p.localization.bicycle; }
+};  // namespace
+for (const Known bicycle : known) {
+  testing::expect_each_number_to_move_its_own("bicycle", [&](const CarParams& p) {
+    Reported reported;
+    for (const auto& r : steering::kBicycleRanges)
+      reported["bicycle." + std::string(r.name)] = bicycle(p).*r.value;
+    for (const auto& r : control::kBicycleRanges)
+      reported["bicycle." + std::string(r.name)] = p.control.bicycle.*r.value;
+    return reported;
+  });
+}
+}  // namespace pitwall::parameters
+
+TEST(AutonomySection, TheAxlesOfTheBicycleAreThoseOfTheRegulatorAndOfTheFilters) {
+  const auto car = read_car(with(with(av21(), "wheelbase_m: 2.971", "wheelbase_m: 3.1"),
+                                 "cg_to_rear_m: 1.247", "cg_to_rear_m: 1.3"),
+                            "car.yaml");
   ASSERT_TRUE(car) << to_string(car.error());
-  const CarParams& p = car->params;
-  EXPECT_EQ(p.localization.bicycle.wheelbase_m, 3.1);
-  EXPECT_EQ(p.localization.bicycle.understeer_rad_per_mps2, 0.0005);
-  EXPECT_EQ(p.supervisor.faults.oversteer.bicycle.wheelbase_m, 3.1);
-  EXPECT_EQ(p.supervisor.faults.oversteer.bicycle.understeer_rad_per_mps2, 0.0005);
+  EXPECT_EQ(car->params.control.bicycle.cg_to_rear_m, 1.3);
+  EXPECT_NEAR(car->params.control.bicycle.cg_to_front_m, 1.8, 1e-12);
+  EXPECT_EQ(car->params.localization.filter.planar.cg_to_rear_m, 1.3);
+  EXPECT_EQ(car->params.localization.filter.spatial.cg_to_rear_m, 1.3);
 }
 
 TEST(AutonomySection, EachNumberOfLocalizationMovesItsOwnParameter) {

@@ -12,17 +12,14 @@ namespace pitwall::control {
 struct BicycleParams {
   double mass_kg = kUnset;  // with fuel
   double yaw_inertia_kg_m2 = kUnset;
-  double cg_to_front_m = kUnset;
-  double cg_to_rear_m = kUnset;
-  double cornering_front_n_per_rad = kUnset;  // of the axle, both tyres
-  double cornering_rear_n_per_rad = kUnset;   // of the axle, both tyres
+  double cg_to_front_m = kUnset, cg_to_rear_m = kUnset;  // of steering::Bicycle
+  double cornering_front_n_per_rad = kUnset;             // of the axle, both tyres
+  double cornering_rear_n_per_rad = kUnset;              // of the axle, both tyres
 };
 
 inline constexpr auto kBicycleRanges = std::to_array<world::NamedRange<BicycleParams>>({
     {"mass_kg", &BicycleParams::mass_kg, 300.0, 2000.0},
     {"yaw_inertia_kg_m2", &BicycleParams::yaw_inertia_kg_m2, 200.0, 5000.0},
-    {"cg_to_front_m", &BicycleParams::cg_to_front_m, 0.5, 3.0},
-    {"cg_to_rear_m", &BicycleParams::cg_to_rear_m, 0.5, 3.0},
     {"cornering_front_n_per_rad", &BicycleParams::cornering_front_n_per_rad, 2e4, 1e6},
     {"cornering_rear_n_per_rad", &BicycleParams::cornering_rear_n_per_rad, 2e4, 1e6},
 });

@@ -1,4 +1,5 @@
-// Parameters of localization's filters with their legal ranges.
+// Parameters of localization's filters with their legal ranges; the rear axle's two have theirs in
+// steering::Bicycle.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -51,8 +52,6 @@ inline constexpr auto kPlanarRanges = std::to_array<world::NamedRange<PlanarPara
     {"wheel_sigma_per_speed", &PlanarParams::wheel_sigma_per_speed, 0.0, 0.1},
     {"slip_sigma_mps", &PlanarParams::slip_sigma_mps, 0.05, 5.0},
     {"slip_after_s", &PlanarParams::slip_after_s, 0.05, 5.0},
-    {"cg_to_rear_m", &PlanarParams::cg_to_rear_m, 0.5, 3.0},
-    {"rear_slip_rad_per_mps2", &PlanarParams::rear_slip_rad_per_mps2, 0.0, 0.02},
 });
 
 inline constexpr auto kSpatialRanges = std::to_array<world::NamedRange<SpatialParams>>({
@@ -77,8 +76,6 @@ inline constexpr auto kSpatialRanges = std::to_array<world::NamedRange<SpatialPa
     {"wheel_sigma_mps", &SpatialParams::wheel_sigma_mps, 0.01, 2.0},
     {"wheel_sigma_per_speed", &SpatialParams::wheel_sigma_per_speed, 0.0, 0.1},
     {"slip_sigma_mps", &SpatialParams::slip_sigma_mps, 0.05, 5.0},
-    {"cg_to_rear_m", &SpatialParams::cg_to_rear_m, 0.5, 3.0},
-    {"rear_slip_rad_per_mps2", &SpatialParams::rear_slip_rad_per_mps2, 0.0, 0.02},
     {"road_tilt_sigma_rad", &SpatialParams::road_tilt_sigma_rad, 0.0005, 0.5},
     {"road_height_sigma_m", &SpatialParams::road_height_sigma_m, 0.005, 10.0},
     {"road_normal_sigma_mps", &SpatialParams::road_normal_sigma_mps, 0.01, 5.0},

@@ -61,12 +61,13 @@ TEST(FilterParams, GatesAndSharedOnesToo) {
   EXPECT_EQ(place(p), "filter.spatial.gate_nis[2]");
 }
 
-// No number can be forgotten: a table names as many as the struct holds.
+// No number can be forgotten: a table names as many as the struct holds, but for the gates and the
+// rear axle's two.
 TEST(FilterParams, TablesAreComplete) {
   EXPECT_EQ(kMotionNoiseRanges.size() * sizeof(double), sizeof(MotionNoise));
   EXPECT_EQ(kPlanarRanges.size() * sizeof(double),
-            sizeof(PlanarParams) - sizeof(MotionNoise) - 2 * sizeof(double));
-  EXPECT_EQ(kSpatialRanges.size() * sizeof(double), sizeof(SpatialParams) - 3 * sizeof(double));
+            sizeof(PlanarParams) - sizeof(MotionNoise) - 4 * sizeof(double));
+  EXPECT_EQ(kSpatialRanges.size() * sizeof(double), sizeof(SpatialParams) - 5 * sizeof(double));
 }
 
 }  // namespace
