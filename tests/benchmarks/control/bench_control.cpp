@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tests/benchmarks/control/bench_control.hpp"
 
-#include <array>
 #include <cstdio>
-#include <utility>
 #include <vector>
 
 #include "hil/bench/loading.hpp"
@@ -11,17 +9,20 @@
 #include "hil/sweep/in_parallel.hpp"
 #include "protocol/transport/file.hpp"
 #include "tests/benchmarks/command_line.hpp"
+#include "tests/benchmarks/control/control_cost.hpp"
 #include "tests/benchmarks/control/control_plan.hpp"
 #include "tests/benchmarks/control/control_table.hpp"
 
 namespace pitwall::benchmarks {
 namespace {
 
+using control_bench::ControlCost;
 using control_bench::ControlRow;
+using control_bench::NamedLaw;
 using control_bench::World;
 
-constexpr std::array kLaws{std::pair{control::LateralLaw::kPaperLqr, control_bench::kPaper},
-                           std::pair{control::LateralLaw::kFeedForward, control_bench::kOurs}};
+const std::vector<NamedLaw> kLaws{{control::LateralLaw::kPaperLqr, control_bench::kPaper},
+                                  {control::LateralLaw::kFeedForward, control_bench::kOurs}};
 constexpr unsigned kWorkers = 2;
 
 struct Job {
@@ -30,13 +31,12 @@ struct Job {
   std::string world, law;
 };
 
-Result<Job, Problem> job_of(const bench::Loaded& on, const World& world,
-                            const std::pair<control::LateralLaw, const char*>& law) {
+Result<Job, Problem> job_of(const bench::Loaded& on, const World& world, const NamedLaw& law) {
   Job job{.plan = control_bench::plan_of(on.scenario, on.setup.track.length_m()),
           .setup = on.setup,
           .world = world.name,
-          .law = law.second};
-  job.setup.params.control.drive_law = law.first;
+          .law = law.name};
+  job.setup.params.control.drive_law = law.law;
   job.plan.scenario.perturb = world.perturb;
   if (world.plant_file.empty()) return job;
   const auto text = transport::read_file(world.plant_file);
@@ -55,7 +55,7 @@ Result<std::vector<Job>, Problem> jobs_of(const std::string& only) {
     if (!on) return Unexpected{on.error()};
     for (const World& world : control_bench::worlds()) {
       if (world.name != laps::kNominal && world.name.find(only) == std::string::npos) continue;
-      for (const auto& law : kLaws) {
+      for (const NamedLaw& law : kLaws) {
         auto job = job_of(*on, world, law);
         if (!job) return Unexpected{job.error()};
         jobs.push_back(*std::move(job));
@@ -80,6 +80,12 @@ Result<std::vector<ControlRow>, Problem> drive(const std::vector<Job>& jobs) {
   return rows;
 }
 
+Result<ControlCost, Problem> cost_of_laws() {
+  const auto on = bench::load(laps::kScenarios.front(), "");
+  if (!on) return Unexpected{on.error()};
+  return control_bench::measure_cost(*on, kLaws);
+}
+
 }  // namespace
 
 int bench_control(std::span<const std::string> args) {
@@ -93,11 +99,17 @@ int bench_control(std::span<const std::string> args) {
   const auto rows = drive(*jobs);
   if (!rows) return refuse(rows.error());
   std::printf("%s%zu runs\n", control_bench::to_text(*rows).c_str(), rows->size());
+  const auto cost = cost_of_laws();
+  if (!cost) return refuse(cost.error());
+  const cost::CostGates cost_gates = control_bench::gates_of(*cost);
+  const bool held = control_bench::all_held(*rows) && cost_gates.held();
+  std::printf("%s%s", control_bench::to_text(*cost).c_str(), cost_gates.text().c_str());
   if (!json_file.empty()) {
-    const auto written = transport::write_file(json_file, control_bench::to_json(*rows));
+    const auto written =
+        transport::write_file(json_file, control_bench::to_json(*rows, cost_gates));
     if (!written) return refuse(written.error());
   }
-  return control_bench::all_held(*rows) ? kExitPass : kExitFailed;
+  return held ? kExitPass : kExitFailed;
 }
 
 }  // namespace pitwall::benchmarks

@@ -151,7 +151,7 @@ std::string to_text(const std::vector<ControlRow>& rows) {
   return out;
 }
 
-std::string to_json(const std::vector<ControlRow>& rows) {
+std::string to_json(const std::vector<ControlRow>& rows, const cost::CostGates& cost) {
   json::Array listed, gates;
   for (const ControlRow& row : rows) listed.json(row_json(row));
   for (const Gate& gate : gates_of(rows))
@@ -165,7 +165,8 @@ std::string to_json(const std::vector<ControlRow>& rows) {
              .flag("simulation", true)
              .json("rows", listed.str())
              .json("gates", gates.str())
-             .flag("held", all_held(rows))
+             .json("cost_gates", cost.json())
+             .flag("held", all_held(rows) && cost.held())
              .str() +
          "\n";
 }

@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "tests/benchmarks/control/control_run.hpp"
+#include "tests/benchmarks/cost/cost_gates.hpp"
 
 namespace pitwall::control_bench {
 
@@ -46,6 +47,6 @@ std::vector<Gate> gates_of(const std::vector<ControlRow>& rows);
 bool all_held(const std::vector<ControlRow>& rows);
 
 std::string to_text(const std::vector<ControlRow>& rows);
-std::string to_json(const std::vector<ControlRow>& rows);
+std::string to_json(const std::vector<ControlRow>& rows, const cost::CostGates& cost);
 
 }  // namespace pitwall::control_bench
