@@ -28,16 +28,18 @@ constexpr unsigned kWorkers = 2;
 struct Job {
   control_bench::Plan plan;
   pipeline::Setup setup;
-  std::string world, law;
+  std::string law;
+  World world;
 };
 
 Result<Job, Problem> job_of(const bench::Loaded& on, const World& world, const NamedLaw& law) {
   Job job{.plan = control_bench::plan_of(on.scenario, on.setup.track.length_m()),
           .setup = on.setup,
-          .world = world.name,
-          .law = law.name};
+          .law = law.name,
+          .world = world};
   job.setup.params.control.drive_law = law.law;
   job.plan.scenario.perturb = world.perturb;
+  if (world.plant) job.plan.scenario.plant = *world.plant;
   if (world.plant_file.empty()) return job;
   const auto text = transport::read_file(world.plant_file);
   if (!text) return Unexpected{text.error()};
@@ -48,13 +50,22 @@ Result<Job, Problem> job_of(const bench::Loaded& on, const World& world, const N
   return job;
 }
 
-Result<std::vector<Job>, Problem> jobs_of(const std::string& only) {
+std::vector<World> worlds_of(const std::string& only, std::size_t family) {
+  std::vector<World> worlds = control_bench::worlds();
+  std::erase_if(worlds, [&](const World& world) {
+    return world.name != laps::kNominal && world.name.find(only) == std::string::npos;
+  });
+  const std::vector<World> drawn = control_bench::family_worlds(family);
+  worlds.insert(worlds.end(), drawn.begin(), drawn.end());
+  return worlds;
+}
+
+Result<std::vector<Job>, Problem> jobs_of(const std::vector<World>& worlds) {
   std::vector<Job> jobs;
   for (const char* file : laps::kScenarios) {
     const auto on = bench::load(file, "");
     if (!on) return Unexpected{on.error()};
-    for (const World& world : control_bench::worlds()) {
-      if (world.name != laps::kNominal && world.name.find(only) == std::string::npos) continue;
+    for (const World& world : worlds) {
       for (const NamedLaw& law : kLaws) {
         auto job = job_of(*on, world, law);
         if (!job) return Unexpected{job.error()};
@@ -74,7 +85,8 @@ Result<std::vector<ControlRow>, Problem> drive(const std::vector<Job>& jobs) {
   for (std::size_t i = 0; i < jobs.size(); ++i) {
     if (!results[i]) return Unexpected{results[i].error()};
     rows.push_back(*results[i]);
-    rows.back().world = jobs[i].world;
+    rows.back().world = jobs[i].world.name;
+    rows.back().is_judged = jobs[i].world.is_judged();
     rows.back().law = jobs[i].law;
   }
   return rows;
@@ -90,11 +102,13 @@ Result<ControlCost, Problem> cost_of_laws() {
 
 int bench_control(std::span<const std::string> args) {
   std::string only, json_file;
+  std::size_t family = 0;
   CommandLine app{"pitwall-benchmarks control: control laws at held speeds on three ovals"};
   app.option("--only", only, "only worlds whose name contains this, and the nominal one");
+  app.option("--family", family, "so many drawn cars too, which are printed alone");
   app.option("--json", json_file, "write rows and gates here");
   if (const auto code = app.ended_by(args)) return *code;
-  const auto jobs = jobs_of(only);
+  const auto jobs = jobs_of(worlds_of(only, family));
   if (!jobs) return refuse(jobs.error());
   const auto rows = drive(*jobs);
   if (!rows) return refuse(rows.error());

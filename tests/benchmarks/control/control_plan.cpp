@@ -6,6 +6,7 @@
 
 #include "protocol/vocabulary/check.hpp"
 #include "protocol/vocabulary/units.hpp"
+#include "tests/hil/plant/family/car_family.hpp"
 
 namespace pitwall::control_bench {
 namespace {
@@ -55,6 +56,16 @@ std::vector<World> worlds() {
                          {"Putnam car", "hil/config/plants/av21_putnam.yaml", {}}};
   for (const laps::Case& c : laps::cases())
     if (c.name != laps::kNominal) all.push_back({c.name, "", c.perturb});
+  return all;
+}
+
+std::vector<World> family_worlds(std::size_t count) {
+  constexpr std::uint64_t kSeed = 1, kPlantFiles = 3;
+  std::vector<World> all;
+  for (std::size_t i = 0; i < count; ++i) {
+    const plant::FamilyCar car = plant::drawn_car(kSeed, kPlantFiles + i);
+    all.push_back({car.name, "", {}, car.params});
+  }
   return all;
 }
 

@@ -8,6 +8,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -31,14 +32,19 @@ struct Plan {
 
 Plan plan_of(const scenario::Scenario& like, double track_length_m);
 
-// A car and its surroundings: a plant file (empty: the AV-21 of hil/plant/params.hpp) and what is
-// different from what the car believes.
+// A car and its surroundings: a plant file or a drawn plant (neither: the AV-21 of
+// hil/plant/params.hpp), and what is different from what the car believes.
 struct World {
   std::string name, plant_file;
   scenario::Perturbations perturb;
+  std::optional<plant::Params> plant = std::nullopt;
+
+  bool is_judged() const { return !plant; }  // a drawn car is printed alone
 };
 
 // Nominal first, then the other cars, then the perturbations of the lap benchmark.
 std::vector<World> worlds();
+// The first drawn cars of the family of `./pitwall long cars`, whose seed is 1.
+std::vector<World> family_worlds(std::size_t count);
 
 }  // namespace pitwall::control_bench

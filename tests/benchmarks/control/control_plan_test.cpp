@@ -44,5 +44,14 @@ TEST(ControlPlan, TheNominalWorldIsFirstAndEachIsAnother) {
   EXPECT_EQ(all.size(), laps::cases().size() + 2);
 }
 
+TEST(ControlPlan, CarsOfTheFamilyArePrintedAndNotJudged) {
+  const std::vector<World> cars = family_worlds(2);
+  ASSERT_EQ(cars.size(), 2U);
+  EXPECT_NE(cars[0].name, cars[1].name);
+  EXPECT_NE(cars[0].plant->chassis.mass_kg, cars[1].plant->chassis.mass_kg);
+  for (const World& car : cars) EXPECT_FALSE(car.is_judged());
+  for (const World& world : worlds()) EXPECT_TRUE(world.is_judged());
+}
+
 }  // namespace
 }  // namespace pitwall::control_bench

@@ -21,6 +21,7 @@ namespace pitwall::control_bench {
 struct ControlRow {
   std::string track, world, law;
   grading::CrossTrack cross_track;  // in the windows alone
+  bool is_judged = true;
   bool contact = false, stopped = false;
   std::string end;  // where and why, if it ended early; else empty
 

@@ -51,7 +51,7 @@ using Visit = std::function<void(const ControlRow&, std::size_t, const ErrorStat
 void each_of_ours(const std::vector<ControlRow>& rows, bool nominal, Worst& worst,
                   const Visit& visit) {
   for (const ControlRow& r : rows) {
-    if (r.law != kOurs || is_nominal(r) != nominal) continue;
+    if (r.law != kOurs || !r.is_judged || is_nominal(r) != nominal) continue;
     if (r.ended_early()) worst.early(r);
     for (std::size_t i = 0; i < kBrackets.size(); ++i)
       if (r.cross_track.by_bracket[i].samples > 0) visit(r, i, r.cross_track.by_bracket[i]);
@@ -125,7 +125,7 @@ std::vector<Gate> gates_of(const std::vector<ControlRow>& rows) {
                  perturbed.add(r, i, s.mean_m(), kGoals[i].perturbed_mean_m);
                });
   std::vector<Gate> gates{held_gate(rows), half.gate(), nominal_mean.gate(), nominal_max.gate()};
-  if (std::ranges::any_of(rows, [](const ControlRow& r) { return !is_nominal(r); }))
+  if (std::ranges::any_of(rows, [](const ControlRow& r) { return r.is_judged && !is_nominal(r); }))
     gates.push_back(perturbed.gate());
   return gates;
 }

@@ -4,7 +4,8 @@
 //          half       above 40 m/s, on every track: our mean error is at most half of that of
 //                     `paper_lqr` in the same world, or 0.05 m, whichever is larger
 //          nominal    means and maxima in the nominal world are at most the goals
-//          other      so are the means in the worst other world, if one was driven
+//          other      so are the means in the worst other world, if one was driven; a drawn car is
+//                     printed alone
 //   units  m, m/s
 //   source the goals: chosen before the first run, from the figures of the paper's season one
 //          (Saba et al.), a tenth to a third of them

@@ -81,6 +81,15 @@ TEST(ControlTable, ACarThatLeftTheTrackHoldsNothing) {
   EXPECT_NE(to_text(rows).find("worst OVAL friction 0.8: wall at s = 12 m"), std::string::npos);
 }
 
+TEST(ControlTable, ADrawnCarIsPrintedAndNotJudged) {
+  auto rows = good();
+  rows.push_back(row("car 3", kOurs, 5.0));
+  EXPECT_FALSE(all_held(rows));
+  rows.back().is_judged = false;
+  EXPECT_TRUE(all_held(rows));
+  EXPECT_NE(to_text(rows).find("car 3"), std::string::npos);
+}
+
 // What another law does in another world is printed, and no gate.
 TEST(ControlTable, ThePapersLawIsNotJudged) {
   auto rows = good();
