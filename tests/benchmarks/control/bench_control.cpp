@@ -7,17 +7,21 @@
 #include "hil/bench/loading.hpp"
 #include "hil/plant/plant_file.hpp"
 #include "hil/sweep/in_parallel.hpp"
+#include "protocol/json/json_text.hpp"
 #include "protocol/transport/file.hpp"
 #include "tests/benchmarks/command_line.hpp"
 #include "tests/benchmarks/control/control_cost.hpp"
 #include "tests/benchmarks/control/control_plan.hpp"
 #include "tests/benchmarks/control/control_table.hpp"
+#include "tests/benchmarks/control/lane_changes.hpp"
 
 namespace pitwall::benchmarks {
 namespace {
 
 using control_bench::ControlCost;
 using control_bench::ControlRow;
+using control_bench::Gate;
+using control_bench::LaneChangeRow;
 using control_bench::NamedLaw;
 using control_bench::World;
 
@@ -26,27 +30,30 @@ const std::vector<NamedLaw> kLaws{{control::LateralLaw::kPaperLqr, control_bench
 constexpr unsigned kWorkers = 2;
 
 struct Job {
-  control_bench::Plan plan;
+  control_bench::Plan plan, lane_changes;
   pipeline::Setup setup;
   std::string law;
   World world;
 };
 
 Result<Job, Problem> job_of(const bench::Loaded& on, const World& world, const NamedLaw& law) {
-  Job job{.plan = control_bench::plan_of(on.scenario, on.setup.track.length_m()),
+  scenario::Scenario scenario = on.scenario;
+  scenario.perturb = world.perturb;
+  if (world.plant) scenario.plant = *world.plant;
+  if (!world.plant_file.empty()) {
+    const auto text = transport::read_file(world.plant_file);
+    if (!text) return Unexpected{text.error()};
+    const auto plant = plant::read_plant(*text, world.plant_file);
+    if (!plant) return Unexpected{plant.error()};
+    scenario.plant_file = world.plant_file;
+    scenario.plant = plant->params;
+  }
+  Job job{.plan = control_bench::plan_of(scenario, on.setup.track.length_m()),
+          .lane_changes = control_bench::lane_change_plan(scenario),
           .setup = on.setup,
           .law = law.name,
           .world = world};
   job.setup.params.control.drive_law = law.law;
-  job.plan.scenario.perturb = world.perturb;
-  if (world.plant) job.plan.scenario.plant = *world.plant;
-  if (world.plant_file.empty()) return job;
-  const auto text = transport::read_file(world.plant_file);
-  if (!text) return Unexpected{text.error()};
-  const auto plant = plant::read_plant(*text, world.plant_file);
-  if (!plant) return Unexpected{plant.error()};
-  job.plan.scenario.plant_file = world.plant_file;
-  job.plan.scenario.plant = plant->params;
   return job;
 }
 
@@ -76,12 +83,12 @@ Result<std::vector<Job>, Problem> jobs_of(const std::vector<World>& worlds) {
   return jobs;
 }
 
-Result<std::vector<ControlRow>, Problem> drive(const std::vector<Job>& jobs) {
-  std::vector<Result<ControlRow, Problem>> results(jobs.size(), ControlRow{});
-  sweep::in_parallel(jobs.size(), kWorkers, [&](std::size_t i) {
-    results[i] = control_bench::run_control(jobs[i].plan, jobs[i].setup);
-  });
-  std::vector<ControlRow> rows;
+template <class Row>
+Result<std::vector<Row>, Problem> drive(const std::vector<Job>& jobs,
+                                        Result<Row, Problem> (*run)(const Job&)) {
+  std::vector<Result<Row, Problem>> results(jobs.size(), Row{});
+  sweep::in_parallel(jobs.size(), kWorkers, [&](std::size_t i) { results[i] = run(jobs[i]); });
+  std::vector<Row> rows;
   for (std::size_t i = 0; i < jobs.size(); ++i) {
     if (!results[i]) return Unexpected{results[i].error()};
     rows.push_back(*results[i]);
@@ -90,6 +97,21 @@ Result<std::vector<ControlRow>, Problem> drive(const std::vector<Job>& jobs) {
     rows.back().law = jobs[i].law;
   }
   return rows;
+}
+
+Result<ControlRow, Problem> held_speeds(const Job& job) {
+  return control_bench::run_control(job.plan, job.setup);
+}
+Result<LaneChangeRow, Problem> lane_changes(const Job& job) {
+  return control_bench::run_lane_changes(job.lane_changes, job.setup);
+}
+
+// Each car; the perturbations of the AV-21 change lanes as it does.
+std::vector<Job> changing_lanes(std::vector<Job> jobs) {
+  std::erase_if(jobs, [](const Job& job) {
+    return job.world.name != laps::kNominal && job.world.plant_file.empty() && !job.world.plant;
+  });
+  return jobs;
 }
 
 Result<ControlCost, Problem> cost_of_laws() {
@@ -110,17 +132,31 @@ int bench_control(std::span<const std::string> args) {
   if (const auto code = app.ended_by(args)) return *code;
   const auto jobs = jobs_of(worlds_of(only, family));
   if (!jobs) return refuse(jobs.error());
-  const auto rows = drive(*jobs);
+  const auto rows = drive<ControlRow>(*jobs, held_speeds);
   if (!rows) return refuse(rows.error());
-  std::printf("%s%zu runs\n", control_bench::to_text(*rows).c_str(), rows->size());
+  const auto changes = drive<LaneChangeRow>(changing_lanes(*jobs), lane_changes);
+  if (!changes) return refuse(changes.error());
   const auto cost = cost_of_laws();
   if (!cost) return refuse(cost.error());
-  const cost::CostGates cost_gates = control_bench::gates_of(*cost);
-  const bool held = control_bench::all_held(*rows) && cost_gates.held();
-  std::printf("%s%s", control_bench::to_text(*cost).c_str(), cost_gates.text().c_str());
+  std::vector<Gate> gates = gates_of(*rows);
+  for (const Gate& gate : gates_of(*changes)) gates.push_back(gate);
+  const cost::CostGates cost_gates = gates_of(*cost);
+  std::printf("%s%s%s%s%s%zu runs\n", to_text(*rows).c_str(), to_text(*changes).c_str(),
+              to_text(*cost).c_str(), to_text(gates).c_str(), cost_gates.text().c_str(),
+              rows->size() + changes->size());
+  const bool held = all_held(gates) && cost_gates.held();
   if (!json_file.empty()) {
     const auto written =
-        transport::write_file(json_file, control_bench::to_json(*rows, cost_gates));
+        transport::write_file(json_file, json::Object{}
+                                                 .text("bench", "control")
+                                                 .flag("simulation", true)
+                                                 .json("rows", to_json(*rows))
+                                                 .json("lane_changes", to_json(*changes))
+                                                 .json("gates", to_json(gates))
+                                                 .json("cost_gates", cost_gates.json())
+                                                 .flag("held", held)
+                                                 .str() +
+                                             "\n");
     if (!written) return refuse(written.error());
   }
   return held ? kExitPass : kExitFailed;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <ranges>
 
 #include "protocol/vocabulary/check.hpp"
 #include "protocol/vocabulary/units.hpp"
@@ -15,6 +16,15 @@ constexpr Duration kLaunch = seconds(40), kChange = seconds(15), kStop = seconds
 constexpr double kHoldLeast_s = 60.0;
 constexpr double kFastest_mph = 147.0;
 
+std::size_t bracket_of(double speed_mps) {
+  const auto within = [speed_mps](const grading::Bracket& b) {
+    return speed_mps >= b.from_mps && speed_mps < b.to_mps;
+  };
+  const auto found = std::ranges::find_if(grading::kBrackets, within);
+  CHECK(found != grading::kBrackets.end());
+  return static_cast<std::size_t>(found - grading::kBrackets.begin());
+}
+
 double speed_mph_of(const grading::Bracket& bracket) {
   constexpr double kOpenEnd_mps = 1e6;
   if (bracket.to_mps > kOpenEnd_mps) return kFastest_mph;
@@ -24,6 +34,14 @@ double speed_mph_of(const grading::Bracket& bracket) {
 }  // namespace
 
 Plan plan_of(const scenario::Scenario& like, double track_length_m) {
+  std::vector<double> speeds_mph;
+  for (const grading::Bracket& bracket : grading::kBrackets | std::views::reverse)
+    speeds_mph.push_back(speed_mph_of(bracket));
+  return plan_of(like, track_length_m, speeds_mph);
+}
+
+Plan plan_of(const scenario::Scenario& like, double track_length_m,
+             std::span<const double> speeds_mph) {
   const auto green = std::ranges::find_if(like.race_control, [](const scenario::FlagChange& f) {
     return f.track == world::TrackFlag::kGreen;
   });
@@ -35,19 +53,24 @@ Plan plan_of(const scenario::Scenario& like, double track_length_m) {
   s.faults.clear();
   Duration at = green->at;
   Duration before_window = kLaunch;
-  for (std::size_t i = grading::kBrackets.size(); i-- > 0;) {
-    const double speed_mph = speed_mph_of(grading::kBrackets[i]);
+  for (const double speed_mph : speeds_mph) {
     const double speed_mps = from_mph(speed_mph);
     s.race_control.push_back(
         {.at = at, .track = world::TrackFlag::kGreen, .round_target_speed_mph = speed_mph});
     const Duration from = at + before_window;
     at = from + from_seconds(std::max(kHoldLeast_s, track_length_m / speed_mps));
-    plan.windows.push_back({i, speed_mps, from, at});
+    plan.windows.push_back({bracket_of(speed_mps), speed_mps, from, at});
     before_window = kChange;
   }
   s.race_control.push_back({.at = at, .track = world::TrackFlag::kRed});
   s.duration = at + kStop;
   return plan;
+}
+
+const Window* window_at(const Plan& plan, Instant now) {
+  for (const Window& w : plan.windows)
+    if (now >= Instant{} + w.from && now < Instant{} + w.until) return &w;
+  return nullptr;
 }
 
 std::vector<World> worlds() {

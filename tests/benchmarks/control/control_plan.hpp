@@ -9,6 +9,7 @@
 
 #include <cstddef>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -31,6 +32,12 @@ struct Plan {
 };
 
 Plan plan_of(const scenario::Scenario& like, double track_length_m);
+// Of other speeds, mph.
+Plan plan_of(const scenario::Scenario& like, double track_length_m,
+             std::span<const double> speeds_mph);
+
+// Null between the windows.
+const Window* window_at(const Plan& plan, Instant now);
 
 // A car and its surroundings: a plant file or a drawn plant (neither: the AV-21 of
 // hil/plant/params.hpp), and what is different from what the car believes.

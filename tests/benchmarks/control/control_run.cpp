@@ -15,37 +15,33 @@ class Watch {
 
   void look(const pipeline::Outputs& out, const bench::Rig& rig, Instant now) {
     if (row_.ended_early()) return;
-    row_.contact = rig.road().contact;
-    row_.stopped = rig.flags().track == world::TrackFlag::kGreen &&
-                   (out.chosen.mode == world::Mode::kControlledStop ||
-                    out.chosen.mode == world::Mode::kEmergencyStop);
+    row_.end = early_end(out, rig, now);
+    const Window* window = window_at(plan_, now);
+    if (row_.ended_early() || window == nullptr) return;
     const double speed_mps = rig.truth().speed_mps;
-    if (row_.ended_early()) {
-      row_.end =
-          std::string(row_.contact ? "wall" : safety::text_of(out.chosen.cause)) +
-          formatted(" at s = %.0f m at %.1f m/s, %.1f s", rig.road().s_m, speed_mps, now.seconds());
-      return;
-    }
-    const Window* window = window_at(now);
-    if (window == nullptr) return;
     const grading::Bracket& bracket = grading::kBrackets[window->bracket];
     if (speed_mps < bracket.from_mps || speed_mps >= bracket.to_mps) return;
     grading::add(row_.cross_track, speed_mps, bench::cross_track_m(rig, line_offset_m_));
   }
 
  private:
-  const Window* window_at(Instant now) const {
-    for (const Window& w : plan_.windows)
-      if (now >= Instant{} + w.from && now < Instant{} + w.until) return &w;
-    return nullptr;
-  }
-
   ControlRow& row_;
   const Plan& plan_;
   double line_offset_m_;
 };
 
 }  // namespace
+
+std::string early_end(const pipeline::Outputs& out, const bench::Rig& rig, Instant now) {
+  const bool contact = rig.road().contact;
+  const bool stopped = rig.flags().track == world::TrackFlag::kGreen &&
+                       (out.chosen.mode == world::Mode::kControlledStop ||
+                        out.chosen.mode == world::Mode::kEmergencyStop);
+  if (!contact && !stopped) return {};
+  return std::string(contact ? "wall" : safety::text_of(out.chosen.cause)) +
+         formatted(" at s = %.0f m at %.1f m/s, %.1f s", rig.road().s_m, rig.truth().speed_mps,
+                   now.seconds());
+}
 
 Result<ControlRow, Problem> run_control(const Plan& plan, const pipeline::Setup& setup) {
   ControlRow row;

@@ -11,10 +11,11 @@
 
 #include <string>
 
+#include "hil/bench/rig.hpp"
 #include "hil/grading/cross_track.hpp"
 #include "protocol/vocabulary/result.hpp"
 #include "tests/benchmarks/control/control_plan.hpp"
-#include "vehicle/pipeline/setup.hpp"
+#include "vehicle/pipeline/step.hpp"
 
 namespace pitwall::control_bench {
 
@@ -22,11 +23,13 @@ struct ControlRow {
   std::string track, world, law;
   grading::CrossTrack cross_track;  // in the windows alone
   bool is_judged = true;
-  bool contact = false, stopped = false;
   std::string end;  // where and why, if it ended early; else empty
 
-  bool ended_early() const { return contact || stopped; }
+  bool ended_early() const { return !end.empty(); }
 };
+
+// Where and why a run ends early: at a wall, or with a stop under green. Empty: it goes on.
+std::string early_end(const pipeline::Outputs& out, const bench::Rig& rig, Instant now);
 
 Result<ControlRow, Problem> run_control(const Plan& plan, const pipeline::Setup& setup);
 

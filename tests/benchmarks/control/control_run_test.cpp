@@ -36,7 +36,7 @@ TEST(ControlRun, ACarThatStopsItselfEndsTheFigures) {
       {.kind = "race_heartbeat_stop", .at = seconds(70), .lasts = seconds(60), .place = "test"}};
   const auto row = run_control(plan, on.setup);
   ASSERT_TRUE(row);
-  EXPECT_TRUE(row->stopped);
+  EXPECT_TRUE(row->ended_early());
   EXPECT_NE(row->end.find(" at s = "), std::string::npos);
   EXPECT_LT(row->cross_track.by_bracket[9].samples, 5000U);
 }

@@ -130,9 +130,7 @@ std::vector<Gate> gates_of(const std::vector<ControlRow>& rows) {
   return gates;
 }
 
-bool all_held(const std::vector<ControlRow>& rows) {
-  return std::ranges::all_of(gates_of(rows), &Gate::held);
-}
+bool all_held(const std::vector<Gate>& gates) { return std::ranges::all_of(gates, &Gate::held); }
 
 std::string to_text(const std::vector<ControlRow>& rows) {
   std::string out =
@@ -145,30 +143,32 @@ std::string to_text(const std::vector<ControlRow>& rows) {
   out += formatted("%-6s %-20s %-13s %-5s", "paper", "a real car", kPaper, "mean");
   for (const Bracket& b : kBrackets) out += formatted("%7.3f ", b.paper_mean_m);
   out += "not a claim\n";
-  for (const Gate& gate : gates_of(rows))
+  return out;
+}
+
+std::string to_text(const std::vector<Gate>& gates) {
+  std::string out;
+  for (const Gate& gate : gates)
     out += formatted("gate: %s: %s%s%s\n", gate.name.c_str(), gate.held ? "held" : "MISSED",
                      gate.worst.empty() ? "" : "; worst ", gate.worst.c_str());
   return out;
 }
 
-std::string to_json(const std::vector<ControlRow>& rows, const cost::CostGates& cost) {
-  json::Array listed, gates;
+std::string to_json(const std::vector<ControlRow>& rows) {
+  json::Array listed;
   for (const ControlRow& row : rows) listed.json(row_json(row));
-  for (const Gate& gate : gates_of(rows))
-    gates.json(json::Object{}
-                   .text("name", gate.name)
-                   .flag("held", gate.held)
-                   .text("worst", gate.worst)
-                   .str());
-  return json::Object{}
-             .text("bench", "control")
-             .flag("simulation", true)
-             .json("rows", listed.str())
-             .json("gates", gates.str())
-             .json("cost_gates", cost.json())
-             .flag("held", all_held(rows) && cost.held())
-             .str() +
-         "\n";
+  return listed.str();
+}
+
+std::string to_json(const std::vector<Gate>& gates) {
+  json::Array listed;
+  for (const Gate& gate : gates)
+    listed.json(json::Object{}
+                    .text("name", gate.name)
+                    .flag("held", gate.held)
+                    .text("worst", gate.worst)
+                    .str());
+  return listed.str();
 }
 
 }  // namespace pitwall::control_bench

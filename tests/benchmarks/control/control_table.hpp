@@ -17,7 +17,6 @@
 #include <vector>
 
 #include "tests/benchmarks/control/control_run.hpp"
-#include "tests/benchmarks/cost/cost_gates.hpp"
 
 namespace pitwall::control_bench {
 
@@ -45,9 +44,11 @@ struct Gate {
 };
 
 std::vector<Gate> gates_of(const std::vector<ControlRow>& rows);
-bool all_held(const std::vector<ControlRow>& rows);
+bool all_held(const std::vector<Gate>& gates);
 
 std::string to_text(const std::vector<ControlRow>& rows);
-std::string to_json(const std::vector<ControlRow>& rows, const cost::CostGates& cost);
+std::string to_text(const std::vector<Gate>& gates);
+std::string to_json(const std::vector<ControlRow>& rows);  // an array, as is the next
+std::string to_json(const std::vector<Gate>& gates);
 
 }  // namespace pitwall::control_bench
