@@ -7,9 +7,7 @@
 namespace pitwall::envelope {
 namespace {
 
-constexpr double kSpeedCeiling_mps = 150.0;  // of the search; no car here reaches it
-constexpr double kSpeedFloor_mps = 1.0;      // below it, power / speed means nothing
-constexpr int kBisections = 40;              // 150 m/s / 2^40 is far below a rounding of the result
+constexpr double kSpeedFloor_mps = 1.0;  // below it, power / speed means nothing
 
 double left_over(double grip_mps2, double lateral_mps2) {
   const double rest = grip_mps2 * grip_mps2 - lateral_mps2 * lateral_mps2;
@@ -63,25 +61,6 @@ double drive_available_mps2(const FrictionParams& car, const RoadLoad& at, doubl
     drive = std::min({drive, drive_mps2(car.engine, at.speed_mps),
                       driven_axle_mps2(car, grip / car.friction, rest / (grip / car.friction))});
   return drive - car.drag_per_m * at.speed_mps * at.speed_mps;
-}
-
-double corner_speed_mps(const FrictionParams& car, const RoadLoad& at, double share) {
-  const auto carries = [&](double speed_mps) {
-    const RoadLoad load{speed_mps, at.curvature_per_m, at.bank_rad, at.cos_bank, at.sin_bank};
-    return std::abs(lateral_demand_mps2(load)) <= share * grip_mps2(car, load);
-  };
-  if (carries(kSpeedCeiling_mps)) return kSpeedCeiling_mps;
-  // On a bank the slowest speeds may need more than the fast ones; the neutral speed, where gravity
-  // turns the car, is carried if any is.
-  const double turn = turn_per_m(at);
-  const double fall = kGravity_mps2 * at.sin_bank;
-  double good = turn * fall > 0.0 ? std::sqrt(fall / turn) : 0.0, bad = kSpeedCeiling_mps;
-  if (!carries(good)) return 0.0;
-  for (int i = 0; i < kBisections; ++i) {
-    const double middle = 0.5 * (good + bad);
-    (carries(middle) ? good : bad) = middle;
-  }
-  return good;
 }
 
 }  // namespace pitwall::envelope

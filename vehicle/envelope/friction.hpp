@@ -65,7 +65,5 @@ double grip_mps2(const FrictionParams& car, const RoadLoad& at);
 double brake_available_mps2(const FrictionParams& car, const RoadLoad& at, double share);
 // Net forward acceleration after drag; may be negative at high speed.
 double drive_available_mps2(const FrictionParams& car, const RoadLoad& at, double share);
-// Highest speed at which the corner needs at most this share of the grip, up to a ceiling.
-double corner_speed_mps(const FrictionParams& car, const RoadLoad& at, double share);
 
 }  // namespace pitwall::envelope

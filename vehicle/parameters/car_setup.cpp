@@ -37,21 +37,6 @@ raceline::BankParams bank_for(const pipeline::CarParams& car) {
   return {.car_width_m = car.width_m, .clearance_m = beside_m + raceline::kExcessAllowed_m};
 }
 
-envelope::EnvelopeParams envelope_of(const pipeline::CarParams& car, const world::TrackMap& track,
-                                     std::optional<double> tyre_c) {
-  const planning::LineParams& line = car.planning.line;
-  double bank_rad = 0.0;
-  for (std::size_t i = 0; i < track.size(); ++i)
-    bank_rad = std::max(bank_rad, std::abs(track.point(i).bank_rad));
-  return {.friction = tyre_c ? envelope::on_tyres(line.friction, *tyre_c) : line.friction,
-          .grip_share = line.grip_share,
-          .speed_max_mps = line.speed_max_mps,
-          .bank_most_rad = bank_rad,
-          .steering = envelope::SteeringLimit{.limits = pipeline::angles_of(car),
-                                              .car = car.control.steering.bicycle,
-                                              .share = car.planning.steer_share}};
-}
-
 raceline::CarLimits limits_of(const pipeline::CarParams& car,
                               const envelope::EnvelopeTable& table) {
   const double ratio = car.outbound.steering_ratio;

@@ -33,9 +33,6 @@ std::string bank_path(const CarFile& car, const world::TrackDescription& track);
 
 // Of a bank whose lines keep the car's wall clearance.
 raceline::BankParams bank_for(const pipeline::CarParams& car);
-// What the car can do on the roads of a track, on tyres of this temperature; warm without one.
-envelope::EnvelopeParams envelope_of(const pipeline::CarParams& car, const world::TrackMap& track,
-                                     std::optional<double> tyre_c = std::nullopt);
 // What the car can do on a raceline. The table must outlive them.
 raceline::CarLimits limits_of(const pipeline::CarParams& car, const envelope::EnvelopeTable& table);
 

@@ -5,6 +5,7 @@
 #include <optional>
 #include <utility>
 
+#include "vehicle/autonomy/planning/line_speeds.hpp"
 #include "vehicle/world/legal_range.hpp"
 
 namespace pitwall::pipeline {
@@ -54,6 +55,11 @@ std::optional<Problem> refused_by_gate(const CarParams& p) {
                  p.outbound.steering_ratio}});
 }
 
+envelope::SteeringLimit steering_of(const CarParams& p) {
+  return {
+      .limits = angles_of(p), .car = p.control.steering.bicycle, .share = p.planning.steer_share};
+}
+
 }  // namespace
 
 steering::AngleLimits angles_of(const CarParams& p) {
@@ -62,6 +68,13 @@ steering::AngleLimits angles_of(const CarParams& p) {
   for (std::size_t i = 0; i < out.size(); ++i)
     out[i] = {p.gate.steer[i].speed_mps,
               from_deg(p.gate.steer[i].motor_deg) / p.outbound.steering_ratio};
+  return out;
+}
+
+envelope::EnvelopeParams envelope_of(const CarParams& p, const world::TrackMap& track,
+                                     std::optional<double> tyre_c) {
+  auto out = planning::envelope_of(p.planning.line, track, steering_of(p));
+  if (tyre_c) out.friction = envelope::on_tyres(out.friction, *tyre_c);
   return out;
 }
 
@@ -79,7 +92,7 @@ Result<Setup, Problem> prepare(const CarParams& params, const world::TrackDescri
   if (!datum) return Unexpected{datum.error()};
   auto localization = localization::checked(params.localization);
   if (!localization) return Unexpected{localization.error()};
-  auto line = planning::prepare(params.planning, *map, bank);
+  auto line = planning::prepare(params.planning, *map, bank, steering_of(params));
   if (!line) return Unexpected{line.error()};
   auto gains = control::prepare(params.control);
   if (!gains) return Unexpected{gains.error()};

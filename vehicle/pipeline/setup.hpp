@@ -10,6 +10,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 
 #include "protocol/vocabulary/fixed_vector.hpp"
 #include "protocol/vocabulary/result.hpp"
@@ -87,6 +88,9 @@ struct Setup {
 
 // The frame gate's steering table at the road wheel.
 steering::AngleLimits angles_of(const CarParams& params);
+// What the car can do on the roads of a track, on tyres of this temperature; warm without one.
+envelope::EnvelopeParams envelope_of(const CarParams& params, const world::TrackMap& track,
+                                     std::optional<double> tyre_c = std::nullopt);
 
 // `bank` has been checked for this track and car; null if the parameters name none.
 Result<Setup, Problem> prepare(const CarParams& params, const world::TrackDescription& track,

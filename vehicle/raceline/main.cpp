@@ -110,7 +110,7 @@ int run(const Arguments& args) {
   if (!car_text) return refuse(car_text.error());
   const auto car = parameters::read_car(*car_text, args.car_file);
   if (!car) return refuse(car.error());
-  const envelope::EnvelopeTable table{parameters::envelope_of(car->params, *map, args.tyre_c)};
+  const envelope::EnvelopeTable table{pipeline::envelope_of(car->params, *map, args.tyre_c)};
   const raceline::CarLimits limits = parameters::limits_of(car->params, table);
   auto bank = args.check_file.empty() ? make(args, *description, *map, car->params, table)
                                       : load(args, *description, *map, limits);

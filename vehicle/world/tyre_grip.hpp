@@ -41,15 +41,30 @@ inline double coldest_c(const Received<PerWheel>& tyres, Instant now) {
   return coldest;
 }
 
-inline double share_at(const TyreGrip& grip, double tyre_c) {
-  if (!(tyre_c > grip.temperature_c.front())) return grip.share.front();
+// Place of a temperature between two rows of the table.
+struct TyrePlace {
+  std::size_t row = 0;
+  double to_next = 0.0;  // 0 at the row, 1 at the next
+};
+inline constexpr TyrePlace kWarmTyres{kTyreRows - 2, 1.0};
+
+inline TyrePlace place_of(const TyreGrip& grip, double tyre_c) {
+  if (!(tyre_c > grip.temperature_c.front())) return {};
   for (std::size_t i = 1; i < kTyreRows; ++i) {
     const double from_c = grip.temperature_c[i - 1], to_c = grip.temperature_c[i];
-    if (tyre_c >= to_c) continue;
-    const double t = (tyre_c - from_c) / (to_c - from_c);
-    return grip.share[i - 1] + t * (grip.share[i] - grip.share[i - 1]);
+    if (tyre_c < to_c) return {i - 1, (tyre_c - from_c) / (to_c - from_c)};
   }
-  return grip.share.back();
+  return kWarmTyres;
+}
+
+// Of a value of each row.
+inline double between(const std::array<double, kTyreRows>& rows, const TyrePlace& at) {
+  const double from = rows[at.row], to = rows[at.row + 1];
+  return at.to_next < 1.0 ? from + at.to_next * (to - from) : to;
+}
+
+inline double share_at(const TyreGrip& grip, double tyre_c) {
+  return between(grip.share, place_of(grip, tyre_c));
 }
 
 inline bool is_legal(const TyreGrip& grip) {

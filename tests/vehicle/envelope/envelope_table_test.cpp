@@ -57,13 +57,39 @@ TEST(EnvelopeTable, IsTheEnvelopeBetweenItsRows) {
   EXPECT_GT(compared, 3000);
 }
 
+// In closed form: of a turn to the left,  v^2 k cos - g sin <= share friction (g cos + v^2 (k sin +
+// downforce)),  is linear in v^2. It slides down where it stands if tan(bank) > share friction.
+double exact_corner_mps(double share, const FrictionParams& f, double k, double bank) {
+  if (k < 0.0) k = -k, bank = -bank;
+  const double used = share * f.friction;
+  const double turn = k * std::cos(bank) - used * (k * std::sin(bank) + f.downforce_per_m);
+  const double rest = kGravity_mps2 * (std::sin(bank) + used * std::cos(bank));
+  if (rest < 0.0) return 0.0;
+  return turn > 0.0 ? std::sqrt(rest / turn) : HUGE_VAL;
+}
+
 TEST(EnvelopeTable, CornersAreThoseOfTheTyres) {
   const EnvelopeTable table{car()};
   for (const double k : {0.0, 0.001, 0.004, -0.004, 0.01, -0.02, 0.05})
     for (const double bank_deg : {-20.0, -7.0, 0.0, 9.0, 20.0}) {
       const double bank = from_deg(bank_deg);
-      const double exact = std::min(corner_speed_mps(car().friction, {0.0, k, bank}, kShare), 80.0);
+      const double exact = std::min(exact_corner_mps(kShare, car().friction, k, bank), 80.0);
       EXPECT_NEAR(table.corner_speed_mps(table.place(k, bank)), exact, 0.02) << k << ' ' << bank;
+    }
+}
+
+// Without a wing: v^2 = R g (sin + mu cos) / (cos - mu sin), which is mu R g on a level road.
+TEST(EnvelopeTable, CornersWithoutAWingAreThoseOfTheTextbook) {
+  EnvelopeParams flat = car();
+  flat.friction.downforce_per_m = 0.0, flat.friction.friction = 0.9, flat.grip_share = 1.0;
+  const EnvelopeTable table{flat};
+  for (const double radius_m : {50.0, 220.0})
+    for (const double bank : {0.0, from_deg(20.0)}) {
+      const double v =
+          std::sqrt(radius_m * kGravity_mps2 * (std::sin(bank) + 0.9 * std::cos(bank)) /
+                    (std::cos(bank) - 0.9 * std::sin(bank)));
+      EXPECT_NEAR(table.corner_speed_mps(table.place(1.0 / radius_m, bank)), v, 1e-3) << radius_m;
+      EXPECT_NEAR(table.corner_speed_mps(table.place(-1.0 / radius_m, -bank)), v, 1e-3);
     }
 }
 

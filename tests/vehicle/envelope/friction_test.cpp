@@ -12,43 +12,6 @@ namespace {
 
 const FrictionParams kCar = testing::av21();
 
-TEST(Friction, FlatRoadWithoutWingHasTheTextbookSpeed) {
-  FrictionParams car = kCar;
-  car.downforce_per_m = 0.0;
-  for (const double k : {0.002, 0.005, 0.02}) {
-    const double v = corner_speed_mps(car, {0.0, k, 0.0}, 0.8);
-    EXPECT_NEAR(v, std::sqrt(0.8 * car.friction * kGravity_mps2 / k), 1e-6);
-    EXPECT_NEAR(corner_speed_mps(car, {0.0, -k, 0.0}, 0.8), v, 1e-6);
-  }
-}
-
-TEST(Friction, BankedTurnHasTheTextbookSpeed) {
-  // v^2 = R g (sin + mu cos) / (cos - mu sin), without a wing.
-  FrictionParams car = kCar;
-  car.downforce_per_m = 0.0, car.friction = 0.9;
-  const double phi = from_deg(20.0), r = 220.0;
-  const double expected = std::sqrt(r * kGravity_mps2 * (std::sin(phi) + 0.9 * std::cos(phi)) /
-                                    (std::cos(phi) - 0.9 * std::sin(phi)));
-  EXPECT_NEAR(corner_speed_mps(car, {0.0, 1.0 / r, phi}, 1.0), expected, 1e-6);
-}
-
-TEST(Friction, CornerSpeedIsTheEdge) {
-  for (const double k : {0.004, 0.008, -0.006}) {
-    for (const double bank_deg : {0.0, 9.0, 20.0}) {
-      const RoadLoad at{0.0, k, from_deg(bank_deg)};
-      const double v = corner_speed_mps(kCar, at, 0.7);
-      const auto room = [&](double speed) {
-        const RoadLoad load{speed, k, at.bank_rad};
-        return 0.7 * grip_mps2(kCar, load) - std::abs(lateral_demand_mps2(load));
-      };
-      EXPECT_GE(room(v - 0.01), 0.0) << k << ' ' << bank_deg;
-      if (v < 149.0) {
-        EXPECT_LE(room(v + 0.01), 0.0) << k << ' ' << bank_deg;
-      }
-    }
-  }
-}
-
 TEST(Friction, EllipseIsNeverLeft) {
   for (double v = 0.0; v < 90.0; v += 2.5) {
     const RoadLoad at{v, 1.0 / 220.0, from_deg(20.0)};

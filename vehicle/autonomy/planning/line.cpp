@@ -8,12 +8,12 @@
 #include <string>
 
 #include "protocol/vocabulary/check.hpp"
+#include "vehicle/autonomy/planning/line_speeds.hpp"
 
 namespace pitwall::planning {
 namespace {
 
 constexpr double kHintReach_m = 50.0;
-constexpr int kProfileLaps = 2;  // the second lap starts from what the first one ended with
 
 // wrap_pi for an angle that is at most one turn away: without the division, for at().
 double within_a_turn(double angle_rad) {
@@ -92,41 +92,6 @@ void place_points(const world::TrackMap& track, const world::Raceline& raceline,
                            .room_left_m = beside.width_left_m - place.n_m,
                            .room_right_m = beside.width_right_m + place.n_m});
   }
-}
-
-steering::RoadLoad load(const LinePoint& p) { return {p.speed_mps, p.curvature_per_m, p.bank_rad}; }
-
-// Forward and backward over the closed line: no point is faster than its corner, than the engine
-// gets there from the point before, or than the brakes allow before the point after.
-void limit_speeds(const LineParams& params, const envelope::FrictionParams& friction, Line& line) {
-  auto& p = line.points;
-  const std::size_t n = p.size();
-  for (LinePoint& point : p) {
-    const double corner = corner_speed_mps(friction, load(point), params.grip_share);
-    point.speed_mps = std::min(corner, params.speed_max_mps);
-  }
-  const double twice_m = 2.0 * line.spacing_m;
-  for (std::size_t k = 0; k < kProfileLaps * n; ++k) {
-    const LinePoint& a = p[k % n];
-    LinePoint& b = p[(k + 1) % n];
-    const double accel = drive_available_mps2(friction, load(a), params.grip_share);
-    const double most = a.speed_mps * a.speed_mps + twice_m * accel;
-    b.speed_mps = std::min(b.speed_mps, std::sqrt(std::max(most, 0.0)));
-  }
-  for (std::size_t k = kProfileLaps * n; k > 0; --k) {
-    const LinePoint& b = p[k % n];
-    LinePoint& a = p[(k - 1) % n];
-    const double brake = brake_available_mps2(friction, load(b), params.grip_share) +
-                         friction.drag_per_m * b.speed_mps * b.speed_mps;
-    a.speed_mps = std::min(a.speed_mps, std::sqrt(b.speed_mps * b.speed_mps + twice_m * brake));
-  }
-}
-
-// On the coldest tyres first; what is left in speed_mps are the limits on warm ones.
-void limit_speeds(const LineParams& params, Line& line) {
-  limit_speeds(params, on_tyres(params.friction, kUnset), line);
-  for (LinePoint& point : line.points) point.cold_speed_mps = point.speed_mps;
-  limit_speeds(params, params.friction, line);
 }
 
 // The first place where the line comes too close to a wall.
@@ -212,8 +177,8 @@ LinePoint Line::at(double s_m) const {
   p.yaw_rad = within_a_turn(a.yaw_rad + t * within_a_turn(b.yaw_rad - a.yaw_rad));
   p.curvature_per_m = mix(a.curvature_per_m, b.curvature_per_m, t);
   p.bank_rad = mix(a.bank_rad, b.bank_rad, t);
-  p.speed_mps = mix(a.speed_mps, b.speed_mps, t);
-  p.cold_speed_mps = mix(a.cold_speed_mps, b.cold_speed_mps, t);
+  for (std::size_t row = 0; row < p.speed_mps.size(); ++row)
+    p.speed_mps[row] = mix(a.speed_mps[row], b.speed_mps[row], t);
   p.room_left_m = mix(a.room_left_m, b.room_left_m, t);
   p.room_right_m = mix(a.room_right_m, b.room_right_m, t);
   return p;
@@ -253,19 +218,22 @@ LinePosition Line::project(double x_m, double y_m, std::optional<double> hint_s_
 }
 
 Result<Line, Problem> build_line(const world::TrackMap& track, const LineParams& params,
-                                 const world::RacelineBank* bank) {
+                                 const world::RacelineBank* bank,
+                                 const std::optional<envelope::SteeringLimit>& steering) {
   Line line;
+  std::optional<BankLap> of_bank;
   if (!params.bank.empty() || bank != nullptr) {
     const auto number = chosen(params, bank);
     if (!number) return Unexpected{number.error()};
     line.number = *number;
-    place_points(track, bank->lines[*number - 1], line);
+    of_bank.emplace(BankLap{bank->lines[*number - 1], bank->tyre_share});
+    place_points(track, of_bank->line, line);
     if (auto problem = too_close(params, line, bank->source)) return Unexpected{*problem};
   } else {
     if (auto problem = off_road(track, params)) return Unexpected{*problem};
     place_points(track, params, line);
   }
-  limit_speeds(params, line);
+  add_speeds(envelope_of(params, track, steering), of_bank, line);
   return line;
 }
 

@@ -1,9 +1,9 @@
 // Racing line: a closed path at a constant offset from the track's reference line, or a raceline of
-// the track's bank, with the highest speed that the tyres allow at each point. Built at start-up,
-// read-only afterwards.
+// the track's bank, with the speeds of its fastest lap on the envelope of the car. Built at
+// start-up, read-only afterwards.
 //   frames Map; offset positive left; curvature positive left
 //   errors build_line: the line leaves the road; a bank without the line that is named, or none
-//   cost   build O(points); at() and project() near a hint O(1), no allocation
+//   cost   build O(points) and the envelope; at() and project() near a hint O(1), no allocation
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -15,10 +15,12 @@
 
 #include "protocol/vocabulary/result.hpp"
 #include "protocol/vocabulary/units.hpp"
+#include "vehicle/envelope/envelope_table.hpp"
 #include "vehicle/envelope/friction.hpp"
 #include "vehicle/world/legal_range.hpp"
 #include "vehicle/world/raceline.hpp"
 #include "vehicle/world/track_map.hpp"
+#include "vehicle/world/tyre_grip.hpp"
 
 namespace pitwall::planning {
 
@@ -49,14 +51,13 @@ struct LinePoint {
   double x_m = kUnset, y_m = kUnset, yaw_rad = kUnset;
   double cos_yaw = kUnset, sin_yaw = kUnset;  // set in `points`; unset in the result of at()
   double curvature_per_m = kUnset, bank_rad = kUnset;
-  double speed_mps = kUnset;                           // limit on warm tyres
-  double cold_speed_mps = kUnset;                      // limit on the coldest tyres of the table
+  std::array<double, world::kTyreRows> speed_mps{};    // of the lap, by the row of the tyres
   double room_left_m = kUnset, room_right_m = kUnset;  // from the line to the walls
 };
 
-// Speed limit between that on the coldest tyres (warmth 0) and on warm tyres (1).
-inline double limit_mps(const LinePoint& p, double warmth) {
-  return p.cold_speed_mps + warmth * (p.speed_mps - p.cold_speed_mps);
+// Speed of the lap on tyres of this temperature.
+inline double limit_mps(const LinePoint& p, const world::TyrePlace& tyres) {
+  return world::between(p.speed_mps, tyres);
 }
 
 struct LinePosition {
@@ -69,6 +70,7 @@ struct Line {
   std::size_t number = 0;         // in its bank, from 1; 0: at an offset
   std::vector<LinePoint> points;  // equal steps of s; the first is one step after the last
   double length_m = 0.0, spacing_m = 0.0;
+  std::array<double, world::kTyreRows> lap_s{};  // of its fastest lap; unset where none is possible
 
   double wrap(double s_m) const;
   LinePoint at(double s_m) const;  // interpolated; s is wrapped
@@ -77,7 +79,9 @@ struct Line {
 };
 
 // `bank` is that of params.bank, for this track and checked; null if none is named.
-Result<Line, Problem> build_line(const world::TrackMap& track, const LineParams& params,
-                                 const world::RacelineBank* bank = nullptr);
+Result<Line, Problem> build_line(
+    const world::TrackMap& track, const LineParams& params,
+    const world::RacelineBank* bank = nullptr,
+    const std::optional<envelope::SteeringLimit>& steering = std::nullopt);
 
 }  // namespace pitwall::planning

@@ -110,11 +110,6 @@ struct Limits {
   StopLimits stop;
 };
 
-double warmth_of(const world::TyreGrip& tyres, double tyre_c) {
-  const double cold = tyres.cold();
-  return cold < 1.0 ? (world::share_at(tyres, tyre_c) - cold) / (1.0 - cold) : 1.0;
-}
-
 Limits limits_of(const Params& p, const Inputs& in, double demand_mps, double speed_mps) {
   const envelope::FrictionParams friction = on_tyres(p.line.friction, in.tyre_c);
   envelope::FrictionParams stopping = friction;
@@ -123,7 +118,7 @@ Limits limits_of(const Params& p, const Inputs& in, double demand_mps, double sp
   const double coast_mps2 = std::max(coasting_mps2(friction, speed_mps), kCoastLeast_mps2);
   const bool hard = in.followed == Followed::kEmergency;
   return {.drive = {.target_mps = coasts ? 0.0 : demand_mps,
-                    .warmth = warmth_of(p.line.friction.tyres, in.tyre_c),
+                    .tyres = world::place_of(p.line.friction.tyres, in.tyre_c),
                     .accel_max_mps2 = p.accel_max_mps2,
                     .decel_max_mps2 = coasts ? coast_mps2 : p.decel_max_mps2,
                     .jerk_max_mps3 = p.jerk_max_mps3,
@@ -215,12 +210,13 @@ SpeedDemand by_vehicle_flag(const Params& params, VehicleFlag flag) {
 }  // namespace
 
 Result<Line, Problem> prepare(const Params& params, const world::TrackMap& track,
-                              const world::RacelineBank* bank) {
+                              const world::RacelineBank* bank,
+                              const std::optional<envelope::SteeringLimit>& steering) {
   if (auto problem = illegal_line(params.line)) return Unexpected{*problem};
   if (auto problem = illegal_tyres(params.line.friction.tyres)) return Unexpected{*problem};
   if (auto problem = world::first_illegal(kRanges, params)) return Unexpected{*problem};
   if (auto problem = illegal_stop(params)) return Unexpected{*problem};
-  return build_line(track, params.line, bank);
+  return build_line(track, params.line, bank, steering);
 }
 
 SpeedDemand demanded_speed(const Params& params, const world::RaceControl& race_control,

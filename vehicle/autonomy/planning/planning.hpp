@@ -134,7 +134,8 @@ struct Output {
 // At start-up: checks every parameter against its legal range; the place of a Problem is the name
 // of the parameter.
 Result<Line, Problem> prepare(const Params& params, const world::TrackMap& track,
-                              const world::RacelineBank* bank = nullptr);
+                              const world::RacelineBank* bank = nullptr,
+                              const std::optional<envelope::SteeringLimit>& steering = {});
 
 Output step(const Params& params, const Line& line, const world::TrackMap& track,
             const State& state, const Inputs& inputs, Instant now);

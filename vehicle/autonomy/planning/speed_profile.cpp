@@ -109,7 +109,7 @@ SpeedProfile sampled(const History& history, double spacing_m) {
 }  // namespace
 
 double limit_mps(const LinePoint& p, const DriveLimits& limits) {
-  const double by_grip_mps = limit_mps(p, limits.warmth);
+  const double by_grip_mps = limit_mps(p, limits.tyres);
   if (!limits.steering) return by_grip_mps;
   return steering::fastest_mps(*limits.steering, p.curvature_per_m, p.bank_rad, by_grip_mps);
 }

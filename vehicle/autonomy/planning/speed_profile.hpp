@@ -45,7 +45,7 @@ struct SpeedProfile {
 
 struct DriveLimits {
   double target_mps = kUnset;
-  double warmth = 1.0;  // of the tyres: 0 coldest, 1 warm
+  world::TyrePlace tyres;
   double accel_max_mps2 = kUnset, decel_max_mps2 = kUnset, jerk_max_mps3 = kUnset;
   const steering::AngleBudget* steering = nullptr;  // null: no limit
 };

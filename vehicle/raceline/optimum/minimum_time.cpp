@@ -12,7 +12,6 @@
 #include "vehicle/raceline/optimum/minimum_curvature.hpp"
 #include "vehicle/raceline/optimum/offset_line.hpp"
 #include "vehicle/raceline/profile/lap_gradient.hpp"
-#include "vehicle/raceline/profile/lap_profile.hpp"
 #include "vehicle/raceline/profile/lap_road.hpp"
 
 namespace pitwall::raceline {

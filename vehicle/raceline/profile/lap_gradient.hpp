@@ -14,7 +14,7 @@
 
 #include "vehicle/envelope/envelope_table.hpp"
 #include "vehicle/raceline/lanes/raceline.hpp"
-#include "vehicle/raceline/profile/lap_profile.hpp"
+#include "vehicle/raceline/profile/lap_road.hpp"
 
 namespace pitwall::raceline {
 

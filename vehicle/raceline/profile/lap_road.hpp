@@ -12,11 +12,15 @@
 
 #include "protocol/vocabulary/result.hpp"
 #include "vehicle/envelope/envelope_table.hpp"
+#include "vehicle/envelope/lap_profile.hpp"
 #include "vehicle/raceline/lanes/lanes.hpp"
 #include "vehicle/raceline/lanes/raceline.hpp"
-#include "vehicle/raceline/profile/lap_profile.hpp"
 
 namespace pitwall::raceline {
+
+using envelope::LapOutcome;
+using envelope::LapProfile;
+using envelope::RoadStep;
 
 std::vector<RoadStep> road_of(const Raceline& line, const Lanes& lanes);
 

@@ -55,7 +55,7 @@ class Course {
         had(raceline::build_bank(description_, map, parameters::bank_for(car.params)));
     had(transport::write_file(path(track + ".json"), raceline::to_json(bank)));
     line_ = *std::ranges::find(bank.lines, line, &world::Raceline::name);
-    const envelope::EnvelopeTable table{parameters::envelope_of(car.params, map)};
+    const envelope::EnvelopeTable table{pipeline::envelope_of(car.params, map)};
     figures_ = had(raceline::check_raceline(line_, raceline::Lanes{map},
                                             parameters::limits_of(car.params, table)));
     scenario_ =

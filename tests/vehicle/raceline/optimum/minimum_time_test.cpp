@@ -3,8 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/vehicle/envelope/roads.hpp"
 #include "tests/vehicle/raceline/courses.hpp"
-#include "tests/vehicle/raceline/profile/roads.hpp"
 #include "vehicle/raceline/optimum/minimum_curvature.hpp"
 #include "vehicle/raceline/profile/lap_road.hpp"
 
@@ -24,7 +24,7 @@ TEST(MinimumTime, IsFasterThanTheLineOfMinimumCurvatureAndThatThanTheCentre) {
   for (const auto& description : {circuit(), mirrored(circuit()), stadium()}) {
     const world::TrackMap track = valid(world::TrackMap::build(description));
     const Lanes lanes{track};
-    const envelope::EnvelopeTable table{testing::av21()};
+    const envelope::EnvelopeTable table{envelope::testing::av21_envelope()};
     const double fastest = lap_of(lanes, valid(minimum_time(lanes, kMargin_m, table)), table);
     const double straightest = lap_of(lanes, valid(minimum_curvature(lanes, kMargin_m)), table);
     const double centre = lap_of(
@@ -37,7 +37,7 @@ TEST(MinimumTime, IsFasterThanTheLineOfMinimumCurvatureAndThatThanTheCentre) {
 // A car that is flat out everywhere takes the shortest way.
 TEST(MinimumTime, FlatOutIsTheInsideOfARing) {
   const world::TrackMap track = valid(world::TrackMap::build(ring()));
-  envelope::EnvelopeParams slow = testing::av21();
+  envelope::EnvelopeParams slow = envelope::testing::av21_envelope();
   slow.speed_max_mps = 30.0;
   const Lanes lanes{track};
   for (const Waypoint& w : valid(minimum_time(lanes, kMargin_m, envelope::EnvelopeTable{slow})))
@@ -46,7 +46,8 @@ TEST(MinimumTime, FlatOutIsTheInsideOfARing) {
 
 TEST(MinimumTime, RefusesANarrowTrack) {
   const world::TrackMap track = valid(world::TrackMap::build(ring()));
-  EXPECT_FALSE(minimum_time(Lanes{track}, 8.5, envelope::EnvelopeTable{testing::av21()}));
+  EXPECT_FALSE(
+      minimum_time(Lanes{track}, 8.5, envelope::EnvelopeTable{envelope::testing::av21_envelope()}));
 }
 
 }  // namespace

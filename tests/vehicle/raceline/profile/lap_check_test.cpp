@@ -5,14 +5,14 @@
 
 #include <functional>
 
-#include "tests/vehicle/raceline/profile/roads.hpp"
+#include "tests/vehicle/envelope/roads.hpp"
 
 namespace pitwall::raceline {
 namespace {
 
 struct Course {
-  std::vector<RoadStep> road = testing::lap();
-  envelope::EnvelopeTable table{testing::av21()};
+  std::vector<RoadStep> road = envelope::testing::lap();
+  envelope::EnvelopeTable table{envelope::testing::av21_envelope()};
   Raceline line = [this] {
     Raceline l{"lap",
                Region::kTrack,
@@ -91,7 +91,7 @@ TEST(LapCheck, RefusesWhatDoesNotBelongTogether) {
 
 TEST(LapCheck, RefusesTheProfileOfWarmTyresOnColdOnes) {
   const Course course;
-  envelope::EnvelopeParams cold = testing::av21();
+  envelope::EnvelopeParams cold = envelope::testing::av21_envelope();
   cold.friction = envelope::on_tyres(cold.friction, 30.0);
   EXPECT_FALSE(check_lap(course.line, course.road, envelope::EnvelopeTable{cold}));
 }

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "tests/vehicle/raceline/profile/roads.hpp"
+#include "tests/vehicle/envelope/roads.hpp"
 
 namespace pitwall::raceline {
 namespace {
@@ -27,9 +27,9 @@ struct Laps {
 };
 
 Laps car() {
-  envelope::EnvelopeParams params = testing::av21();
+  envelope::EnvelopeParams params = envelope::testing::av21_envelope();
   params.friction.engine.shift_s = 0.0;
-  return {testing::lap(), envelope::EnvelopeTable{params}};
+  return {envelope::testing::lap(), envelope::EnvelopeTable{params}};
 }
 
 // A change of the curvature of twenty points at once, against the difference of two lap times.
@@ -68,8 +68,8 @@ TEST(LapGradient, ByTheLengthOfASteps) {
 
 // In a corner that is driven at its speed all along: v = sqrt(a / k), t = s / v.
 TEST(LapGradient, OfACircleIsTheTextbooks) {
-  envelope::EnvelopeParams params = testing::block();
-  Laps laps{std::vector<RoadStep>(400, RoadStep{0.02, 0.0, kNoCap_mps, 1.0}),
+  envelope::EnvelopeParams params = envelope::testing::block_envelope();
+  Laps laps{std::vector<RoadStep>(400, RoadStep{0.02, 0.0, envelope::kNoCap_mps, 1.0}),
             envelope::EnvelopeTable{params}};
   const auto slopes = laps.gradient();
   double by_curvature = 0.0, by_step = 0.0;

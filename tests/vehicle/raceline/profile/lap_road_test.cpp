@@ -6,8 +6,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "tests/vehicle/envelope/roads.hpp"
 #include "tests/vehicle/raceline/courses.hpp"
-#include "tests/vehicle/raceline/profile/roads.hpp"
 
 namespace pitwall::raceline {
 namespace {
@@ -27,7 +27,7 @@ Raceline along(const world::TrackMap& map, Region region) {
 struct Stadium {
   world::TrackMap map = valid(world::TrackMap::build(stadium()));
   Lanes lanes{map};
-  envelope::EnvelopeTable table{testing::av21()};
+  envelope::EnvelopeTable table{envelope::testing::av21_envelope()};
 };
 
 TEST(LapRoad, HasTheSpeedLimitOfThePitLane) {
@@ -41,11 +41,11 @@ TEST(LapRoad, HasTheSpeedLimitOfThePitLane) {
   // The lane goes from 60 m before the start to 480 m behind it.
   EXPECT_EQ(limited(0.0), 20.0);
   EXPECT_EQ(limited(470.0), 20.0);
-  EXPECT_EQ(limited(490.0), kNoCap_mps);
-  EXPECT_EQ(limited(course.map.length_m() - 70.0), kNoCap_mps);
+  EXPECT_EQ(limited(490.0), envelope::kNoCap_mps);
+  EXPECT_EQ(limited(course.map.length_m() - 70.0), envelope::kNoCap_mps);
   EXPECT_EQ(limited(course.map.length_m() - 50.0), 20.0);
   for (const RoadStep& step : road_of(along(course.map, Region::kTrack), course.lanes))
-    EXPECT_EQ(step.cap_mps, kNoCap_mps);
+    EXPECT_EQ(step.cap_mps, envelope::kNoCap_mps);
 }
 
 TEST(LapRoad, GivesEachLineALapThatPassesItsCheck) {

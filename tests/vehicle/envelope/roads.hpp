@@ -7,13 +7,13 @@
 #include <vector>
 
 #include "tests/vehicle/envelope/car.hpp"
-#include "vehicle/raceline/profile/lap_profile.hpp"
+#include "vehicle/envelope/lap_profile.hpp"
 
-namespace pitwall::raceline::testing {
+namespace pitwall::envelope::testing {
 
 // Without wing, drag and load transfer: 5 m/s2 forward, 8 m/s2 of brake, on tyres that carry more.
-inline envelope::EnvelopeParams block() {
-  envelope::FrictionParams f = envelope::testing::av21();
+inline EnvelopeParams block_envelope() {
+  FrictionParams f = av21();
   f.friction = 2.5, f.downforce_per_m = 0.0, f.drag_per_m = 0.0;
   f.accel_max_mps2 = 5.0, f.power_w_per_kg = 1e6, f.brake_max_mps2 = 8.0;
   f.load_shift = 0.0, f.long_friction = 1.5, f.brake_front = 0.5, f.load_front = 0.5;
@@ -24,9 +24,9 @@ inline envelope::EnvelopeParams block() {
           .steering = std::nullopt};
 }
 
-inline envelope::EnvelopeParams av21() {
-  envelope::FrictionParams f = envelope::testing::av21();
-  f.engine = envelope::testing::av21_engine();
+inline EnvelopeParams av21_envelope() {
+  FrictionParams f = av21();
+  f.engine = av21_engine();
   return {.friction = f,
           .grip_share = 0.8,
           .speed_max_mps = 80.0,
@@ -53,4 +53,4 @@ inline std::vector<RoadStep> lap() {
   return road;
 }
 
-}  // namespace pitwall::raceline::testing
+}  // namespace pitwall::envelope::testing

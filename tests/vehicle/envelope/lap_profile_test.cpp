@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "vehicle/raceline/profile/lap_profile.hpp"
+#include "vehicle/envelope/lap_profile.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,19 +8,19 @@
 #include <ctime>
 
 #include "tests/support/allocation_guard.hpp"
-#include "tests/vehicle/raceline/profile/roads.hpp"
+#include "tests/vehicle/envelope/roads.hpp"
 
-namespace pitwall::raceline {
+namespace pitwall::envelope {
 namespace {
 
-using envelope::EnvelopeTable;
+using world::LapPoint;
 
 struct Lap {
   LapOutcome outcome;
   std::vector<LapPoint> points;
 };
 
-Lap solved(const envelope::EnvelopeParams& car, const std::vector<RoadStep>& road) {
+Lap solved(const EnvelopeParams& car, const std::vector<RoadStep>& road) {
   const EnvelopeTable table{car};
   Lap lap{{}, std::vector<LapPoint>(road.size())};
   lap.outcome = LapProfile{table}.solve(road, lap.points);
@@ -32,7 +32,7 @@ Lap solved(const envelope::EnvelopeParams& car, const std::vector<RoadStep>& roa
 TEST(LapProfile, IsTheClosedFormOfConstantAccelerations) {
   std::vector<RoadStep> road = testing::straight(1000);
   road[0].cap_mps = 10.0;
-  const Lap lap = solved(testing::block(), road);
+  const Lap lap = solved(testing::block_envelope(), road);
   // 100 + 2 5 s = 100 + 2 8 (1000 - s)
   const double turn_m = 8000.0 / 13.0, top = std::sqrt(100.0 + 10.0 * turn_m);
   EXPECT_NEAR(lap.outcome.lap_s, (top - 10.0) / 5.0 + (top - 10.0) / 8.0, 1e-3);
@@ -48,14 +48,14 @@ TEST(LapProfile, IsTheClosedFormOfConstantAccelerations) {
 
 TEST(LapProfile, ACircleIsDrivenAtTheSpeedOfItsTyres) {
   std::vector<RoadStep> road(600, RoadStep{1.0 / 50.0, 0.0, kNoCap_mps, 1.0});
-  const Lap lap = solved(testing::block(), road);
+  const Lap lap = solved(testing::block_envelope(), road);
   const double speed = std::sqrt(2.5 * kGravity_mps2 * 50.0);
   EXPECT_NEAR(lap.outcome.lap_s, 600.0 / speed, 1e-6);
 }
 
 // Flat out: where power is what drag takes.
 TEST(LapProfile, ALapWithoutCornersHasTheTopSpeed) {
-  envelope::EnvelopeParams car = testing::block();
+  EnvelopeParams car = testing::block_envelope();
   car.friction.drag_per_m = 0.001, car.friction.power_w_per_kg = 200.0;
   const double top = std::cbrt(200.0 / 0.001);
   const Lap lap = solved(car, testing::straight(2000));
@@ -65,12 +65,12 @@ TEST(LapProfile, ALapWithoutCornersHasTheTopSpeed) {
 // The lap is closed: where it begins does not matter.
 TEST(LapProfile, DoesNotDependOnItsStart) {
   std::vector<RoadStep> road = testing::lap();
-  const Lap first = solved(testing::av21(), road);
+  const Lap first = solved(testing::av21_envelope(), road);
   ASSERT_FALSE(first.outcome.stuck);
   for (const long by : {1L, 450L, 1350L, 2399L}) {
     std::vector<RoadStep> turned = road;
     std::rotate(turned.begin(), turned.begin() + by, turned.end());
-    const Lap lap = solved(testing::av21(), turned);
+    const Lap lap = solved(testing::av21_envelope(), turned);
     EXPECT_NEAR(lap.outcome.lap_s, first.outcome.lap_s, 1e-9);
     for (std::size_t i = 0; i < turned.size(); i += 7) {
       const auto at = (i + static_cast<std::size_t>(by)) % road.size();
@@ -83,16 +83,16 @@ TEST(LapProfile, DoesNotDependOnItsStart) {
 // Driven the other way round a mirrored lap is the same.
 TEST(LapProfile, DoesNotDependOnTheHand) {
   std::vector<RoadStep> road = testing::lap();
-  const Lap lap = solved(testing::av21(), road);
+  const Lap lap = solved(testing::av21_envelope(), road);
   for (RoadStep& step : road)
     step.curvature_per_m = -step.curvature_per_m, step.bank_rad = -step.bank_rad;
-  EXPECT_NEAR(solved(testing::av21(), road).outcome.lap_s, lap.outcome.lap_s, 1e-9);
+  EXPECT_NEAR(solved(testing::av21_envelope(), road).outcome.lap_s, lap.outcome.lap_s, 1e-9);
 }
 
 // A shift of t loses the speed that the drive had given in t, and its own drag.
 TEST(LapProfile, ShiftsCutTheDrive) {
   const std::vector<RoadStep> road = testing::lap();
-  envelope::EnvelopeParams car = testing::av21();
+  EnvelopeParams car = testing::av21_envelope();
   car.friction.engine.shift_s = 0.0;
   const Lap quick = solved(car, road);
   car.friction.engine.shift_s = 0.3;
@@ -120,7 +120,7 @@ TEST(LapProfile, ShiftsCutTheDrive) {
 TEST(LapProfile, TellsWhereNoSpeedCarries) {
   std::vector<RoadStep> road = testing::lap();
   road[1234] = {0.0, from_deg(40.0), kNoCap_mps, 1.0};
-  envelope::EnvelopeParams car = testing::av21();
+  EnvelopeParams car = testing::av21_envelope();
   car.friction.friction = 0.8, car.friction.downforce_per_m = 0.0;  // tan(40 deg) is 0.84
   car.bank_most_rad = from_deg(40.0);
   const Lap lap = solved(car, road);
@@ -130,7 +130,7 @@ TEST(LapProfile, TellsWhereNoSpeedCarries) {
 
 TEST(LapProfile, TakesNoMemory) {
   const std::vector<RoadStep> road = testing::lap();
-  const EnvelopeTable table{testing::av21()};
+  const EnvelopeTable table{testing::av21_envelope()};
   LapProfile profile{table};
   std::vector<LapPoint> points(road.size());
   profile.solve(road, points);
@@ -147,4 +147,4 @@ TEST(LapProfile, TakesNoMemory) {
 }
 
 }  // namespace
-}  // namespace pitwall::raceline
+}  // namespace pitwall::envelope

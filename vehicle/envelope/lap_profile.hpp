@@ -25,9 +25,9 @@
 #include <vector>
 
 #include "vehicle/envelope/envelope_table.hpp"
-#include "vehicle/raceline/lanes/raceline.hpp"
+#include "vehicle/world/raceline.hpp"
 
-namespace pitwall::raceline {
+namespace pitwall::envelope {
 
 inline constexpr double kNoCap_mps = std::numeric_limits<double>::infinity();
 
@@ -44,20 +44,20 @@ struct LapOutcome {
 
 class LapProfile {
  public:
-  explicit LapProfile(const envelope::EnvelopeTable& table) : table_(&table) {}
+  explicit LapProfile(const EnvelopeTable& table) : table_(&table) {}
 
   // `out` has a place for each point of the road.
-  LapOutcome solve(std::span<const RoadStep> road, std::span<LapPoint> out);
+  LapOutcome solve(std::span<const RoadStep> road, std::span<world::LapPoint> out);
 
  private:
   std::size_t limit(std::span<const RoadStep> road);  // index of the slowest point
   void brake(std::span<const RoadStep> road, std::size_t from);
-  void drive(std::span<const RoadStep> road, std::size_t from, std::span<LapPoint> out);
+  void drive(std::span<const RoadStep> road, std::size_t from, std::span<world::LapPoint> out);
 
-  const envelope::EnvelopeTable* table_;
-  std::vector<envelope::RoadPlace> places_;
+  const EnvelopeTable* table_;
+  std::vector<RoadPlace> places_;
   std::vector<double> limit_mps_;  // of the corners and the brakes
   std::vector<double> speed_mps_;
 };
 
-}  // namespace pitwall::raceline
+}  // namespace pitwall::envelope

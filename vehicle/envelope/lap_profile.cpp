@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "vehicle/raceline/profile/lap_profile.hpp"
+#include "vehicle/envelope/lap_profile.hpp"
 
 #include <algorithm>
 #include <cmath>
 
 #include "protocol/vocabulary/check.hpp"
 
-namespace pitwall::raceline {
+namespace pitwall::envelope {
 namespace {
 
 constexpr double kSpeedLeast_mps = 1.0;  // a line that is slower is none
@@ -16,8 +16,8 @@ constexpr int kLapsMax = 40;             // a lap that is flat out loses an e-th
 // What an upward shift takes of the drive.
 class Shifts {
  public:
-  Shifts(const envelope::Engine& engine, double speed_mps) : engine_(engine) {
-    if (has_gears(engine)) gear_ = envelope::gear_at(engine, speed_mps);
+  Shifts(const Engine& engine, double speed_mps) : engine_(engine) {
+    if (has_gears(engine)) gear_ = gear_at(engine, speed_mps);
   }
 
   std::size_t gear() const { return gear_; }
@@ -31,13 +31,13 @@ class Shifts {
 
   void pass(double speed_mps) {
     if (!has_gears(engine_)) return;
-    while (gear_ < envelope::kGears && speed_mps > engine_.up_above_mps[gear_ - 1])
+    while (gear_ < kGears && speed_mps > engine_.up_above_mps[gear_ - 1])
       ++gear_, left_s_ += engine_.shift_s;
     while (gear_ > 1 && speed_mps < engine_.down_below_mps[gear_ - 2]) --gear_, left_s_ = 0.0;
   }
 
  private:
-  const envelope::Engine& engine_;
+  const Engine& engine_;
   std::size_t gear_ = 0;
   double left_s_ = 0.0;
 };
@@ -70,11 +70,12 @@ void LapProfile::brake(std::span<const RoadStep> road, std::size_t from) {
 }
 
 // Forward, and again where the lap does not end as fast as it begins.
-void LapProfile::drive(std::span<const RoadStep> road, std::size_t from, std::span<LapPoint> out) {
+void LapProfile::drive(std::span<const RoadStep> road, std::size_t from,
+                       std::span<world::LapPoint> out) {
   const std::size_t n = limit_mps_.size();
   speed_mps_.resize(n);
   speed_mps_[from] = limit_mps_[from];
-  const envelope::Engine& engine = table_->params().friction.engine;
+  const Engine& engine = table_->params().friction.engine;
   for (int lap = 0; lap < kLapsMax; ++lap) {
     const double begin_mps = speed_mps_[from];
     Shifts shifts{engine, begin_mps};
@@ -95,7 +96,7 @@ void LapProfile::drive(std::span<const RoadStep> road, std::size_t from, std::sp
   }
 }
 
-LapOutcome LapProfile::solve(std::span<const RoadStep> road, std::span<LapPoint> out) {
+LapOutcome LapProfile::solve(std::span<const RoadStep> road, std::span<world::LapPoint> out) {
   CHECK(!road.empty() && road.size() == out.size());
   const std::size_t slowest = limit(road), n = road.size();
   if (!(limit_mps_[slowest] >= kSpeedLeast_mps)) return {kUnset, slowest};
@@ -112,4 +113,4 @@ LapOutcome LapProfile::solve(std::span<const RoadStep> road, std::span<LapPoint>
   return {time_s, std::nullopt};
 }
 
-}  // namespace pitwall::raceline
+}  // namespace pitwall::envelope
