@@ -36,7 +36,10 @@ Reading take(Context& c, const av21::WheelSpeedReport& m) {
                                            {slew_row(kId, "wheel_speed_FR"), m.wheel_speed_FR},
                                            {slew_row(kId, "wheel_speed_RL"), m.wheel_speed_RL},
                                            {slew_row(kId, "wheel_speed_RR"), m.wheel_speed_RR}}});
-  if (reading == Reading::kApplied) receive(c.state.signals.wheel_speed_mps, wheels, c.at);
+  if (reading != Reading::kApplied) return reading;
+  world::VehicleSignals& signals = c.state.signals;
+  signals.wheel_speed_before_mps = signals.wheel_speed_mps;
+  receive(signals.wheel_speed_mps, wheels, c.at);
   return reading;
 }
 

@@ -49,6 +49,7 @@ void receive_wheel_speeds(State& s, const can::ReceivedFrame& received) {
                                 m.wheel_speed_RL * kMpsPerKmh, m.wheel_speed_RR * kMpsPerKmh}};
   for (const double v_mps : wheels.at)
     if (v_mps > kWheelMax_mps) return;
+  s.signals.wheel_speed_before_mps = s.signals.wheel_speed_mps;
   s.signals.wheel_speed_mps = {wheels, received.at, true};
 }
 
@@ -56,6 +57,12 @@ void receive_steering(State& s, const can::ReceivedFrame& received) {
   av21::SteeringReport m;
   if (!av21::decode(received.frame, m)) return;
   s.signals.steering_motor_rad = {from_deg(m.steering_motor_ang_avg_fdbk), received.at, true};
+}
+
+void receive_brake(State& s, const can::ReceivedFrame& received) {
+  av21::BrakePressureReport m;
+  if (!av21::decode(received.frame, m)) return;
+  s.signals.brake = {{m.brake_pressure_fdbk_front, m.brake_pressure_fdbk_rear}, received.at, true};
 }
 
 void receive_frames(Tick& t) {
@@ -69,7 +76,15 @@ void receive_frames(Tick& t) {
     s.others_at = std::max(s.others_at, received.at);
     if (id == av21::WheelSpeedReport::kId) receive_wheel_speeds(s, received);
     if (id == av21::SteeringReport::kId) receive_steering(s, received);
+    if (id == av21::BrakePressureReport::kId) receive_brake(s, received);
   }
+}
+
+void judge_front_wheels(const Tick& t) {
+  State& s = t.state;
+  const double lock_slip = t.params.following.stop.lock_slip;
+  s.front_slip = safety::front_slip(
+      s.front_wheels, safety::front_wheels_of(s.signals, lock_slip, kUnset, t.in.now));
 }
 
 // While the guardian itself did not run it cannot know who else did not: what stops a whole machine
@@ -273,7 +288,7 @@ world::ActuatorCommand open_loop(const Tick& t) {
                                   .last_good = s.following.command,
                                   .speed_mps = wheel_speed(t),
                                   .tyre_c = s.record.tyre_c,
-                                  .front_slip = safety::front_slip(s.signals, t.in.now),
+                                  .slip = {.front = s.front_slip},
                                   .learned = s.record.learned};
   return safety::stop_along(t.params.following, s.open_loop, in, t.in.now);
 }
@@ -284,7 +299,7 @@ world::ActuatorCommand next_command(const Tick& t) {
   if (s.status.guidance != Guidance::kOpenLoop) {
     s.open_loop = {};
     safety::PathPose pose = on_path(s.reckoning.pose);
-    pose.front_slip = safety::front_slip(s.signals, t.in.now);
+    pose.slip.front = s.front_slip;
     return safety::follow_stop(t.params.following, s.following, s.record.stop, pose,
                                safety::StopKind::kControlled, t.in.now);
   }
@@ -332,6 +347,7 @@ Output step(const Params& params, State& state, const Inputs& inputs) {
   Output out;
   const Mode before = state.status.mode;
   receive_frames(tick);
+  judge_front_wheels(tick);
   count_silence(tick);
   store_accelerations(tick);
   store_gyro_rates(state.reckoning, inputs.sensors);

@@ -28,6 +28,7 @@
 #include "vehicle/guardian/reckoning.hpp"
 #include "vehicle/guardian/record.hpp"
 #include "vehicle/safety/frame_gate.hpp"
+#include "vehicle/safety/oversteer.hpp"
 #include "vehicle/safety/safe_stop.hpp"
 #include "vehicle/safety/stop_following.hpp"
 #include "vehicle/world/sensor_input.hpp"
@@ -58,7 +59,9 @@ struct State {
   Instant stepped_at{};           // last tick
   Instant silent_from{};          // last command, plus the time in which no tick ran
   Instant others_at{};            // newest frame of another node
-  world::VehicleSignals signals;  // wheel speeds and steering only
+  world::VehicleSignals signals;  // wheel speeds, steering, brake pressures only
+  safety::FrontWheelState front_wheels;
+  double front_slip = kUnset;  // safety/oversteer.hpp
   ReckoningState reckoning;
   safety::FollowingState following;
   safety::SafeStopState open_loop;

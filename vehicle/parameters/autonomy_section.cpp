@@ -102,8 +102,16 @@ localization::Params read_localization(yaml::StrictMap map, world::Receivers& re
   return p;
 }
 
+planning::SpeedLaw read_speed_law(yaml::StrictMap& map) {
+  const std::string name = map.text("speed_law");
+  if (name == "paper") return planning::SpeedLaw::kPaper;
+  if (name != "limited") map.fail("speed_law", "\"" + name + "\" is not one of: paper, limited");
+  return planning::SpeedLaw::kLimited;
+}
+
 planning::Params read_planning(yaml::StrictMap map) {
   planning::Params p;
+  p.speed_law = read_speed_law(map);
   p.line = read_line(map.map("line"));
   read_ranges(map, planning::kRanges, p);
   read_stop_plan(map.map("stop"), p);

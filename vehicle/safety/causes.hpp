@@ -51,17 +51,21 @@ enum class Cause : std::uint8_t {
   kRadioLost,
   kGnssRtkLost,
   kSteeringDeviates,
+  kSteeringBiased,
   kBrakeDeviates,
   kThrottleDeviates,
   kComputerLate,
   kComputerMemory,
   kComputerHot,
   // coast: faults that may clear by themselves
-  kOversteer,
+  kRearSpin,
+  kRearLock,
+  kYawExcess,
   kPositionPassing,
   kPlanLate,
   kControlLate,
   // message only
+  kFrontLock,
   kFlagsDisagree,
   kTicksMissed,
   kProcessorBusy,
@@ -69,7 +73,7 @@ enum class Cause : std::uint8_t {
   kClockSkewed,
   kGnssDegraded
 };
-inline constexpr std::size_t kCauses = 49;
+inline constexpr std::size_t kCauses = 53;
 
 // In rising order of severity.
 enum class Reaction : std::uint8_t { kNone, kNotify, kCoast, kControlledStop, kEmergencyStop };
@@ -139,16 +143,21 @@ inline constexpr std::array<CauseRow, kCauses> kCauseTable = [] {
     {kRadioLost, "base station lost", kControlledStop, ms(3'020), kRevokes},
     {kGnssRtkLost, "GNSS: both units lost RTK and their accuracy", kControlledStop, ms(220),
      kAllows, true},
-    {kSteeringDeviates, "steering does not do as it is told", kControlledStop, ms(300)},
+    {kSteeringDeviates, "steering motor does not do as it is told", kControlledStop, ms(300)},
+    {kSteeringBiased, "steering rod: the car turns otherwise than its motor", kControlledStop,
+     ms(300)},
     {kBrakeDeviates, "brake does not do as it is told", kControlledStop, ms(300)},
     {kThrottleDeviates, "throttle does not do as it is told", kControlledStop, ms(300)},
     {kComputerLate, "computer misses too many ticks", kControlledStop, ms(2'500)},
     {kComputerMemory, "computer out of memory", kControlledStop, ms(1'020)},
     {kComputerHot, "computer too hot", kControlledStop, ms(1'020)},
-    {kOversteer, "over-steer", kCoast, kTick},
+    {kRearSpin, "over-steer: rear wheels spin", kCoast, kTick},
+    {kRearLock, "over-steer: rear wheels lock", kCoast, kTick},
+    {kYawExcess, "over-steer: the car yaws more than steered", kCoast, kTick},
     {kPositionPassing, "no good position", kCoast, ms(320)},
     {kPlanLate, "planning a beat late", kCoast, ms(145)},
     {kControlLate, "control a beat late", kCoast, ms(10)},
+    {kFrontLock, "front wheels lock: less brake", kNotify, kTick},
     {kFlagsDisagree, "race control: flags unknown or contradictory", kNotify, kTick},
     {kTicksMissed, "computer missed ticks", kNotify, kTick},
     {kProcessorBusy, "computer busy", kNotify, ms(1'020)},

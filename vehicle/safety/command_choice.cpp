@@ -53,7 +53,7 @@ ChosenCommand stop(const Tick& t) {
                               .kind = hard ? StopKind::kEmergency : StopKind::kControlled,
                               .ego = t.in.ego,
                               .tyre_c = tyres_c(t),
-                              .front_slip = front_slip(t.in.signals, t.now),
+                              .slip = t.slip,
                               .learned = learned,
                               .steered_rad = measured ? motor.value / p.steering_ratio : kUnset};
   return {stop_along(following_of(p), s.safe_stop, inputs, t.now), CommandSource::kSafeStop};
@@ -92,6 +92,24 @@ ActuatorCommand slowed(const Tick& t, const ActuatorCommand& chosen) {
     const double demand_kpa = brake_for(p, StopKind::kControlled, wanted_mps2, grip_now(t));
     out.brake_kpa = std::max(chosen.brake_kpa, demand_kpa);
   }
+  return out;
+}
+
+// While the car drives: what stop_brake.hpp does in a stop, and no brake at all in over-steer. The
+// share falls from what is in use when a wheel locks, not from what is asked for.
+ActuatorCommand without_lock(const Tick& t, const ActuatorCommand& wanted) {
+  ActuatorCommand out = wanted;
+  double& share = t.state.safe_stop.following.lock_share;
+  if (t.slip.oversteers) out.brake_kpa = 0.0;
+  if (!(out.brake_kpa > kBrakeTouched_kpa)) {
+    share = 1.0;
+    return out;
+  }
+  const SafeStopParams& p = t.params.safe_stop;
+  const double in_use = std::fmin(1.0, t.state.last.brake_kpa / out.brake_kpa);  // unset: 1
+  if (t.slip.front > p.lock_slip) share = std::min(share, in_use);
+  share = next_lock_share(p, share, t.slip, ramp_dt_s(t));
+  out.brake_kpa *= share;
   return out;
 }
 
@@ -179,7 +197,8 @@ ChosenCommand choose(const Tick& t) {
 }
 
 ActuatorCommand shape(const Tick& t, const ActuatorCommand& chosen) {
-  return limit(t, slowed(t, chosen));
+  const ActuatorCommand asked = slowed(t, chosen);
+  return limit(t, follows_the_drive(t.state.mode) ? without_lock(t, asked) : asked);
 }
 
 }  // namespace pitwall::safety

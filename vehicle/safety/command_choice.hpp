@@ -7,6 +7,8 @@
 //   invariants
 //          a change of source causes no jump; in a stop the throttle never rises; while coasting it
 //          is zero; it is zero while the brake is above kBrakeTouched_kpa
+//          while the car drives or coasts, over-steer releases the brake, and front wheels that
+//          lock take pressure back by the law of stop_brake.hpp until the brake is released
 //          in a controlled stop the brake stays within the grip of the tyres at the speed; in a
 //          stop and while coasting the steering stays within the limit of the frame gate
 //   errors none
@@ -26,6 +28,7 @@ struct Tick {
   const SupervisorInputs& in;
   Instant now;
   double speed_mps;
+  WheelSlip slip{};
 };
 
 struct ChosenCommand {

@@ -246,7 +246,7 @@ void turning(CauseCollector& f, FaultState& state, Instant now) {
   if (!follows || !(excess_rad > 0.0)) state.last_explained = now;  // not a number is explained
   f.out.steering_biased =
       now - state.last_explained >= p.steering.persist && !f.is_off(Monitor::kSteeringFollows);
-  f.add(Monitor::kSteeringFollows, Cause::kSteeringDeviates, f.out.steering_biased,
+  f.add(Monitor::kSteeringFollows, Cause::kSteeringBiased, f.out.steering_biased,
         excess_rad * f.in.steering_ratio);
 }
 
@@ -276,18 +276,29 @@ void actuators(CauseCollector& f, FaultState& state, Instant now) {
         reported.throttle_fraction, s.throttle_fraction);
 }
 
-void rear_axle(CauseCollector& f, FaultState& state, Instant now) {
-  constexpr Duration kAge = milliseconds(50);
+void wheels(CauseCollector& f, FaultState& state, Instant now) {
+  constexpr double kBrakes_kpa = 50.0;
+  if (f.is_off(Monitor::kOversteer)) return;
   const world::VehicleSignals& s = f.in.signals;
   const bool located = f.in.ego.validity == Validity::kGood;
-  OversteerInputs in;
-  if (s.wheel_speed_mps.fresh(now, kAge)) in.wheel_mps = s.wheel_speed_mps.value;
-  if (s.steering_motor_rad.fresh(now, kAge))
+  OversteerInputs in{.wheel_mps = wheel_frames(s, now)};
+  if (s.steering_motor_rad.fresh(now, kSlipAgeMax))
     in.road_wheel_rad = s.steering_motor_rad.value / f.in.steering_ratio;
   if (located) in.speed_mps = f.in.ego.vx_mps;
   if (located) in.yaw_rate_rad_per_s = f.in.ego.yaw_rate_rad_per_s;
-  const double worst = oversteer(f.params.oversteer, state.oversteer, in);
-  f.add(Monitor::kOversteer, Cause::kOversteer, f.in.moves && worst > 0.0, worst);
+  const Oversteer found = detect_oversteer(f.params.oversteer, state.oversteer, in);
+  f.out.front_slip =
+      front_slip(state.front_wheels, front_wheels_of(s, f.in.lock_slip, in.speed_mps, now));
+  if (!f.in.moves) return;
+  f.out.oversteers = found.any();
+  const auto add = [&](Cause cause, bool holds, double value) {
+    f.add(Monitor::kOversteer, cause, holds, value);
+  };
+  add(Cause::kRearSpin, found.rear_spin > 0.0, found.rear_spin);
+  add(Cause::kRearLock, found.rear_lock > 0.0, found.rear_lock);
+  add(Cause::kYawExcess, found.yaw_excess > 0.0, found.yaw_excess);
+  const bool brakes = f.in.reported.brake_kpa > kBrakes_kpa;  // unset: false
+  add(Cause::kFrontLock, brakes && f.out.front_slip > f.in.lock_slip, f.out.front_slip);
 }
 
 void computer(CauseCollector& f, FaultState& state, Instant now) {
@@ -322,7 +333,7 @@ FaultOutput detect(const FaultParams& params, FaultState& state, const FaultInpu
   streams(collector);
   flags(collector);
   actuators(collector, state, now);
-  rear_axle(collector, state, now);
+  wheels(collector, state, now);
   computer(collector, state, now);
   clocks(collector, state, now);
   return collector.out;

@@ -111,6 +111,7 @@ struct FaultInputs {
   // Last command to the actuators; unset before the first.
   world::ActuatorCommand reported{};
   double steering_ratio = 19.5;
+  double lock_slip = kUnset;  // a front wheel that slips more is locking
   // Of steering::Learned in this tick; unset while nothing is learned.
   double innovation_rad = kUnset, innovation_sigma_rad = kUnset;
   double speed_mps = kUnset;  // from the wheels
@@ -125,6 +126,7 @@ struct FaultState {
   FollowState steering, brake_front, brake_rear, throttle;
   Instant last_explained{};  // last time that the car turned as its steering sensor reports
   OversteerState oversteer;
+  FrontWheelState front_wheels;
   ClockState clock;
   ComputerState computer;
 };
@@ -134,7 +136,9 @@ struct FaultOutput {
   std::array<double, kCauses> values{};  // of each cause that holds
   bool drive_by_wire_gone = false;       // the bus has been dead for bus_dead_disarm
   bool steering_biased = false;          // the car does not turn as its steering sensor reports
-  world::MonitorSet seen{};              // monitors with a finding in this tick
+  bool oversteers = false;
+  double front_slip = kUnset;  // oversteer.hpp
+  world::MonitorSet seen{};    // monitors with a finding in this tick
 };
 
 FaultOutput detect(const FaultParams& params, FaultState& state, const FaultInputs& inputs,

@@ -104,7 +104,7 @@ ActuatorCommand with_feedback(const FollowingParams& params, SafeStopState& s,
                       .speed_mps = finite_or(in.speed_mps, std::max(in.ego.vx_mps, 0.0)),
                       .slip_mps = in.ego.vy_mps,
                       .yaw_rate_rad_per_s = in.ego.yaw_rate_rad_per_s,
-                      .front_slip = in.front_slip};
+                      .slip = in.slip};
   ActuatorCommand command = follow_stop(params, s.following, in.stop, pose, in.kind, now);
   s.brake_kpa = command.brake_kpa;
   s.travelled_m = s.following.s_m;
@@ -125,7 +125,7 @@ ActuatorCommand open_loop(const SafeStopParams& params, SafeStopState& state,
       state.steer_offset_rad * settled;
   Grip grip = grip_at(params, state.speed_mps, w.curvature_per_m, w.bank_rad, in.tyre_c);
   double& lock_share = state.following.lock_share;
-  grip.share = lock_share = next_lock_share(params, lock_share, in.front_slip, dt_s);
+  grip.share = lock_share = next_lock_share(params, lock_share, in.slip, dt_s);
   if (state.speed_mps < params.standstill_mps)
     state.brake_kpa = hold_towards(params, in.kind, state.brake_kpa, dt_s);
   else

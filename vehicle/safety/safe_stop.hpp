@@ -46,9 +46,9 @@ struct SafeStopInputs {
   const world::ActuatorCommand& last_good;  // steering, brake, gear
   double speed_mps = kUnset;                // from the wheels
   StopKind kind = StopKind::kControlled;
-  world::EgoState ego{};       // if not valid: open loop
-  double tyre_c = kUnset;      // coldest tyre; unset counts as cold
-  double front_slip = kUnset;  // stop_brake.hpp
+  world::EgoState ego{};   // if not valid: open loop
+  double tyre_c = kUnset;  // coldest tyre; unset counts as cold
+  WheelSlip slip{};
   steering::Learned learned{};
   double steered_rad = kUnset;  // measured angle if the motor does not follow; else unset
 };

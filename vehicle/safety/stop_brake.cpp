@@ -53,17 +53,10 @@ double brake_towards(const SafeStopParams& params, StopKind kind, const BrakeDem
   return ramped(demand.last_kpa, target_kpa, ramp_of(params, kind), demand.dt_s);
 }
 
-double front_slip(const world::VehicleSignals& signals, Instant now) {
-  constexpr double kMoves_mps = 5.0;
-  if (!signals.wheel_speed_mps.fresh(now, kSlipAgeMax)) return kUnset;
-  const auto& [front_left, front_right, rear_left, rear_right] = signals.wheel_speed_mps.value.at;
-  if (!std::isfinite(front_left + front_right + rear_left + rear_right)) return kUnset;
-  const double fastest = std::max({front_left, front_right, rear_left, rear_right});
-  return fastest > kMoves_mps ? 1.0 - std::min(front_left, front_right) / fastest : 0.0;
-}
-
-double next_lock_share(const SafeStopParams& params, double share, double front_slip, double dt_s) {
-  const bool locks = front_slip > params.lock_slip;
+double next_lock_share(const SafeStopParams& params, double share, const WheelSlip& slip,
+                       double dt_s) {
+  if (slip.oversteers) return params.lock_share_least;
+  const bool locks = slip.front > params.lock_slip;
   const double rate_per_s = locks ? -params.lock_release_per_s : params.lock_recover_per_s;
   return std::clamp(share + rate_per_s * dt_s, params.lock_share_least, 1.0);
 }

@@ -9,7 +9,8 @@
 //          Braking may use brake_share of what the corner leaves, because the front axle locks
 //          before the rear one. The deceleration by air drag, rolling resistance and engine is
 //          subtracted from the demand
-//          a front wheel that locks takes pressure back, and with it the steering returns
+//          a front wheel that locks takes pressure back, and with it the steering returns;
+//          over-steer takes back all but the least share
 //   source Rajamani, Vehicle Dynamics and Control, 2nd ed., sec. 4.1
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
@@ -21,7 +22,6 @@
 #include "protocol/vocabulary/units.hpp"
 #include "vehicle/steering/path_steering.hpp"
 #include "vehicle/world/legal_range.hpp"
-#include "vehicle/world/signals.hpp"
 #include "vehicle/world/tyre_grip.hpp"
 
 namespace pitwall::safety {
@@ -32,18 +32,18 @@ struct SafeStopParams {
   double brake_ramp_kpa_per_s = 4000.0;       // controlled stop
   double emergency_ramp_kpa_per_s = 12000.0;  // [brake_ramp, 30000]
   double brake_max_kpa = 5500.0;
-  double hold_kpa = 1500.0;              // at standstill
-  double decel_min_mps2 = 2.0;           // minimum in open loop, and where the plan has stopped
-  double decel_max_mps2 = 8.0;           // controlled stop; [decel_min, 15]
-  double decel_without_plan_mps2 = 4.0;  // [decel_min, decel_max]
-  double emergency_decel_mps2 = 14.0;    // [decel_max, 25]
-  double friction = 1.0;                 // assumed in a stop with warm tyres; low on purpose
-  double brake_share = 0.65;             // of the grip at which the front axle locks
-  double downforce_per_m = 0.0013;       // lift / mass per v^2
-  double grip_share = 0.7;               // usable share of the total grip; (0, 1]
-  double emergency_grip_share = 0.9;     // [grip_share, 1]
-  double steer_settle_s = 0.8;           // decay time of the offset from the feed-forward
-  double strayed_bandwidth_share = 0.5;  // if the motor does not follow
+  double hold_kpa = 1500.0;                  // at standstill
+  double decel_min_mps2 = 2.0;               // minimum in open loop, and where the plan has stopped
+  double decel_max_mps2 = 8.0;               // controlled stop; [decel_min, 15]
+  double decel_without_plan_mps2 = 4.0;      // [decel_min, decel_max]
+  double emergency_decel_mps2 = 14.0;        // [decel_max, 25]
+  double friction = 1.0;                     // assumed in a stop with warm tyres; low on purpose
+  double brake_share = 0.65;                 // of the grip at which the front axle locks
+  double downforce_per_m = 0.0013;           // lift / mass per v^2
+  double grip_share = 0.7;                   // usable share of the total grip; (0, 1]
+  double emergency_grip_share = 0.9;         // [grip_share, 1]
+  double steer_settle_s = 0.8;               // decay time of the offset from the feed-forward
+  double motor_fault_bandwidth_share = 0.5;  // if the motor does not follow
   double standstill_mps = 0.3;
   double speed_share_per_s = 0.8;     // deceleration per speed error
   double brake_preview_s = 0.15;      // delay of the brakes
@@ -69,7 +69,7 @@ inline constexpr auto kSafeStopRanges = std::to_array<world::NamedRange<SafeStop
     {"coast_mps2", &SafeStopParams::coast_mps2, 0.0, 3.0},
     {"grip_share", &SafeStopParams::grip_share, 0.05, 1.0},
     {"steer_settle_s", &SafeStopParams::steer_settle_s, 0.1, 5.0},
-    {"strayed_bandwidth_share", &SafeStopParams::strayed_bandwidth_share, 0.1, 1.0},
+    {"motor_fault_bandwidth_share", &SafeStopParams::motor_fault_bandwidth_share, 0.1, 1.0},
     {"standstill_mps", &SafeStopParams::standstill_mps, 0.1, 1.0},
     {"speed_share_per_s", &SafeStopParams::speed_share_per_s, 0.0, 3.0},
     {"brake_preview_s", &SafeStopParams::brake_preview_s, 0.0, 0.5},
@@ -87,7 +87,7 @@ enum class StopKind : std::uint8_t { kControlled, kEmergency };
 struct Grip {
   double total_mps2 = kUnset, lateral_mps2 = kUnset;
   double free_mps2 = 0.0;  // deceleration without the brake
-  double share = 1.0;      // of the brake force, after front wheels that locked
+  double share = 1.0;      // of the brake force, after wheels that locked
 };
 // tyre_c: coldest tyre; unset counts as cold.
 Grip grip_at(const SafeStopParams& params, double speed_mps, double curvature_per_m,
@@ -105,14 +105,16 @@ struct BrakeDemand {
 };
 double brake_towards(const SafeStopParams& params, StopKind kind, const BrakeDemand& demand);
 
-// Slip of the slower front wheel against the fastest wheel. NaN if the wheel speeds are older than
-// kSlipAgeMax or one is not a number; zero for a car that hardly moves.
-inline constexpr Duration kSlipAgeMax = milliseconds(50);
-double front_slip(const world::VehicleSignals& signals, Instant now);
+// What takes brake pressure back; oversteer.hpp.
+struct WheelSlip {
+  double front = kUnset;
+  bool oversteers = false;
+};
 
-// Next share of the brake pressure that front wheels without lock-up allow. It recovers while the
-// slip is unknown.
-double next_lock_share(const SafeStopParams& params, double share, double front_slip, double dt_s);
+// Next share of the brake pressure that wheels without lock-up allow: over-steer leaves the least
+// share at once. It recovers while the slip is unknown.
+double next_lock_share(const SafeStopParams& params, double share, const WheelSlip& slip,
+                       double dt_s);
 
 // Next pressure towards the one that holds the car at standstill, within the ramp.
 double hold_towards(const SafeStopParams& params, StopKind kind, double last_kpa, double dt_s);

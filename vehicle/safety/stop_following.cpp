@@ -55,9 +55,10 @@ double begin_within_gate_kpa(const FollowingParams& p, double last_kpa, double s
   return std::min(last_kpa, std::max(stop_brake_limit_kpa(p.gate, speed_mps), last_kpa - step_kpa));
 }
 
-// The throttle closes, and yields to the brake.
-double next_throttle(const SafeStopParams& p, double last, double brake_kpa, double dt_s) {
-  if (brake_kpa > kBrakeTouched_kpa) return 0.0;
+// The throttle closes, and yields to the brake and to over-steer at once.
+double next_throttle(const SafeStopParams& p, double last, double brake_kpa, bool oversteers,
+                     double dt_s) {
+  if (oversteers || brake_kpa > kBrakeTouched_kpa) return 0.0;
   return std::clamp(last - p.throttle_fall_per_s * dt_s, 0.0, 1.0);
 }
 
@@ -129,7 +130,7 @@ world::ActuatorCommand follow_stop(const FollowingParams& params, FollowingState
        .yaw_rate_rad_per_s = pose.yaw_rate_rad_per_s,
        .last_angle_rad = command.road_wheel_rad,
        .angle_max_rad = stop_angle_max_rad(params.gate, params.steering_ratio, v_mps),
-       .bandwidth_share = deviates ? p.strayed_bandwidth_share : 1.0},
+       .bandwidth_share = deviates ? p.motor_fault_bandwidth_share : 1.0},
       from_seconds(dt_s));
   const double slew_rad = params.slew_rad_per_s * dt_s;
   command.road_wheel_rad =
@@ -138,9 +139,10 @@ world::ActuatorCommand follow_stop(const FollowingParams& params, FollowingState
   const PathPoint braked = path_at(path, state.segment, state.s_m + v_mps * p.brake_preview_s);
   if (begins && kind == StopKind::kControlled)
     command.brake_kpa = begin_within_gate_kpa(params, command.brake_kpa, v_mps);
-  state.lock_share = next_lock_share(p, state.lock_share, pose.front_slip, dt_s);
+  state.lock_share = next_lock_share(p, state.lock_share, pose.slip, dt_s);
   command.brake_kpa = next_brake_kpa(p, state, here, braked, v_mps, kind, dt_s);
-  command.throttle_fraction = next_throttle(p, command.throttle_fraction, command.brake_kpa, dt_s);
+  command.throttle_fraction =
+      next_throttle(p, command.throttle_fraction, command.brake_kpa, pose.slip.oversteers, dt_s);
   command.at = now;
   return command;
 }

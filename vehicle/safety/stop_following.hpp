@@ -6,9 +6,9 @@
 //   frames Map; lateral error positive if the car is left of the path, angles left positive
 //   invariants
 //          steering: steering/path_steering.hpp, within the limit of the frame gate at the speed.
-//          If the motor does not follow, the bandwidth is multiplied by strayed_bandwidth_share,
-//          and the measured motor angle replaces the command: a rate-limited motor with a higher
-//          bandwidth makes the car oscillate
+//          If the motor does not follow, motor_fault_bandwidth_share multiplies the bandwidth, and
+//          the measured motor angle replaces the command: a rate-limited motor with a higher
+//          bandwidth makes the car oscillate. Over-steer closes the throttle at once
 //          brake: pressure = (decel - free) * kpa_per_mps2, with free the deceleration by air,
 //          rolling and engine and decel = -a* + speed_share (v - v*). a* and v* are planned, a*
 //          brake_preview_s ahead. An emergency demands emergency_decel. The pressure stays within
@@ -40,7 +40,7 @@ struct PathPose {
   double x_m = kUnset, y_m = kUnset, yaw_rad = kUnset;
   double speed_mps = kUnset, slip_mps = 0.0;
   double yaw_rate_rad_per_s = kUnset;  // about body z; unset: yaw rate of the path
-  double front_slip = kUnset;          // stop_brake.hpp
+  WheelSlip slip{};
 };
 
 struct FollowingParams {

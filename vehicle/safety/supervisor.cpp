@@ -241,7 +241,7 @@ const char* text_of(Arming arming) {
 SupervisorOutput supervise(const SupervisorParams& params, SupervisorState& state,
                            const SupervisorInputs& inputs, Instant now) {
   const double speed_mps = wheel_speed_mps(inputs.signals, now, kWheelAgeMax);
-  const Tick tick{params, state, inputs, now, speed_mps};
+  Tick tick{params, state, inputs, now, speed_mps};
   const FaultOutput found = detect(params.faults, state.faults,
                                    {.signals = inputs.signals,
                                     .bus = inputs.bus,
@@ -262,10 +262,12 @@ SupervisorOutput supervise(const SupervisorParams& params, SupervisorState& stat
                                     .computer = inputs.computer,
                                     .reported = state.last_known ? state.last : ActuatorCommand{},
                                     .steering_ratio = params.steering_ratio,
+                                    .lock_slip = params.safe_stop.lock_slip,
                                     .innovation_rad = inputs.learned.innovation_rad,
                                     .innovation_sigma_rad = inputs.learned.innovation_sigma_rad,
                                     .speed_mps = speed_mps},
                                    now);
+  tick.slip = {found.front_slip, found.oversteers};
   const bool standstill = stands(tick);
   log_rising(tick, found);
   const Mode before = state.mode;

@@ -93,7 +93,8 @@ struct Misc {
 };
 
 struct VehicleSignals {
-  Received<PerWheel> wheel_speed_mps;  // circumferential speed of each wheel
+  Received<PerWheel> wheel_speed_mps;         // circumferential speed of each wheel
+  Received<PerWheel> wheel_speed_before_mps;  // likewise, of the frame before
   Received<BrakePressure> brake;
   Received<double> throttle_fraction;   // pedal feedback, 0..1
   Received<double> steering_motor_rad;  // average of the three sensors, at the motor, left positive

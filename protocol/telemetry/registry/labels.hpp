@@ -67,16 +67,19 @@ inline constexpr std::string_view kStopCauses =
     "position too uncertain|GNSS unit disconnected|GNSS: both units miss the rate|"
     "GNSS: both units lost the solution|IMU: both units lost|race control lost|"
     "race control lost, says the drive-by-wire|base station lost|"
-    "GNSS: both units lost RTK and their accuracy|steering does not do as it is told|"
+    "GNSS: both units lost RTK and their accuracy|steering motor does not do as it is told|"
+    "steering rod: the car turns otherwise than its motor|"
     "brake does not do as it is told|throttle does not do as it is told|"
-    "computer misses too many ticks|computer out of memory|computer too hot|over-steer|"
-    "no good position|planning a beat late|control a beat late|"
+    "computer misses too many ticks|computer out of memory|computer too hot|"
+    "over-steer: rear wheels spin|over-steer: rear wheels lock|"
+    "over-steer: the car yaws more than steered|no good position|planning a beat late|"
+    "control a beat late|front wheels lock: less brake|"
     "race control: flags unknown or contradictory|computer missed ticks|computer busy|"
     "a clock stepped|clock too fast or slow|GNSS: one unit is bad";
 // Unit of the value that belongs to each cause; "-": the value has no meaning for an operator.
 inline constexpr std::string_view kStopCauseUnits =
-    "-|-|-|s|-|-|-|-|-|-|-|-|-|-|-|-|-|-|-|ticks|ticks|s|-|s|m|s|s|s|s|s|-|s|m|rad|kPa|of 1|s|MiB|"
-    "degC|-|s|s|ticks|-|s|of 1|s|ppm|-";
+    "-|-|-|s|-|-|-|-|-|-|-|-|-|-|-|-|-|-|-|ticks|ticks|s|-|s|m|s|s|s|s|s|-|s|m|rad|rad|kPa|of 1|"
+    "s|MiB|degC|-|-|-|s|s|ticks|-|-|s|of 1|s|ppm|-";
 // Bits of a set of attacks and key errors, in the order of telemetry::Threat.
 inline constexpr std::string_view kThreatNames =
     "wrong key|sealed against signed|refused at rate|second peer|replayed openings|relay";

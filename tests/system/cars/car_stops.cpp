@@ -203,7 +203,7 @@ const bench::Loaded& flying_lap(const std::string& track) {
   return found->second;
 }
 
-double speed_of(const plant::Params& plant, const std::string& track) {
+double speed_of(const plant::Params& plant, const std::string& track, double grip) {
   constexpr double kStep_m = 10.0, kStep_mps = 0.25, kSlowest_mps = 20.0;
   const world::TrackMap& map = setup_of(track).track;
   const auto is_carried = [&](double speed_mps) {
@@ -212,7 +212,7 @@ double speed_of(const plant::Params& plant, const std::string& track) {
       const double demand_mps2 =
           steering::lateral_demand_mps2({speed_mps, at.curvature_per_m, at.bank_rad});
       const plant::Turn turn{speed_mps, at.curvature_per_m, at.bank_rad};
-      if (std::abs(demand_mps2) > kUseShare * plant::grip_limit(plant, turn).lateral_mps2)
+      if (std::abs(demand_mps2) > kUseShare * plant::grip_limit(plant, turn, grip).lateral_mps2)
         return false;
     }
     return true;

@@ -48,9 +48,9 @@ struct CarStopCase {
 };
 
 // 65 m/s, or less: the speed at which the car uses kUseShare of its friction ellipse at the hardest
-// place of the lap.
+// place of the lap. `grip` scales its friction.
 inline constexpr double kFullSpeed_mps = 65.0, kUseShare = 0.8;
-double speed_of(const plant::Params& plant, const std::string& track);
+double speed_of(const plant::Params& plant, const std::string& track, double grip = 1.0);
 
 struct CarStopFigures {
   bool begun = false, stood = false, contact = false;

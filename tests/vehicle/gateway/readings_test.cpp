@@ -59,6 +59,31 @@ TEST(Readings, OneSensorThatLiesLeavesTheTyreAsItWas) {
   EXPECT_NEAR(read.state.signals.tyre_temperature_c.value[Corner::kRearRight], 50.0, 1e-9);
 }
 
+// Of those that were applied.
+TEST(Readings, TheWheelSpeedsOfTheFrameBeforeAreKept) {
+  Reader read;
+  const auto wheels = [](double kmh) {
+    av21::WheelSpeedReport m;
+    m.wheel_speed_FL = m.wheel_speed_FR = m.wheel_speed_RL = m.wheel_speed_RR = kmh;
+    can::Frame frame;
+    can::EncodeCounters counters;
+    EXPECT_TRUE(av21::encode(m, frame, counters));
+    return frame;
+  };
+  const auto at = [](int ms) { return Instant{} + milliseconds(ms); };
+  ASSERT_EQ(read(wheels(100.0), at(0)), Reading::kApplied);
+  EXPECT_FALSE(read.state.signals.wheel_speed_before_mps.received);
+  ASSERT_EQ(read(wheels(103.6), at(5)), Reading::kApplied);
+  ASSERT_EQ(read(wheels(300.0), at(10)), Reading::kImplausibleSlew);
+  const auto& before = read.state.signals.wheel_speed_before_mps;
+  EXPECT_TRUE(before.received);
+  EXPECT_EQ(before.at, at(0));
+  EXPECT_NEAR(before.value[Corner::kRearRight], from_kmh(100.0), 1e-9);
+  ASSERT_EQ(read(wheels(104.0), at(15)), Reading::kApplied);
+  EXPECT_EQ(before.at, at(5));
+  EXPECT_NEAR(before.value[Corner::kFrontLeft], from_kmh(103.6), 1e-9);
+}
+
 TEST(Readings, EachTyrePressureIsItsOwnGaugeInKilopascal) {
   Reader read;
   av21::TirePressureFl fl;

@@ -33,6 +33,17 @@ TEST(StopSection, ATableThatFallsAndALawThatIsNoneAreRefusedByName) {
   EXPECT_NE(falls.find("share"), std::string::npos) << falls;
   const std::string law = refusal(with(av21(), "drive_law: feed_forward", "drive_law: pid"));
   EXPECT_NE(law.find("paper_lqr"), std::string::npos) << law;
+  const std::string speed = refusal(with(av21(), "speed_law: limited", "speed_law: fast"));
+  EXPECT_NE(speed.find("limited"), std::string::npos) << speed;
+}
+
+TEST(StopSection, TheDefaultFileLimitsTheSpeedAndTheBaselineIsAskedForByName) {
+  const auto car = read_car(av21(), "car.yaml");
+  ASSERT_TRUE(car) << to_string(car.error());
+  EXPECT_EQ(car->params.planning.speed_law, planning::SpeedLaw::kLimited);
+  const auto paper = read_car(with(av21(), "speed_law: limited", "speed_law: paper"), "car.yaml");
+  ASSERT_TRUE(paper) << to_string(paper.error());
+  EXPECT_EQ(paper->params.planning.speed_law, planning::SpeedLaw::kPaper);
 }
 
 }  // namespace

@@ -66,7 +66,7 @@ struct ActuatorCase {
 const std::array<ActuatorCase, 6> kActuatorCases{{
     {Cause::kSteeringDeviates, Monitor::kSteeringFollows,
      [](Axle& a) { a.steering_off_rad = -0.06; }},
-    {Cause::kSteeringDeviates, Monitor::kSteeringFollows,
+    {Cause::kSteeringBiased, Monitor::kSteeringFollows,
      [](Axle& a) { a.innovation_rad = -0.0091; }},
     {Cause::kBrakeDeviates, Monitor::kBrakeFollows, [](Axle& a) { a.front_kept = 0.7; }},
     {Cause::kBrakeDeviates, Monitor::kBrakeFollows, [](Axle& a) { a.rear_kept = 0.7; }},
@@ -112,8 +112,8 @@ TEST(ActuatorFaults, ACarThatTurnsElsewhereThanItsSteeringReportsIsBiased) {
     bool strays, biased;
   };
   for (const Case& c :
-       {Case{0.0091, 0.001, 0.0, true, true}, Case{0.0089, 0.001, 0.0, false, false},
-        Case{-0.0191, 0.011, 0.0, true, true}, Case{0.0191, 0.012, 0.0, false, false},
+       {Case{0.0091, 0.001, 0.0, false, true}, Case{0.0089, 0.001, 0.0, false, false},
+        Case{-0.0191, 0.011, 0.0, false, true}, Case{0.0191, 0.012, 0.0, false, false},
         Case{0.02, 0.001, 0.1, true, false}, Case{kUnset, 0.001, 0.0, false, false},
         Case{0.02, kUnset, 0.0, false, false}}) {
     Axle a;
@@ -123,6 +123,7 @@ TEST(ActuatorFaults, ACarThatTurnsElsewhereThanItsSteeringReportsIsBiased) {
     a.steering_off_rad = c.sensor_off_rad;
     const FaultOutput out = a.run(milliseconds(150));
     EXPECT_EQ(out.causes.has(Cause::kSteeringDeviates), c.strays) << c.innovation_rad;
+    EXPECT_EQ(out.causes.has(Cause::kSteeringBiased), c.biased) << c.innovation_rad;
     EXPECT_EQ(out.steering_biased, c.biased) << c.innovation_rad;
   }
 }

@@ -129,7 +129,7 @@ TEST(CommandChoice, AStopSteersWithTheBiasThatTheSteeringSensorDoesNotShow) {
   };
   const Drive calm = stopped(false), biased = stopped(true);
   EXPECT_EQ(biased.out.mode, Mode::kControlledStop);
-  EXPECT_EQ(biased.state.log.first.cause, Cause::kSteeringDeviates);
+  EXPECT_EQ(biased.state.log.first.cause, Cause::kSteeringBiased);
   EXPECT_EQ(biased.state.steering_bias_rad, kBias_rad) << "that of the moment it was found";
   EXPECT_FALSE(biased.state.steering_deviated) << "its motor follows";
   EXPECT_NEAR(biased.out.command.road_wheel_rad - calm.out.command.road_wheel_rad, kBias_rad,

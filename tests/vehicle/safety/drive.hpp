@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "tests/vehicle/safety/situation.hpp"
@@ -20,12 +21,16 @@ struct Drive {
   double speed_mps = 0.0;
   Instant now = Instant{} + seconds(5);
   bool wheels_known = true;
+  std::array<double, world::kCorners> wheel_factors{1.0, 1.0, 1.0, 1.0};  // of the car's speed
   SupervisorOutput out;
   steering::Learned learned{};
 
   const SupervisorOutput& tick() {
     now += milliseconds(10);
     car.at(now, speed_mps);
+    for (std::size_t i = 0; i < world::kCorners; ++i)
+      car.signals.wheel_speed_mps.value.at[i] = car.signals.wheel_speed_before_mps.value.at[i] =
+          wheel_factors[i] * speed_mps;
     if (!wheels_known) car.signals.wheel_speed_mps.received = false;
     out = supervise(params, state,
                     {.signals = car.signals,

@@ -144,7 +144,11 @@ constexpr std::array kElsewhere{Cause::kDeadReckoningTooLong,
                                 Cause::kBrakeDeviates,
                                 Cause::kThrottleDeviates,
                                 Cause::kComputerLate,
-                                Cause::kOversteer,
+                                Cause::kSteeringBiased,
+                                Cause::kRearSpin,
+                                Cause::kRearLock,
+                                Cause::kYawExcess,
+                                Cause::kFrontLock,
                                 Cause::kClockStepped,
                                 Cause::kClockSkewed};
 

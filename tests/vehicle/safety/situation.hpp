@@ -65,6 +65,8 @@ struct Situation {
   // Sets the time of all inputs to now.
   void at(Instant now, double speed_mps) {
     signals.wheel_speed_mps = {{{speed_mps, speed_mps, speed_mps, speed_mps}}, now, true};
+    signals.wheel_speed_before_mps = signals.wheel_speed_mps;
+    signals.wheel_speed_before_mps.at = now - milliseconds(5);
     ego.vx_mps = speed_mps;
     signals.tyre_temperature_c = {{{85.0, 85.0, 85.0, 85.0}}, now, true};
     bus.last_frame = now;

@@ -45,47 +45,20 @@ TEST(StopBrake, NeverBrakesBeyondItsShareAndWhatAirGivesIsNotBraked) {
   }
 }
 
-world::VehicleSignals wheels(std::array<double, world::kCorners> mps, Instant at) {
-  world::VehicleSignals signals;
-  signals.wheel_speed_mps = {{mps}, at, true};
-  return signals;
-}
-
-TEST(StopBrake, FrontSlipIsThatOfTheSlowerFrontWheelAgainstTheFastestWheel) {
-  const Instant now = Instant{} + seconds(3);
-  struct Case {
-    std::array<double, world::kCorners> mps;
-    double slip;
-  };
-  for (const Case& c : {Case{{40.0, 40.0, 40.0, 40.0}, 0.0}, Case{{30.0, 39.0, 38.0, 40.0}, 0.25},
-                        Case{{40.0, 0.0, 39.0, 38.0}, 1.0}, Case{{40.0, 40.0, 10.0, 0.0}, 0.0},
-                        Case{{0.0, 0.0, 5.0, 5.0}, 0.0}, Case{{0.0, 5.1, 5.0, 5.0}, 1.0}})
-    EXPECT_NEAR(front_slip(wheels(c.mps, now), now), c.slip, 1e-12);
-  for (std::size_t i = 0; i < world::kCorners; ++i) {
-    std::array<double, world::kCorners> bad{40.0, 40.0, 40.0, 40.0};
-    bad[i] = kUnset;
-    EXPECT_TRUE(std::isnan(front_slip(wheels(bad, now), now))) << i;
-  }
-  const auto known = wheels({20.0, 40.0, 40.0, 40.0}, now);
-  EXPECT_EQ(front_slip(known, now + kSlipAgeMax), 0.5);
-  EXPECT_TRUE(std::isnan(front_slip(known, now + kSlipAgeMax + Duration{1})));
-  EXPECT_TRUE(std::isnan(front_slip({}, now)));
-}
-
 // Whatever the tick; a wheel that reports nothing never costs brake.
 TEST(StopBrake, AFrontWheelThatLocksTakesPressureBackAndNeverMoreThanItsShare) {
   const SafeStopParams p;
   for (const double dt_s : {0.005, 0.01, 0.02}) {
     double share = 1.0;
     for (double t_s = 0.0; t_s < 0.2 - 1e-9; t_s += dt_s)
-      share = next_lock_share(p, share, 0.3, dt_s);
+      share = next_lock_share(p, share, {.front = 0.3}, dt_s);
     EXPECT_NEAR(share, 1.0 - 0.2 * p.lock_release_per_s, 1e-9);
     for (double t_s = 0.0; t_s < 1.0 - 1e-9; t_s += dt_s)
-      share = next_lock_share(p, share, p.lock_slip, dt_s);
+      share = next_lock_share(p, share, {.front = p.lock_slip}, dt_s);
     EXPECT_NEAR(share, 1.0 - 0.2 * p.lock_release_per_s + p.lock_recover_per_s, 1e-9);
-    for (int i = 0; i < 10'000; ++i) share = next_lock_share(p, share, 1.0, dt_s);
+    for (int i = 0; i < 10'000; ++i) share = next_lock_share(p, share, {.front = 1.0}, dt_s);
     EXPECT_EQ(share, p.lock_share_least);
-    for (int i = 0; i < 10'000; ++i) share = next_lock_share(p, share, kUnset, dt_s);
+    for (int i = 0; i < 10'000; ++i) share = next_lock_share(p, share, {.front = kUnset}, dt_s);
     EXPECT_EQ(share, 1.0);
   }
 }

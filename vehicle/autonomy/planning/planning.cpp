@@ -101,6 +101,14 @@ world::Trajectory trajectory(const Line& line, double line_s_m, OffsetAt offset,
   return out;
 }
 
+void demand_everywhere(world::Trajectory& drive, double speed_mps) {
+  for (world::TrajectoryPoint& point : drive.points) {
+    point.speed_mps = speed_mps;
+    point.accel_mps2 = 0.0;
+    point.time_s = point.s_m > 0.0 ? travel_s(point.s_m, speed_mps, speed_mps) : 0.0;
+  }
+}
+
 bool stops(Followed followed) {
   return followed == Followed::kStop || followed == Followed::kEmergency;
 }
@@ -266,9 +274,11 @@ Output step(const Params& params, const Line& line, const world::TrackMap& track
   out.drive = trajectory(
       line, car.s_m, [&](double ahead_m) { return offset_at(line, next.merge, car.s_m + ahead_m); },
       drive_profile(line, car.s_m, now_at, limits.drive, params.point_spacing_m), now);
+  const bool unlimited = params.speed_law == SpeedLaw::kPaper;
+  if (unlimited) demand_everywhere(out.drive, limits.drive.target_mps);
   const LinePoint here = line.at(car.s_m);
   const double limit = limit_mps(here, limits.drive);
-  const bool line_limits = limit < demand.speed_mps;
+  const bool line_limits = !unlimited && limit < demand.speed_mps;
   out.target_speed_mps = line_limits ? limit : demand.speed_mps;
   out.reason = line_limits ? Reason::kLineLimit : demand.reason;
   out.line_s_m = car.s_m;

@@ -36,8 +36,13 @@
 
 namespace pitwall::planning {
 
+// kPaper: the published baseline, for comparison. The demanded speed is the target of every point
+// of the drive trajectory, whatever the line, the tyres and the steering carry.
+enum class SpeedLaw : std::uint8_t { kLimited, kPaper };
+
 struct Params {
   LineParams line;
+  SpeedLaw speed_law = SpeedLaw::kLimited;
   double green_speed_mps = kUnset;    // if race control gives no round speed
   double caution_speed_mps = kUnset;  // under yellow
   double accel_max_mps2 = kUnset;

@@ -230,6 +230,28 @@ TEST(Planning, ReferenceStaysNearACarThatDoesNotFollow) {
   EXPECT_GT(out.drive.points[0].speed_mps, 1.0);  // but is told to
 }
 
+// For comparison only: what is demanded reaches every point, whatever cold tyres carry.
+TEST(Planning, ThePublishedSpeedLawDemandsTheSameEverywhere) {
+  PlanningRig rig;
+  rig.speed_mps = 40.0, rig.tyre_c = 29.0;
+  const auto limited = rig.tick(green(80.0));
+  EXPECT_LT(limited.drive.points.back().speed_mps, 80.0);
+  rig.params.speed_law = SpeedLaw::kPaper;
+  const auto paper = rig.tick(green(80.0), Followed::kDrive, 75.0);
+  EXPECT_EQ(paper.target_speed_mps, 75.0);
+  EXPECT_EQ(paper.reason, Reason::kOperatorLimit);
+  for (const world::TrajectoryPoint& point : paper.drive.points) {
+    EXPECT_EQ(point.speed_mps, 75.0);
+    EXPECT_EQ(point.accel_mps2, 0.0);
+    EXPECT_NEAR(point.time_s, point.s_m / 75.0, 1e-9);
+  }
+  world::RaceControl red = green(80.0);
+  red.track = TrackFlag::kRed;
+  const auto stands = rig.tick(red);
+  EXPECT_EQ(stands.drive.points.back().speed_mps, 0.0);
+  EXPECT_EQ(stands.drive.points[0].time_s, 0.0);
+}
+
 TEST(Planning, MergesFromBesideTheLineWithoutAStep) {
   PlanningRig rig;
   rig.offset_m = -5.0, rig.speed_mps = 20.0;

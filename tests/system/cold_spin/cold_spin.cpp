@@ -1,0 +1,213 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tests/system/cold_spin/cold_spin.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "hil/bench/lockstep/lockstep.hpp"
+#include "hil/bench/signals.hpp"
+#include "hil/plant/tyre_thermal.hpp"
+#include "hil/sweep/in_parallel.hpp"
+#include "protocol/vocabulary/check.hpp"
+#include "protocol/vocabulary/random.hpp"
+#include "protocol/vocabulary/text.hpp"
+#include "tests/system/cars/car_stops.hpp"
+
+namespace pitwall::testing {
+namespace {
+
+constexpr double kRound_mph = 5.0, kLongest_s = 300.0, kSlipAbove_mps = 5.0;
+constexpr double kLapBefore_m = 2454.3 + 500.0;  // and the way to its beginning, from rest
+constexpr double kStart_m = 2250.0;
+
+plant::Params cold_car(double loss) {
+  plant::Params plant = flying_lap("lvms").scenario.plant;
+  plant::TyreThermal& t = plant.thermal;
+  t.cold_grip_loss = loss * (t.working_c - t.ambient_c) / (t.working_c - kLossAt_c);
+  return plant;
+}
+
+pipeline::Setup setup_of(Chain chain) {
+  pipeline::Setup setup = flying_lap("lvms").setup;
+  if (chain == Chain::kOurs) return setup;
+  setup.params.planning.speed_law = planning::SpeedLaw::kPaper;
+  setup.params.supervisor.faults.off.add(world::Monitor::kOversteer);
+  return setup;
+}
+
+scenario::Scenario scenario_of(std::uint64_t seed) {
+  scenario::Scenario s = flying_lap("lvms").scenario;
+  s.seed = seed;
+  s.duration = from_seconds(kLongest_s);
+  s.expect.clear();
+  s.plant = cold_car(drawn_loss(seed));
+  s.start.s_m = kStart_m;
+  s.tyres.temperature_c = kSpinTyre_c;
+  scenario::Fault held;  // at their temperature, whatever warms or cools them
+  held.kind = "cold_tyres";
+  held.lasts = from_seconds(1e3);
+  held.value = kSpinTyre_c;
+  s.faults = {held};
+  s.race_control = {{.at = milliseconds(500), .track = world::TrackFlag::kRed},
+                    {.at = seconds(4), .track = world::TrackFlag::kOrange},
+                    {.at = seconds(9), .track = world::TrackFlag::kYellow},
+                    {.at = seconds(10),
+                     .track = world::TrackFlag::kGreen,
+                     .round_target_speed_mph = base_speed_mph() + kSpinRaise_mph}};
+  return s;
+}
+
+class Drive {
+ public:
+  Drive(std::uint64_t seed, Chain chain) : base_mps_(from_mph(base_speed_mph())) {
+    run_.seed = seed, run_.chain = chain, run_.loss = drawn_loss(seed);
+  }
+
+  pipeline::Outputs step(const pipeline::Setup& setup, pipeline::Car& car,
+                         const pipeline::Inputs& in) const {
+    pipeline::Inputs own = in;
+    own.operator_speed_limit_mps = run_.raised ? base_mps_ + from_mph(kSpinRaise_mph) : base_mps_;
+    return pipeline::step(setup, car, own);
+  }
+
+  void watch(const bench::Rig& rig, Instant now) {
+    const plant::Truth& t = rig.truth();
+    if (over()) return;
+    const double station_m = rig.road().s_m;
+    if (!run_.raised && t.odometer_m > kLapBefore_m && station_before_m_ < kTurn_m &&
+        station_m >= kTurn_m) {
+      run_.raised = true, raised_at_ = now, raised_m_ = t.odometer_m;
+      run_.from_mps = t.speed_mps;
+    }
+    station_before_m_ = station_m;
+    const double slip_deg = std::abs(to_deg(std::atan2(t.vy_mps, t.vx_mps)));
+    run_.spun = t.speed_mps > kSlipAbove_mps && slip_deg > kSpun_deg;
+    run_.left = rig.road().contact;
+    run_.station_m = station_m;
+    if (!run_.raised) return;
+    run_.after_s = (now - raised_at_).seconds();
+    run_.fastest_mps = std::max(run_.fastest_mps, t.speed_mps);
+    if (t.speed_mps > kSlipAbove_mps) run_.slip_deg = std::max(run_.slip_deg, slip_deg);
+    run_.wall_gap_m = std::fmin(run_.wall_gap_m, bench::wall_gap_m(rig));
+    lap_done_ = t.odometer_m - raised_m_ > lap_m();
+  }
+
+  bool over() const { return run_.lost() || lap_done_; }
+  const SpinRun& run() const { return run_; }
+
+ private:
+  static double lap_m() { return flying_lap("lvms").setup.track.length_m(); }
+
+  double base_mps_;
+  SpinRun run_;
+  double station_before_m_ = 1e9, raised_m_ = 0.0;
+  Instant raised_at_{};
+  bool lap_done_ = false;
+};
+
+}  // namespace
+
+const char* text_of(Chain chain) { return chain == Chain::kOurs ? "ours" : "paper"; }
+
+double drawn_loss(std::uint64_t seed) {
+  Random random{seed};
+  return random.between(kLossLeast, kLossMost);
+}
+
+double base_speed_mph() {
+  static const double kBase_mph = [] {
+    const plant::Params plant = cold_car(0.5 * (kLossLeast + kLossMost));
+    const double grip = plant::thermal_grip(plant.thermal, kSpinTyre_c);
+    return kRound_mph * std::floor(to_mph(speed_of(plant, "lvms", grip)) / kRound_mph);
+  }();
+  return kBase_mph;
+}
+
+SpinRun run_spin(std::uint64_t seed, Chain chain) {
+  Drive drive{seed, chain};
+  bench::LockstepOptions options;
+  options.step = [&](const pipeline::Setup& setup, pipeline::Car& car, const pipeline::Inputs& in) {
+    return drive.step(setup, car, in);
+  };
+  options.watch = [&](const pipeline::Outputs&, const bench::Rig& rig, Instant now) {
+    drive.watch(rig, now);
+  };
+  options.over = [&](const bench::RunView&) { return drive.over(); };
+  CHECK(bench::run_lockstep(scenario_of(seed), setup_of(chain), options));
+  return drive.run();
+}
+
+std::vector<SpinRun> run_spins(std::size_t seeds, unsigned workers) {
+  std::vector<SpinRun> runs(seeds * kChains.size());
+  static_cast<void>(base_speed_mph());  // reads the files once
+  sweep::in_parallel(runs.size(), workers, [&](std::size_t i) {
+    runs[i] = run_spin(1 + i / kChains.size(), kChains[i % kChains.size()]);
+  });
+  return runs;
+}
+
+SpinCount count_of(const std::vector<SpinRun>& runs, Chain chain) {
+  SpinCount out;
+  for (const SpinRun& run : runs) {
+    if (run.chain != chain) continue;
+    out.runs += 1, out.raised += run.raised, out.spun += run.spun, out.left += run.left;
+    out.lost += run.lost() && run.raised;
+  }
+  return out;
+}
+
+std::string fault_of(const std::vector<SpinRun>& runs) {
+  const SpinCount ours = count_of(runs, Chain::kOurs), paper = count_of(runs, Chain::kPaper);
+  std::string why;
+  const auto add = [&](bool holds, const std::string& what) {
+    if (holds) why += (why.empty() ? "" : "; ") + what;
+  };
+  add(ours.runs == 0 || paper.runs == 0, "a chain did not run");
+  add(ours.raised < ours.runs || paper.raised < paper.runs, "a car did not come to the turn");
+  add(ours.spun + ours.left > 0, "our chain spins or leaves the track");
+  add(10 * paper.lost < 9 * paper.runs, "the published chain survives more than one run in ten");
+  return why;
+}
+
+std::string row_of(const SpinRun& r) {
+  return formatted(
+      "seed %3llu loss %.3f %-5s %s from %4.1f m/s, to %4.1f m/s, slip %5.1f deg, wall %5.2f m, "
+      "%5.1f s after at station %4.0f m",
+      static_cast<unsigned long long>(r.seed), r.loss, text_of(r.chain),
+      !r.raised ? (r.lost() ? "LOST BEFORE" : "NOT RAISED ")
+      : r.spun  ? "SPINS      "
+      : r.left  ? "AT THE WALL"
+                : "laps       ",
+      r.from_mps, r.fastest_mps, r.slip_deg, r.wall_gap_m, r.after_s, r.station_m);
+}
+
+std::string to_json(const std::vector<SpinRun>& runs) {
+  const auto number = [](double value) {
+    return std::isfinite(value) ? formatted("%.4g", value) : std::string{"null"};
+  };
+  const auto yes = [](bool value) { return value ? "true" : "false"; };
+  std::string text = formatted("{\"simulated\": true, \"base_mph\": %.0f, \"raise_mph\": %.0f, ",
+                               base_speed_mph(), kSpinRaise_mph);
+  for (const Chain chain : kChains) {
+    const SpinCount c = count_of(runs, chain);
+    text += formatted("\"%s\": {\"runs\": %zu, \"raised\": %zu, \"spun\": %zu, \"left\": %zu}, ",
+                      text_of(chain), c.runs, c.raised, c.spun, c.left);
+  }
+  text += "\"fault\": \"" + fault_of(runs) + "\", \"each\": [";
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    const SpinRun& r = runs[i];
+    text += (i == 0 ? "\n" : ",\n") +
+            formatted("{\"seed\": %llu, \"chain\": \"%s\", \"loss\": %s, \"raised\": %s, ",
+                      static_cast<unsigned long long>(r.seed), text_of(r.chain),
+                      number(r.loss).c_str(), yes(r.raised)) +
+            formatted("\"spun\": %s, \"left\": %s, \"from_mps\": %s, \"fastest_mps\": %s, ",
+                      yes(r.spun), yes(r.left), number(r.from_mps).c_str(),
+                      number(r.fastest_mps).c_str()) +
+            formatted("\"slip_deg\": %s, \"wall_gap_m\": %s, \"after_s\": %s, \"station_m\": %s}",
+                      number(r.slip_deg).c_str(), number(r.wall_gap_m).c_str(),
+                      number(r.after_s).c_str(), number(r.station_m).c_str());
+  }
+  return text + "\n]}\n";
+}
+
+}  // namespace pitwall::testing
