@@ -55,12 +55,4 @@ void read_stop_plan(yaml::StrictMap map, planning::Params& p) {
   p.emergency_grip_share = map.number("emergency_grip_share", p.stop_grip_share, 0.95);
 }
 
-control::LateralLaw read_law(yaml::StrictMap& map, const char* key) {
-  const std::string name = map.text(key);
-  if (name == "paper_lqr") return control::LateralLaw::kPaperLqr;
-  if (name != "feed_forward")
-    map.fail(key, "\"" + name + "\" is not one of: paper_lqr, feed_forward");
-  return control::LateralLaw::kFeedForward;
-}
-
 }  // namespace pitwall::parameters

@@ -3,7 +3,6 @@
 
 #include <array>
 #include <cstdio>
-#include <utility>
 #include <vector>
 
 #include "hil/bench/loading.hpp"
@@ -20,8 +19,7 @@ namespace {
 using control_bench::ControlRow;
 using control_bench::World;
 
-constexpr std::array kLaws{std::pair{control::LateralLaw::kPaperLqr, control_bench::kPaper},
-                           std::pair{control::LateralLaw::kFeedForward, control_bench::kOurs}};
+constexpr std::array kLaws{control_bench::kPaper, control_bench::kOurs};
 constexpr unsigned kWorkers = 2;
 
 struct Job {
@@ -30,13 +28,12 @@ struct Job {
   std::string world, law;
 };
 
-Result<Job, Problem> job_of(const bench::Loaded& on, const World& world,
-                            const std::pair<control::LateralLaw, const char*>& law) {
+Result<Job, Problem> job_of(const bench::Loaded& on, const World& world, const char* law) {
   Job job{.plan = control_bench::plan_of(on.scenario, on.setup.track.length_m()),
           .setup = on.setup,
           .world = world.name,
-          .law = law.second};
-  job.setup.params.control.drive_law = law.first;
+          .law = law};
+  job.setup.params.control.controller = control::controller_named(law);
   job.plan.scenario.perturb = world.perturb;
   if (world.plant_file.empty()) return job;
   const auto text = transport::read_file(world.plant_file);
@@ -55,7 +52,7 @@ Result<std::vector<Job>, Problem> jobs_of(const std::string& only) {
     if (!on) return Unexpected{on.error()};
     for (const World& world : control_bench::worlds()) {
       if (world.name != laps::kNominal && world.name.find(only) == std::string::npos) continue;
-      for (const auto& law : kLaws) {
+      for (const char* law : kLaws) {
         auto job = job_of(*on, world, law);
         if (!job) return Unexpected{job.error()};
         jobs.push_back(*std::move(job));

@@ -271,5 +271,14 @@ TEST(AutonomySection, EveryUnitAndEveryBracketIsNeededOnce) {
   EXPECT_EQ(rows, 2 + static_cast<int>(control::kSpeedBrackets));
 }
 
+TEST(AutonomySection, AControllerThatIsNoneAndTheOldKeyAreRefusedWithTheNamesOfNow) {
+  EXPECT_EQ(read_car(av21(), "car.yaml")->params.control.controller.name, "feed_forward");
+  const std::string none = refusal(with(av21(), "controller: feed_forward", "controller: pid"));
+  EXPECT_NE(none.find("paper_lqr, feed_forward"), std::string::npos) << none;
+  const std::string old =
+      refusal(with(av21(), "    brackets:", "    drive_law: feed_forward\n    brackets:"));
+  EXPECT_NE(old.find("control.controller"), std::string::npos) << old;
+}
+
 }  // namespace
 }  // namespace pitwall::parameters
