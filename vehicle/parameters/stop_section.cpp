@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <string>
+#include <vector>
 
 #include "vehicle/parameters/range_reader.hpp"
 
@@ -32,9 +33,19 @@ envelope::Engine read_engine(yaml::StrictMap map) {
   envelope::Engine engine;
   read_row(map, "rpm", envelope::kEngineSpeed_rpm, engine.rpm);
   read_row(map, "torque_nm", envelope::kEngineTorque_nm, engine.torque_nm);
+  std::vector<yaml::StrictMap> part = map.maps("part_throttle");
+  if (part.size() != envelope::kPartThrottles)
+    map.fail("part_throttle",
+             "expected one row per throttle: " + std::to_string(envelope::kPartThrottles));
+  for (std::size_t i = 0; i < part.size(); ++i) {
+    const auto [least, most] = envelope::kThrottle;
+    engine.part_throttle[i].throttle = part[i].number("throttle", least, most);
+    read_row(part[i], "share", envelope::kTorqueShare, engine.part_throttle[i].share);
+  }
   read_row(map, "ratio", envelope::kGearRatio, engine.ratio);
   read_ranges(map, envelope::kEngineRanges, engine);
-  if (!envelope::is_legal(engine)) map.fail("rpm", "engine speeds must rise and ratios fall");
+  if (!envelope::is_legal(engine))
+    map.fail("rpm", "engine speeds, throttles and their shares must rise and ratios fall");
   return engine;
 }
 

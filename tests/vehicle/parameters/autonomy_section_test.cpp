@@ -72,6 +72,12 @@ Reported engine(const envelope::Engine& e) {
     reported[section + "rpm[" + std::to_string(i) + "]"] = e.rpm[i];
     reported[section + "torque_nm[" + std::to_string(i) + "]"] = e.torque_nm[i];
   }
+  for (std::size_t i = 0; i < e.part_throttle.size(); ++i) {
+    const std::string row = section + "part_throttle[" + std::to_string(i) + "].";
+    reported[row + "throttle"] = e.part_throttle[i].throttle;
+    for (std::size_t k = 0; k < e.rpm.size(); ++k)
+      reported[row + "share[" + std::to_string(k) + "]"] = e.part_throttle[i].share[k];
+  }
   for (std::size_t i = 0; i < e.ratio.size(); ++i)
     reported[section + "ratio[" + std::to_string(i) + "]"] = e.ratio[i];
   return reported;
