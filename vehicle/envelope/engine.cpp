@@ -6,23 +6,23 @@
 namespace pitwall::envelope {
 namespace {
 
-double torque_nm(const Engine& engine, double rpm) {
-  if (rpm <= engine.rpm[0]) return engine.torque_nm[0];
-  for (std::size_t i = 1; i < kTorqueRows; ++i) {
-    if (rpm > engine.rpm[i]) continue;
-    const double t = (rpm - engine.rpm[i - 1]) / (engine.rpm[i] - engine.rpm[i - 1]);
-    return engine.torque_nm[i - 1] + t * (engine.torque_nm[i] - engine.torque_nm[i - 1]);
-  }
-  return 0.0;
-}
-
 double ratio_of(const Engine& engine, std::size_t gear) {
   return engine.ratio[gear - 1] * engine.final_drive;
+}
+
+bool rises(const std::array<PartThrottle, kPartThrottles>& part) {
+  for (std::size_t i = 1; i < kPartThrottles; ++i) {
+    if (!(part[i].throttle > part[i - 1].throttle)) return false;
+    for (std::size_t k = 0; k < kTorqueRows; ++k)
+      if (!(part[i].share[k] > part[i - 1].share[k])) return false;
+  }
+  return true;
 }
 
 }  // namespace
 
 bool is_legal(const Engine& engine) {
+  if (!rises(engine.part_throttle)) return false;
   for (std::size_t i = 1; i < kTorqueRows; ++i)
     if (!(engine.rpm[i] > engine.rpm[i - 1])) return false;
   for (std::size_t i = 1; i < kGears; ++i)
@@ -40,11 +40,23 @@ double engine_rpm(const Engine& engine, std::size_t gear, double speed_mps) {
   return to_rpm(speed_mps / engine.wheel_radius_m * ratio_of(engine, gear));
 }
 
+double full_torque_nm(const Engine& engine, double rpm) {
+  if (rpm <= engine.rpm[0]) return engine.torque_nm[0];
+  for (std::size_t i = 1; i < kTorqueRows; ++i) {
+    if (rpm > engine.rpm[i]) continue;
+    const double t = (rpm - engine.rpm[i - 1]) / (engine.rpm[i] - engine.rpm[i - 1]);
+    return engine.torque_nm[i - 1] + t * (engine.torque_nm[i] - engine.torque_nm[i - 1]);
+  }
+  return 0.0;
+}
+
+double mps2_per_nm(const Engine& engine, std::size_t gear) {
+  return ratio_of(engine, gear) * engine.efficiency / (engine.wheel_radius_m * engine.mass_kg);
+}
+
 double drive_mps2(const Engine& engine, double speed_mps) {
   const std::size_t gear = gear_at(engine, speed_mps);
-  const double torque = torque_nm(engine, engine_rpm(engine, gear, speed_mps));
-  return torque * ratio_of(engine, gear) * engine.efficiency /
-         (engine.wheel_radius_m * engine.mass_kg);
+  return full_torque_nm(engine, engine_rpm(engine, gear, speed_mps)) * mps2_per_nm(engine, gear);
 }
 
 }  // namespace pitwall::envelope

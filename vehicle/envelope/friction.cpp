@@ -52,14 +52,18 @@ double brake_available_mps2(const FrictionParams& car, const RoadLoad& at, doubl
   return std::min({rest, braked_axles_mps2(car, load, rest / load), car.brake_max_mps2});
 }
 
-double drive_available_mps2(const FrictionParams& car, const RoadLoad& at, double share) {
+double traction_mps2(const FrictionParams& car, const RoadLoad& at, double share) {
   const double grip = grip_mps2(car, at);
   const double rest = left_over(share * grip, lateral_demand_mps2(at));
+  if (!has_gears(car.engine) || !(rest > 0.0)) return rest;
+  const double load = grip / car.friction;
+  return std::min(rest, driven_axle_mps2(car, load, rest / load));
+}
+
+double drive_available_mps2(const FrictionParams& car, const RoadLoad& at, double share) {
   const double power = car.power_w_per_kg / std::max(at.speed_mps, kSpeedFloor_mps);
-  double drive = std::min({rest, power, car.accel_max_mps2});
-  if (has_gears(car.engine) && rest > 0.0)
-    drive = std::min({drive, drive_mps2(car.engine, at.speed_mps),
-                      driven_axle_mps2(car, grip / car.friction, rest / (grip / car.friction))});
+  double drive = std::min({traction_mps2(car, at, share), power, car.accel_max_mps2});
+  if (has_gears(car.engine)) drive = std::min(drive, drive_mps2(car.engine, at.speed_mps));
   return drive - car.drag_per_m * at.speed_mps * at.speed_mps;
 }
 

@@ -49,6 +49,16 @@ planning::LineParams read_line(yaml::StrictMap map) {
   return line;
 }
 
+control::Controller read_controller(yaml::StrictMap& map, const char* key) {
+  const std::string name = map.text(key);
+  const control::Controller controller = control::controller_named(name);
+  if (controller.step != nullptr) return controller;
+  std::string names;
+  for (const control::Controller& c : control::kControllers)
+    names += (names.empty() ? "" : ", ") + std::string(c.name);
+  map.fail(key, "\"" + name + "\" is not one of: " + names);
+}
+
 control::LateralParams read_lateral(yaml::StrictMap map) {
   control::LateralParams lateral;
   std::vector<yaml::StrictMap> brackets = map.maps("brackets");
@@ -121,7 +131,10 @@ planning::Params read_planning(yaml::StrictMap map) {
 control::Params read_control(yaml::StrictMap map) {
   control::Params p;
   yaml::StrictMap lateral = map.map("lateral");
-  p.drive_law = read_law(lateral, "drive_law");
+  if (lateral.has("drive_law"))
+    lateral.fail("drive_law", "is control.controller now, for steering and speed together");
+  p.controller = read_controller(map, "controller");
+  p.bicycle = read_bicycle(map.map("bicycle"));
   p.lateral = read_lateral(lateral);
   p.longitudinal = read_longitudinal(map.map("longitudinal"));
   p.gear = read_gear(map.map("gear"));

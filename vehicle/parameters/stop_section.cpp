@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <string>
+#include <vector>
 
 #include "vehicle/parameters/range_reader.hpp"
 
@@ -32,9 +33,19 @@ envelope::Engine read_engine(yaml::StrictMap map) {
   envelope::Engine engine;
   read_row(map, "rpm", envelope::kEngineSpeed_rpm, engine.rpm);
   read_row(map, "torque_nm", envelope::kEngineTorque_nm, engine.torque_nm);
+  std::vector<yaml::StrictMap> part = map.maps("part_throttle");
+  if (part.size() != envelope::kPartThrottles)
+    map.fail("part_throttle",
+             "expected one row per throttle: " + std::to_string(envelope::kPartThrottles));
+  for (std::size_t i = 0; i < part.size(); ++i) {
+    const auto [least, most] = envelope::kThrottle;
+    engine.part_throttle[i].throttle = part[i].number("throttle", least, most);
+    read_row(part[i], "share", envelope::kTorqueShare, engine.part_throttle[i].share);
+  }
   read_row(map, "ratio", envelope::kGearRatio, engine.ratio);
   read_ranges(map, envelope::kEngineRanges, engine);
-  if (!envelope::is_legal(engine)) map.fail("rpm", "engine speeds must rise and ratios fall");
+  if (!envelope::is_legal(engine))
+    map.fail("rpm", "engine speeds, throttles and their shares must rise and ratios fall");
   return engine;
 }
 
@@ -53,14 +64,6 @@ void read_stop_plan(yaml::StrictMap map, planning::Params& p) {
   p.emergency_decel_max_mps2 = map.number("emergency_decel_max_mps2", p.stop_decel_max_mps2, 15.0);
   p.emergency_jerk_max_mps3 = map.number("emergency_jerk_max_mps3", p.stop_jerk_max_mps3, 30.0);
   p.emergency_grip_share = map.number("emergency_grip_share", p.stop_grip_share, 0.95);
-}
-
-control::LateralLaw read_law(yaml::StrictMap& map, const char* key) {
-  const std::string name = map.text(key);
-  if (name == "paper_lqr") return control::LateralLaw::kPaperLqr;
-  if (name != "feed_forward")
-    map.fail(key, "\"" + name + "\" is not one of: paper_lqr, feed_forward");
-  return control::LateralLaw::kFeedForward;
 }
 
 }  // namespace pitwall::parameters

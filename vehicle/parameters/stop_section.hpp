@@ -1,5 +1,5 @@
 // Readers of the car-file sections about a stop and what it depends on: tyres, brakes and engine,
-// the stop path, the lateral control law for driving.
+// the stop path.
 //   in     the mapping of the section
 //   out    parameters, each within its legal range
 //   errors as in every section: thrown, with place and reason
@@ -13,6 +13,5 @@ namespace pitwall::parameters {
 
 envelope::FrictionParams read_friction(yaml::StrictMap map);
 void read_stop_plan(yaml::StrictMap map, planning::Params& planning);
-control::LateralLaw read_law(yaml::StrictMap& map, const char* key);
 
 }  // namespace pitwall::parameters

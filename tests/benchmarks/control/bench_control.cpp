@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tests/benchmarks/control/bench_control.hpp"
 
+#include <array>
 #include <cstdio>
 #include <vector>
 
@@ -22,11 +23,9 @@ using control_bench::ControlCost;
 using control_bench::ControlRow;
 using control_bench::Gate;
 using control_bench::LaneChangeRow;
-using control_bench::NamedLaw;
 using control_bench::World;
 
-const std::vector<NamedLaw> kLaws{{control::LateralLaw::kPaperLqr, control_bench::kPaper},
-                                  {control::LateralLaw::kFeedForward, control_bench::kOurs}};
+constexpr std::array kLaws{control_bench::kPaper, control_bench::kOurs};
 constexpr unsigned kWorkers = 2;
 
 struct Job {
@@ -36,7 +35,7 @@ struct Job {
   World world;
 };
 
-Result<Job, Problem> job_of(const bench::Loaded& on, const World& world, const NamedLaw& law) {
+Result<Job, Problem> job_of(const bench::Loaded& on, const World& world, const char* law) {
   scenario::Scenario scenario = on.scenario;
   scenario.perturb = world.perturb;
   if (world.plant) scenario.plant = *world.plant;
@@ -51,9 +50,9 @@ Result<Job, Problem> job_of(const bench::Loaded& on, const World& world, const N
   Job job{.plan = control_bench::plan_of(scenario, on.setup.track.length_m()),
           .lane_changes = control_bench::lane_change_plan(scenario),
           .setup = on.setup,
-          .law = law.name,
+          .law = law,
           .world = world};
-  job.setup.params.control.drive_law = law.law;
+  job.setup.params.control.controller = control::controller_named(law);
   return job;
 }
 
@@ -73,7 +72,7 @@ Result<std::vector<Job>, Problem> jobs_of(const std::vector<World>& worlds) {
     const auto on = bench::load(file, "");
     if (!on) return Unexpected{on.error()};
     for (const World& world : worlds) {
-      for (const NamedLaw& law : kLaws) {
+      for (const char* law : kLaws) {
         auto job = job_of(*on, world, law);
         if (!job) return Unexpected{job.error()};
         jobs.push_back(*std::move(job));
@@ -117,7 +116,7 @@ std::vector<Job> changing_lanes(std::vector<Job> jobs) {
 Result<ControlCost, Problem> cost_of_laws() {
   const auto on = bench::load(laps::kScenarios.front(), "");
   if (!on) return Unexpected{on.error()};
-  return control_bench::measure_cost(*on, kLaws);
+  return control_bench::measure_cost(*on, {kLaws.begin(), kLaws.end()});
 }
 
 }  // namespace

@@ -115,15 +115,15 @@ void measure_profile(const pipeline::Setup& setup, cost::ReferenceCost& referenc
 }  // namespace
 
 Result<ControlCost, Problem> measure_cost(const bench::Loaded& loaded,
-                                          const std::vector<NamedLaw>& laws) {
+                                          const std::vector<std::string>& laws) {
   const auto drive = driven(loaded);
   if (!drive) return Unexpected{drive.error()};
   ControlCost out{.laws = {}, .ticks = drive->ticks.size()};
   cost::ReferenceCost reference;
-  for (const NamedLaw& law : laws) {
+  for (const std::string& law : laws) {
     control::Params params = loaded.setup.params.control;
-    params.drive_law = law.law;
-    LawCost cost{.law = law.name, .tick_p99_us = HUGE_VAL, .prepare_us = HUGE_VAL};
+    params.controller = control::controller_named(law);
+    LawCost cost{.law = law, .tick_p99_us = HUGE_VAL, .prepare_us = HUGE_VAL};
     for (int block = 0; block < kCostBlocks; ++block) {
       auto gains = control::prepare(params);
       if (!gains) return Unexpected{gains.error()};

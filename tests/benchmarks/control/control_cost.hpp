@@ -33,13 +33,8 @@ struct ControlCost {
   double unit_us = 0.0;  // of a reference unit between the blocks
 };
 
-struct NamedLaw {
-  control::LateralLaw law;
-  const char* name;
-};
-
 Result<ControlCost, Problem> measure_cost(const bench::Loaded& loaded,
-                                          const std::vector<NamedLaw>& laws);
+                                          const std::vector<std::string>& laws);
 
 // At most 20 us for a tick, 1 ms for the Riccati equations, 2 ms for a lap's profile, each on the
 // reference machine; no allocation.

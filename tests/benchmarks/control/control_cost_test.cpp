@@ -8,8 +8,7 @@
 namespace pitwall::control_bench {
 namespace {
 
-const std::vector<NamedLaw> kBoth{{control::LateralLaw::kPaperLqr, "paper_lqr"},
-                                  {control::LateralLaw::kFeedForward, "feed_forward"}};
+const std::vector<std::string> kBoth{"paper_lqr", "feed_forward"};
 
 Result<bench::Loaded, Problem> seconds_of_a_lap() {
   auto loaded = bench::load(laps::kScenarios.front(), "");

@@ -33,8 +33,8 @@ const pipeline::Setup& setup_of(const std::string& track) {
   if (found == made.end()) {
     pipeline::Setup s = flying_lap(track).setup;
     s.params.planning.line.speed_max_mps = kFastest_mps;
-    // The law that every car of the family can be driven by.
-    s.params.control.drive_law = control::LateralLaw::kFeedForward;
+    // The one that every car of the family can be driven by.
+    s.params.control.controller = control::controller_named("feed_forward");
     auto line = planning::prepare(s.params.planning, s.track);
     CHECK(line);
     s.line = *std::move(line);

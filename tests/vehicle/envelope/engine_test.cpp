@@ -51,6 +51,12 @@ TEST(Engine, TablesRiseAndFall) {
   wrong = kEngine;
   wrong.ratio[2] = wrong.ratio[1];
   EXPECT_FALSE(is_legal(wrong));
+  wrong = kEngine;
+  wrong.part_throttle[3].throttle = wrong.part_throttle[2].throttle;
+  EXPECT_FALSE(is_legal(wrong));
+  wrong = kEngine;
+  wrong.part_throttle[3].share[7] = wrong.part_throttle[2].share[7];
+  EXPECT_FALSE(is_legal(wrong));
 }
 
 }  // namespace

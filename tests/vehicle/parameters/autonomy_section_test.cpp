@@ -72,6 +72,12 @@ Reported engine(const envelope::Engine& e) {
     reported[section + "rpm[" + std::to_string(i) + "]"] = e.rpm[i];
     reported[section + "torque_nm[" + std::to_string(i) + "]"] = e.torque_nm[i];
   }
+  for (std::size_t i = 0; i < e.part_throttle.size(); ++i) {
+    const std::string row = section + "part_throttle[" + std::to_string(i) + "].";
+    reported[row + "throttle"] = e.part_throttle[i].throttle;
+    for (std::size_t k = 0; k < e.rpm.size(); ++k)
+      reported[row + "share[" + std::to_string(k) + "]"] = e.part_throttle[i].share[k];
+  }
   for (std::size_t i = 0; i < e.ratio.size(); ++i)
     reported[section + "ratio[" + std::to_string(i) + "]"] = e.ratio[i];
   return reported;
@@ -284,6 +290,15 @@ TEST(AutonomySection, EveryUnitAndEveryBracketIsNeededOnce) {
     ++rows;
   }
   EXPECT_EQ(rows, 2 + static_cast<int>(control::kSpeedBrackets));
+}
+
+TEST(AutonomySection, AControllerThatIsNoneAndTheOldKeyAreRefusedWithTheNamesOfNow) {
+  EXPECT_EQ(read_car(av21(), "car.yaml")->params.control.controller.name, "feed_forward");
+  const std::string none = refusal(with(av21(), "controller: feed_forward", "controller: pid"));
+  EXPECT_NE(none.find("paper_lqr, feed_forward"), std::string::npos) << none;
+  const std::string old =
+      refusal(with(av21(), "    brackets:", "    drive_law: feed_forward\n    brackets:"));
+  EXPECT_NE(old.find("control.controller"), std::string::npos) << old;
 }
 
 }  // namespace

@@ -17,7 +17,6 @@ TEST(StopSection, TyresOfTheFileReachPlanningAndTheStopOfLastResort) {
   ASSERT_TRUE(car) << to_string(car.error());
   const pipeline::CarParams& p = car->params;
   EXPECT_EQ(p.supervisor.safe_stop.tyres.share, p.planning.line.friction.tyres.share);
-  EXPECT_EQ(p.control.drive_law, control::LateralLaw::kFeedForward);
 }
 
 TEST(StopSection, PlanningAndTheStopReckonWithTheSameFriction) {
@@ -31,8 +30,6 @@ TEST(StopSection, PlanningAndTheStopReckonWithTheSameFriction) {
 TEST(StopSection, ATableThatFallsAndALawThatIsNoneAreRefusedByName) {
   const std::string falls = refusal(with(av21(), "share: [0.60, 0.74", "share: [0.80, 0.74"));
   EXPECT_NE(falls.find("share"), std::string::npos) << falls;
-  const std::string law = refusal(with(av21(), "drive_law: feed_forward", "drive_law: pid"));
-  EXPECT_NE(law.find("paper_lqr"), std::string::npos) << law;
   const std::string speed = refusal(with(av21(), "speed_law: limited", "speed_law: fast"));
   EXPECT_NE(speed.find("limited"), std::string::npos) << speed;
 }

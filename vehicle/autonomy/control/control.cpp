@@ -1,11 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "vehicle/autonomy/control/control.hpp"
 
-#include <array>
-#include <cmath>
+#include <string>
 
-#include "vehicle/autonomy/control/feed_forward.hpp"
-#include "vehicle/autonomy/control/preview.hpp"
 #include "vehicle/world/legal_range.hpp"
 
 namespace pitwall::control {
@@ -27,6 +24,7 @@ std::optional<Problem> illegal_gear(const GearParams& p) {
 
 std::optional<Problem> illegal(const Params& p) {
   using world::first_illegal;
+  if (p.controller.step == nullptr) return Problem{"controller", "is none of kControllers"};
   if (auto problem = first_illegal(kBicycleRanges, p.bicycle, "bicycle.")) return problem;
   if (auto problem = first_illegal(kLateralRanges, p.lateral, "lateral.")) return problem;
   if (auto problem = first_illegal(kLongitudinalRanges, p.longitudinal, "longitudinal."))
@@ -41,29 +39,6 @@ std::optional<Problem> illegal(const Params& p) {
   return illegal_gear(p.gear);
 }
 
-double target_speed(const LongitudinalParams& p, const world::EgoState& ego,
-                    const world::Trajectory& trajectory) {
-  const auto here = project(trajectory, ego.x_m, ego.y_m);
-  if (!here) return kUnset;
-  return at(trajectory, *here + std::max(ego.vx_mps, 0.0) * p.speed_preview_s).speed_mps;
-}
-
-LateralDiagnostics steer(const Params& p, const LateralGains& gains, const Inputs& in,
-                         double last_angle_rad, steering::State& steering, Duration dt) {
-  const Angles angles{last_angle_rad, in.angle_max_rad};
-  if (p.drive_law == LateralLaw::kFeedForward)
-    return steer_forward(p.steering, p.lateral, in.learned, steering, angles, in.ego, in.trajectory,
-                         dt);
-  steering.begun = false;
-  return steer(p.lateral, gains, angles, in.ego, in.trajectory);
-}
-
-LongitudinalOutput drive(const Params& p, const State& state, const Inputs& in, bool following,
-                         Duration dt) {
-  const double target = following ? target_speed(p.longitudinal, in.ego, in.trajectory) : kUnset;
-  return step(p.longitudinal, state.longitudinal, target, in.ego.vx_mps, dt);
-}
-
 }  // namespace
 
 Result<LateralGains, Problem> prepare(const Params& params) {
@@ -74,14 +49,12 @@ Result<LateralGains, Problem> prepare(const Params& params) {
 Output step(const Params& params, const LateralGains& gains, const State& state, const Inputs& in,
             Instant now, Duration dt) {
   Output out;
-  out.next.steering = state.steering;
-  out.lateral = steer(params, gains, in, state.road_wheel_rad, out.next.steering, dt);
-  const bool following = out.lateral.verdict == LateralVerdict::kGood ||
-                         out.lateral.verdict == LateralVerdict::kTooFar;
-  const LongitudinalOutput longitudinal = drive(params, state, in, following, dt);
-  out.target_speed_mps = longitudinal.target_speed_mps;
-  out.next.road_wheel_rad = out.lateral.angle_rad;
-  out.next.longitudinal = longitudinal.next;
+  out.next = state;
+  const Action action = params.controller.step(params, gains, out.next, in, dt);
+  out.lateral = action.lateral;
+  out.target_speed_mps = action.longitudinal.target_speed_mps;
+  out.next.road_wheel_rad = action.lateral.angle_rad;
+  out.next.longitudinal = action.longitudinal.next;
   out.next.gear = step(params.gear, state.gear, in.ego.vx_mps, now);
   out.command = {.at = now,
                  .road_wheel_rad = out.next.road_wheel_rad,

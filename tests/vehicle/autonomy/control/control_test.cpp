@@ -17,8 +17,6 @@ using testing::Lap;
 using testing::oval;
 using testing::recommended;
 
-constexpr std::array kLaws{LateralLaw::kPaperLqr, LateralLaw::kFeedForward};
-
 LateralGains gains_of(const Params& p) {
   const auto gains = prepare(p);
   EXPECT_TRUE(gains) << to_string(gains.error());
@@ -100,8 +98,8 @@ TEST(Control, CommandIsFiniteWhateverTheEgo) {
                                 &ego.vx_mps, &ego.vy_mps, &ego.yaw_rate_rad_per_s};
       *fields[field] = bad;
       const world::Trajectory t = path.window(0.0, 20.0);
-      for (const LateralLaw law : kLaws) {
-        p.drive_law = law;
+      for (const Controller& controller : kControllers) {
+        p.controller = controller;
         const Output out =
             step(p, gains, {}, {.ego = ego, .trajectory = t}, Instant{}, milliseconds(10));
         EXPECT_LE(std::abs(out.command.road_wheel_rad), p.lateral.angle_max_rad);
@@ -124,8 +122,8 @@ TEST(Control, TakesNothingFromTheHeap) {
   car.vx_mps = 30.0;
   const world::EgoState ego = car.ego(Instant{});
   EXPECT_EQ(pitwall::testing::allocations_of([&] {
-              for (const LateralLaw law : kLaws) {
-                p.drive_law = law;
+              for (const Controller& controller : kControllers) {
+                p.controller = controller;
                 (void)step(p, gains, {}, {.ego = ego, .trajectory = t}, Instant{},
                            milliseconds(10));
               }
@@ -141,6 +139,7 @@ TEST(Control, PrepareNamesTheIllegalParameter) {
     return gains ? std::string("legal") : gains.error().place;
   };
   EXPECT_EQ(place([](Params&) {}), "legal");
+  EXPECT_EQ(place([](Params& p) { p.controller = controller_named("pid"); }), "controller");
   EXPECT_EQ(place([](Params& p) { p.bicycle.mass_kg = kUnset; }), "bicycle.mass_kg");
   EXPECT_EQ(place([](Params& p) { p.lateral.angle_max_rad = 1.0; }), "lateral.angle_max_rad");
   EXPECT_EQ(place([](Params& p) { p.longitudinal.kp_per_mps = -1.0; }), "longitudinal.kp_per_mps");

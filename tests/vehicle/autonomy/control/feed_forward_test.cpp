@@ -25,7 +25,7 @@ TEST(FeedForward, StaysOnItsPathInTheBankWhereTheRegulatorStandsBeside) {
     Params p = recommended();
     const LateralGains gains = prepare(p).value();
     const Lap published = drive(p, gains, oval(), car, 60.0, 90.0, kFirstLap_s);
-    p.drive_law = LateralLaw::kFeedForward;
+    p.controller = controller_named("feed_forward");
     const Lap ours = drive(p, gains, oval(), car, 60.0, 90.0, kFirstLap_s);
     EXPECT_FALSE(ours.lost);
     EXPECT_LT(ours.cross_track_max_m, 0.4) << stiffness;

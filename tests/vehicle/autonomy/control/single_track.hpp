@@ -202,6 +202,7 @@ inline Lap drive(const Params& params, const LateralGains& gains, const Path& pa
 // Recommended parameters of the AV-21.
 inline Params recommended() {
   Params p;
+  p.controller = controller_named("paper_lqr");
   p.bicycle = {.mass_kg = 790.0,
                .yaw_inertia_kg_m2 = 1000.0,
                .cg_to_front_m = 1.724,

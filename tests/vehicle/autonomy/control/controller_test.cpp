@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "vehicle/autonomy/control/controller.hpp"
+
+#include <gtest/gtest.h>
+
+#include <set>
+#include <string>
+#include <type_traits>
+
+#include "tests/vehicle/autonomy/control/single_track.hpp"
+#include "vehicle/autonomy/control/control.hpp"
+
+namespace pitwall::control {
+namespace {
+
+using testing::oval;
+using testing::recommended;
+
+static_assert(std::is_trivially_copyable_v<State>);
+
+struct Scene {
+  world::Trajectory trajectory = oval().window(700.0, 40.0);
+  world::EgoState ego;
+
+  Scene() {
+    testing::Car car;
+    car.vx_mps = 38.0;
+    car.x_m = trajectory.points[4].x_m, car.y_m = trajectory.points[4].y_m + 0.4;
+    car.yaw_rad = trajectory.points[4].yaw_rad;
+    ego = car.ego(Instant{});
+  }
+};
+
+TEST(Controller, EachHasItsNameAndALawForBoth) {
+  std::set<std::string_view> names;
+  for (const Controller& c : kControllers) {
+    EXPECT_TRUE(names.insert(c.name).second) << c.name;
+    EXPECT_EQ(controller_named(c.name).step, c.step);
+    Params p = recommended();
+    p.controller = c;
+    const LateralGains gains = prepare(p).value();
+    const Scene scene;
+    State state;
+    Action action;
+    for (int i = 0; i < 20; ++i) {  // the first angle of some is the last one
+      action = c.step(p, gains, state, {.ego = scene.ego, .trajectory = scene.trajectory},
+                      milliseconds(10));
+      state.road_wheel_rad = action.lateral.angle_rad;
+    }
+    EXPECT_EQ(action.lateral.verdict, LateralVerdict::kGood) << c.name;
+    EXPECT_NE(action.lateral.angle_rad, 0.0) << c.name;
+    EXPECT_NEAR(action.longitudinal.target_speed_mps, 40.0, 1e-9) << c.name;
+    EXPECT_GT(action.longitudinal.next.throttle_fraction, 0.0) << c.name;
+  }
+  EXPECT_EQ(controller_named("pid").step, nullptr);
+}
+
+TEST(Controller, ThePapersIsItsTwoLawsAndNothingElse) {
+  const Params p = recommended();
+  const LateralGains gains = prepare(p).value();
+  const Scene scene;
+  State state{.road_wheel_rad = 0.01, .longitudinal = {0.3, 0.0}, .gear = {}, .steering = {}};
+  const LateralDiagnostics lateral =
+      steer(p.lateral, gains, {state.road_wheel_rad}, scene.ego, scene.trajectory);
+  const LongitudinalOutput longitudinal =
+      step(p.longitudinal, state.longitudinal, 40.0, scene.ego.vx_mps, milliseconds(10));
+  const Action action = paper_lqr(
+      p, gains, state, {.ego = scene.ego, .trajectory = scene.trajectory}, milliseconds(10));
+  EXPECT_EQ(action.lateral.angle_rad, lateral.angle_rad);
+  EXPECT_NEAR(action.longitudinal.raw_command, longitudinal.raw_command, 1e-12);
+  EXPECT_EQ(action.longitudinal.next.throttle_fraction, longitudinal.next.throttle_fraction);
+}
+
+// A controller that can fail: without a yaw rate it hands over to the paper's.
+Action failing(const Params& p, const LateralGains& gains, State& state, const Inputs& in,
+               Duration dt) {
+  if (std::abs(in.ego.yaw_rate_rad_per_s) < 1.0) return paper_lqr(p, gains, state, in, dt);
+  return {};
+}
+
+TEST(Controller, AnotherOneIsItsFallback) {
+  Params p = recommended();
+  const LateralGains gains = prepare(p).value();
+  const Scene scene;
+  const Inputs in{.ego = scene.ego, .trajectory = scene.trajectory};
+  const Output paper = step(p, gains, {}, in, Instant{}, milliseconds(10));
+  p.controller = {"failing", failing};
+  const Output out = step(p, gains, {}, in, Instant{}, milliseconds(10));
+  EXPECT_EQ(out.command.road_wheel_rad, paper.command.road_wheel_rad);
+  EXPECT_EQ(out.command.throttle_fraction, paper.command.throttle_fraction);
+}
+
+}  // namespace
+}  // namespace pitwall::control
