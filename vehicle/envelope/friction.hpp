@@ -63,8 +63,8 @@ double grip_mps2(const FrictionParams& car, const RoadLoad& at);
 // Deceleration available for braking (>= 0) with this total share of the grip (0..1]; aerodynamic
 // drag, which costs no grip, adds to it. Zero if the corner uses all of it.
 double brake_available_mps2(const FrictionParams& car, const RoadLoad& at, double share);
-// What the driven tyres carry forward (>= 0) beside the lateral demand: of the total grip, and of the
-// rear axle where the engine is known.
+// What the driven tyres carry forward (>= 0) beside the lateral demand: of the total grip, and of
+// the rear axle where the engine is known.
 double traction_mps2(const FrictionParams& car, const RoadLoad& at, double share);
 // Net forward acceleration after drag; may be negative at high speed.
 double drive_available_mps2(const FrictionParams& car, const RoadLoad& at, double share);

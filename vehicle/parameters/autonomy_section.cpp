@@ -134,7 +134,6 @@ control::Params read_control(yaml::StrictMap map) {
   if (lateral.has("drive_law"))
     lateral.fail("drive_law", "is control.controller now, for steering and speed together");
   p.controller = read_controller(map, "controller");
-  p.bicycle = read_bicycle(map.map("bicycle"));
   p.lateral = read_lateral(lateral);
   p.longitudinal = read_longitudinal(map.map("longitudinal"));
   p.gear = read_gear(map.map("gear"));

@@ -12,8 +12,8 @@
 #include "tests/benchmarks/cost/quantiles.hpp"
 #include "tests/benchmarks/cost/reference_cost.hpp"
 #include "tests/support/allocation_guard.hpp"
-#include "vehicle/parameters/car_setup.hpp"
-#include "vehicle/raceline/profile/lap_profile.hpp"
+#include "vehicle/envelope/lap_profile.hpp"
+#include "vehicle/pipeline/setup.hpp"
 
 namespace pitwall::control_bench {
 namespace {
@@ -85,8 +85,8 @@ double block_p99_us(const control::Params& params, const control::LateralGains& 
   return benchmarks::quantiles_of(std::move(took_us)).p99_us;
 }
 
-std::vector<raceline::RoadStep> road_of(const planning::Line& line) {
-  std::vector<raceline::RoadStep> road;
+std::vector<envelope::RoadStep> road_of(const planning::Line& line) {
+  std::vector<envelope::RoadStep> road;
   for (const planning::LinePoint& p : line.points)
     road.push_back(
         {.curvature_per_m = p.curvature_per_m, .bank_rad = p.bank_rad, .step_m = line.spacing_m});
@@ -95,14 +95,14 @@ std::vector<raceline::RoadStep> road_of(const planning::Line& line) {
 
 void measure_profile(const pipeline::Setup& setup, cost::ReferenceCost& reference,
                      ControlCost& out) {
-  const envelope::EnvelopeTable table{parameters::envelope_of(setup.params, setup.track)};
-  const std::vector<raceline::RoadStep> road = road_of(setup.line);
-  std::vector<raceline::LapPoint> lap(road.size());
-  raceline::LapProfile profile{table};
+  const envelope::EnvelopeTable table{pipeline::envelope_of(setup.params, setup.track)};
+  const std::vector<envelope::RoadStep> road = road_of(setup.line);
+  std::vector<world::LapPoint> lap(road.size());
+  envelope::LapProfile profile{table};
   profile.solve(road, lap);  // the first one makes room
   out.profile_points = road.size(), out.profile_us = HUGE_VAL;
   for (int block = 0; block < kCostBlocks; ++block) {
-    raceline::LapOutcome outcome;
+    envelope::LapOutcome outcome;
     out.profile_us = std::min(
         out.profile_us, processor_us([&] {
           out.allocations += testing::allocations_of([&] { outcome = profile.solve(road, lap); });

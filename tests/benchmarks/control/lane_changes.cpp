@@ -16,20 +16,18 @@ namespace pitwall::control_bench {
 namespace {
 
 constexpr std::array kSpeeds_mph{128.0, 138.0, 147.0};
-constexpr double kLane_m = 3.0;  // from one line to the other
+constexpr double kLane_m = 3.5;  // from one line to the other
 constexpr Duration kEvery = seconds(8);
 constexpr Duration kChanges = seconds(5);  // the merge, and the second after it
 
-// To the side of the line that has more room at its narrowest place.
-Result<planning::Line, Problem> lane_beside(const pipeline::Setup& setup) {
-  double left_m = HUGE_VAL, right_m = HUGE_VAL;
-  for (const planning::LinePoint& p : setup.line.points) {
-    left_m = std::min(left_m, p.room_left_m);
-    right_m = std::min(right_m, p.room_right_m);
-  }
-  planning::Params params = setup.params.planning;
-  params.line.offset_m += left_m > right_m ? kLane_m : -kLane_m;
-  return planning::prepare(params, setup.track);
+// The set-up with a line beside the one that it has, to the left.
+Result<pipeline::Setup, Problem> on_lane(const pipeline::Setup& setup, double left_m) {
+  pipeline::Setup lane = setup;
+  lane.params.planning.line.offset_m += left_m;
+  auto line = planning::prepare(lane.params.planning, setup.track);
+  if (!line) return Unexpected{line.error()};
+  lane.line = *std::move(line);
+  return lane;
 }
 
 class Drive {
@@ -81,18 +79,17 @@ Plan lane_change_plan(const scenario::Scenario& like) { return plan_of(like, 0.0
 Result<LaneChangeRow, Problem> run_lane_changes(const Plan& plan, const pipeline::Setup& setup) {
   LaneChangeRow row;
   row.track = setup.track.name();
-  auto line = lane_beside(setup);
-  if (!line) return Unexpected{line.error()};
-  pipeline::Setup beside = setup;
-  beside.line = *std::move(line);
-  Drive drive{plan, beside, row};
+  const auto own = on_lane(setup, -0.5 * kLane_m), beside = on_lane(setup, 0.5 * kLane_m);
+  if (!own) return Unexpected{own.error()};
+  if (!beside) return Unexpected{beside.error()};
+  Drive drive{plan, *beside, row};
   bench::LockstepOptions options;
-  options.step = [&drive](const pipeline::Setup& own, pipeline::Car& car,
-                          const pipeline::Inputs& in) { return drive.step(own, car, in); };
+  options.step = [&drive](const pipeline::Setup& right, pipeline::Car& car,
+                          const pipeline::Inputs& in) { return drive.step(right, car, in); };
   options.watch = [&drive](const pipeline::Outputs& out, const bench::Rig& rig, Instant now) {
     drive.look(out, rig, now);
   };
-  const auto result = bench::run_lockstep(plan.scenario, setup, options);
+  const auto result = bench::run_lockstep(plan.scenario, *own, options);
   if (!result) return Unexpected{result.error()};
   return row;
 }

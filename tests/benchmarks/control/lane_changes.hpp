@@ -1,9 +1,9 @@
 // Lane changes of the control benchmark: at 57, 62 and 66 m/s the car is given the lane beside its
 // own every eight seconds, and goes there by the merge of its planner.
-//   in     a scenario of flying laps, the set-up of the car; the lane beside is a second line at an
-//          offset, on the side that has more room
+//   in     a scenario of flying laps, the set-up of the car; the lanes are lines at an offset to
+//          either side of its own
 //   out    true distance to the planned path while the car changes; changes; why a run ended early
-//   errors Problem of the run; no room for a second lane
+//   errors Problem of the run; no room for the lanes
 //   units  m, m/s
 // SPDX-License-Identifier: Apache-2.0
 #pragma once

@@ -22,7 +22,7 @@ constexpr double kSlowerThanLimits = 1.3;
 double lap_at_limits_s(const planning::Line& line, double round_mps) {
   double time_s = 0.0;
   for (const planning::LinePoint& p : line.points)
-    time_s += line.spacing_m / std::max(std::min(p.speed_mps, round_mps), 1.0);
+    time_s += line.spacing_m / std::max(std::min(p.speed_mps.back(), round_mps), 1.0);
   return time_s;
 }
 
