@@ -51,11 +51,12 @@ EnvelopeTable::EnvelopeTable(const EnvelopeParams& params) : params_(params) {
     const double v2 = speed_mps * speed_mps;
     for (std::size_t j = 0; j < banks_; ++j) {
       const double bank = bank_rad(j), most_mps2 = carried_mps2(speed_mps, bank);
+      const double cos_bank = std::cos(bank), sin_bank = std::sin(bank);
       lateral_.push_back(most_mps2);
       for (const double share : shares_) {
-        const double level_mps2 = (share * most_mps2 + kGravity_mps2 * std::sin(bank)) /
-                                  std::cos(bank);  // v^2 times the curvature of the plan view
-        const RoadLoad at{speed_mps, level_mps2 / v2, bank};
+        // v^2 times the curvature of the plan view
+        const double level_mps2 = (share * most_mps2 + kGravity_mps2 * sin_bank) / cos_bank;
+        const RoadLoad at{speed_mps, level_mps2 / v2, bank, cos_bank, sin_bank};
         limits_.push_back({drive_available_mps2(params.friction, at, params.grip_share),
                            brake_available_mps2(params.friction, at, params.grip_share) +
                                coasting_mps2(speed_mps)});

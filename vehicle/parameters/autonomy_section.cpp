@@ -124,6 +124,12 @@ planning::Params read_planning(yaml::StrictMap map) {
   p.speed_law = read_speed_law(map);
   p.line = read_line(map.map("line"));
   read_ranges(map, planning::kRanges, p);
+  read_ranges(map, planning::kPaceRanges, p.comfort);
+  p.racing = p.comfort;
+  if (map.has("racing")) {
+    yaml::StrictMap racing = map.map("racing");
+    read_ranges(racing, planning::kPaceRanges, p.racing);
+  }
   read_stop_plan(map.map("stop"), p);
   return p;
 }

@@ -32,8 +32,8 @@ static_assert(telemetry::label_at(telemetry::kLinkLossLevels,
                                   static_cast<std::size_t>(safety::LinkLossLevel::kStop)) ==
               "controlled stop");
 static_assert(telemetry::label_at(telemetry::kSpeedReasons,
-                                  static_cast<std::size_t>(planning::Reason::kLineLimit)) ==
-              "line");
+                                  static_cast<std::size_t>(planning::Reason::kCornerAhead)) ==
+              "governor");
 static_assert(telemetry::kFields[field("planner.line")].max == planning::kLinesMost);
 
 template <class E>

@@ -120,9 +120,9 @@ Reported planning(const CarParams& p) {
       {"planning.stop.emergency_grip_share", p.planning.emergency_grip_share},
       {"planning.green_speed_mps", p.planning.green_speed_mps},
       {"planning.caution_speed_mps", p.planning.caution_speed_mps},
-      {"planning.accel_max_mps2", p.planning.accel_max_mps2},
-      {"planning.decel_max_mps2", p.planning.decel_max_mps2},
-      {"planning.jerk_max_mps3", p.planning.jerk_max_mps3},
+      {"planning.accel_max_mps2", p.planning.comfort.accel_max_mps2},
+      {"planning.decel_max_mps2", p.planning.comfort.decel_max_mps2},
+      {"planning.jerk_max_mps3", p.planning.comfort.jerk_max_mps3},
       {"planning.speed_band_mps", p.planning.speed_band_mps},
       {"planning.stop_decel_max_mps2", p.planning.stop_decel_max_mps2},
       {"planning.stop_jerk_max_mps3", p.planning.stop_jerk_max_mps3},
@@ -269,6 +269,21 @@ TEST(AutonomySection, ALineIsThatOfABankOrLiesAtAnOffset) {
     EXPECT_EQ(why.rfind("car.yaml:" + std::to_string(line + c.below) + ":", 0), 0u) << why;
     EXPECT_NE(why.find(c.word), std::string::npos) << why;
   }
+}
+
+TEST(AutonomySection, ARacingPaceThatIsNotWrittenIsTheComfortableOne) {
+  const planning::Params plain = read_car(av21(), "car.yaml")->params.planning;
+  EXPECT_EQ(plain.racing.accel_max_mps2, plain.comfort.accel_max_mps2);
+  EXPECT_EQ(plain.racing.decel_max_mps2, plain.comfort.decel_max_mps2);
+  EXPECT_EQ(plain.racing.jerk_max_mps3, plain.comfort.jerk_max_mps3);
+  const std::string racing = with(av21(), "  speed_band_mps: 4.0",
+                                  "  racing: {accel_max_mps2: 6, decel_max_mps2: 8, "
+                                  "jerk_max_mps3: 12}\n  speed_band_mps: 4.0");
+  const planning::Params full = read_car(racing, "car.yaml")->params.planning;
+  EXPECT_EQ(full.racing.accel_max_mps2, 6.0);
+  EXPECT_EQ(full.racing.decel_max_mps2, 8.0);
+  EXPECT_EQ(full.racing.jerk_max_mps3, 12.0);
+  EXPECT_EQ(full.comfort.accel_max_mps2, plain.comfort.accel_max_mps2);
 }
 
 TEST(AutonomySection, BracketsBeginWhereTheControllerHasThem) {

@@ -128,7 +128,9 @@ TEST(TelemetryLabels, NameWhyTheSpeedIsWhatItIs) {
                                         {kGreen, "green"},
                                         {kRoundSpeed, "round speed"},
                                         {kOperatorLimit, "operator"},
-                                        {kLineLimit, "line"}}),
+                                        {kLineLimit, "line"},
+                                        {kTyreLimit, "tyres"},
+                                        {kCornerAhead, "governor"}}),
             names_in(telemetry::kSpeedReasons));
 }
 

@@ -118,18 +118,29 @@ struct Limits {
   StopLimits stop;
 };
 
-Limits limits_of(const Params& p, const Inputs& in, double demand_mps, double speed_mps) {
+// Racing is for what race control wants on a green track; behind flags, and when the operator or a
+// silent radio slows the car, it drives gently.
+const Pace& pace_of(const Params& p, Reason reason) {
+  return reason == Reason::kGreen || reason == Reason::kRoundSpeed ? p.racing : p.comfort;
+}
+
+Limits limits_of(const Params& p, const Inputs& in, const SpeedDemand& demand, double speed_mps) {
   const envelope::FrictionParams friction = on_tyres(p.line.friction, in.tyre_c);
   envelope::FrictionParams stopping = friction;
   stopping.friction *= std::min(p.stop_friction / p.line.friction.friction, 1.0);
   const bool coasts = in.followed == Followed::kCoast;
   const double coast_mps2 = std::max(coasting_mps2(friction, speed_mps), kCoastLeast_mps2);
   const bool hard = in.followed == Followed::kEmergency;
-  return {.drive = {.target_mps = coasts ? 0.0 : demand_mps,
+  Pace pace = pace_of(p, demand.reason);
+  Pace corners = p.racing;
+  if (coasts) pace.decel_max_mps2 = corners.decel_max_mps2 = coast_mps2;
+  return {.drive = {.target_mps = coasts ? 0.0 : demand.speed_mps,
+                    .pace = pace,
+                    .corners = corners,
+                    .brake_most_mps2 = coasts ? coast_mps2 : HUGE_VAL,
+                    .friction = friction,
+                    .grip_share = p.line.grip_share,
                     .tyres = world::place_of(p.line.friction.tyres, in.tyre_c),
-                    .accel_max_mps2 = p.accel_max_mps2,
-                    .decel_max_mps2 = coasts ? coast_mps2 : p.decel_max_mps2,
-                    .jerk_max_mps3 = p.jerk_max_mps3,
                     .steering = in.steering},
           .stop = {.friction = stopping,
                    .grip_share = hard ? p.emergency_grip_share : p.stop_grip_share,
@@ -151,16 +162,15 @@ void plan_stop_path(const Params& params, const Line& line, const LinePosition& 
 }
 
 // The reference at `now`: moved on by what control followed, kept near the measured speed.
-SpeedReference reference(const Params& params, const Line& line, const State& state,
+SpeedReference reference(const Params& params, const SpeedsAhead& ahead, const State& state,
                          const RoadAhead& road, const Limits& limits, const Inputs& in,
-                         const LinePosition& car, Instant now) {
+                         Instant now) {
   const double speed_mps = std::max(in.ego.vx_mps, 0.0);
   if (!state.started) return {speed_mps, 0.0};
   const double dt_s = std::clamp((now - state.at).seconds(), 0.0, kTickMax_s);
   const SpeedReference last{state.speed_mps, state.accel_mps2};
-  const SpeedReference next = stops(in.followed)
-                                  ? advance_stop(road, last, limits.stop, dt_s)
-                                  : advance_drive(line, car.s_m, last, limits.drive, dt_s);
+  const SpeedReference next = stops(in.followed) ? advance_stop(road, last, limits.stop, dt_s)
+                                                 : advance_drive(ahead, last, limits.drive, dt_s);
   const double low = std::max(speed_mps - params.speed_band_mps, 0.0);
   return {std::clamp(next.speed_mps, low, speed_mps + params.speed_band_mps), next.accel_mps2};
 }
@@ -215,6 +225,26 @@ SpeedDemand by_vehicle_flag(const Params& params, VehicleFlag flag) {
   return {0.0, Reason::kUnknownFlag};
 }
 
+// The demand, or the road where that is slower.
+SpeedDemand with_road(const LinePoint& here, const DriveLimits& limits, const SpeedsAhead& ahead,
+                      const SpeedDemand& demand) {
+  constexpr double kSlower_mps = 0.05;
+  const double limit = limit_mps(here, limits), corner = ahead.at[0].speed_mps;
+  if (!(std::min(limit, corner) < demand.speed_mps)) return demand;
+  if (corner < limit - kSlower_mps) return {corner, Reason::kCornerAhead};
+  const bool cold = limit < limit_mps(here, world::kWarmTyres) - kSlower_mps;
+  return {limit, cold ? Reason::kTyreLimit : Reason::kLineLimit};
+}
+
+std::optional<Problem> illegal_pace(const Params& p) {
+  if (auto problem = world::first_illegal(kPaceRanges, p.comfort)) return problem;
+  const Pace &least = p.comfort, &most = p.racing;
+  return world::first_illegal(std::array{
+      LegalRange{"racing.accel_max_mps2", most.accel_max_mps2, least.accel_max_mps2, 10.0},
+      LegalRange{"racing.decel_max_mps2", most.decel_max_mps2, least.decel_max_mps2, 10.0},
+      LegalRange{"racing.jerk_max_mps3", most.jerk_max_mps3, least.jerk_max_mps3, 30.0}});
+}
+
 }  // namespace
 
 Result<Line, Problem> prepare(const Params& params, const world::TrackMap& track,
@@ -223,6 +253,7 @@ Result<Line, Problem> prepare(const Params& params, const world::TrackMap& track
   if (auto problem = illegal_line(params.line)) return Unexpected{*problem};
   if (auto problem = illegal_tyres(params.line.friction.tyres)) return Unexpected{*problem};
   if (auto problem = world::first_illegal(kRanges, params)) return Unexpected{*problem};
+  if (auto problem = illegal_pace(params)) return Unexpected{*problem};
   if (auto problem = illegal_stop(params)) return Unexpected{*problem};
   return build_line(track, params.line, bank, steering);
 }
@@ -253,13 +284,14 @@ Output step(const Params& params, const Line& line, const world::TrackMap& track
   const LinePosition car = line.project(in.ego.x_m, in.ego.y_m, hint);
   const double speed_mps = std::max(in.ego.vx_mps, 0.0);
   const SpeedDemand demand = demanded_speed(params, in.race_control, in.operator_speed_limit_mps);
-  Limits limits = limits_of(params, in, demand.speed_mps, speed_mps);
+  Limits limits = limits_of(params, in, demand, speed_mps);
 
   if (!stops(in.followed)) merge_if_far(params, line, car, speed_mps, next);
   plan_stop_path(params, line, car, speed_mps, in.followed, limits.stop, next);
   if (in.followed != Followed::kEmergency) limits.stop.decel_max_mps2 *= next.stop.decel_share;
   const RoadAhead road = road_ahead(line, next.stop, car.s_m);
-  const SpeedReference now_at = reference(params, line, state, road, limits, in, car, now);
+  const SpeedsAhead ahead = look_ahead(line, car.s_m, limits.drive);
+  const SpeedReference now_at = reference(params, ahead, state, road, limits, in, now);
   next.started = true;
   next.at = now;
   next.line_s_m = car.s_m;
@@ -273,14 +305,13 @@ Output step(const Params& params, const Line& line, const world::TrackMap& track
       now);
   out.drive = trajectory(
       line, car.s_m, [&](double ahead_m) { return offset_at(line, next.merge, car.s_m + ahead_m); },
-      drive_profile(line, car.s_m, now_at, limits.drive, params.point_spacing_m), now);
+      drive_profile(ahead, now_at, limits.drive, params.point_spacing_m), now);
   const bool unlimited = params.speed_law == SpeedLaw::kPaper;
   if (unlimited) demand_everywhere(out.drive, limits.drive.target_mps);
   const LinePoint here = line.at(car.s_m);
-  const double limit = limit_mps(here, limits.drive);
-  const bool line_limits = !unlimited && limit < demand.speed_mps;
-  out.target_speed_mps = line_limits ? limit : demand.speed_mps;
-  out.reason = line_limits ? Reason::kLineLimit : demand.reason;
+  const SpeedDemand limited = unlimited ? demand : with_road(here, limits.drive, ahead, demand);
+  out.target_speed_mps = limited.speed_mps;
+  out.reason = limited.reason;
   out.line_s_m = car.s_m;
   out.track_s_m = track.wrap_station(here.track_s_m);
   out.line_offset_m = car.offset_m;

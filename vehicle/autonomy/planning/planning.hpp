@@ -7,8 +7,8 @@
 //          trajectory, so that switching to it causes no step
 //   rate   20 Hz (any rate up to 100 Hz works: the reference speed advances with time)
 //   invariants
-//          the speed follows a reference that starts at the present speed, moves with limited jerk
-//          and acceleration, and stays within speed_band_mps of the measured speed
+//          the speed follows a reference that starts at the present speed, moves as governor.hpp
+//          lets it, and stays within speed_band_mps of the measured speed
 //          the stop uses stop_grip_share of the friction ellipse, by the temperature of the tyres,
 //          along the path of stop_plan.hpp. Its path is fixed once it is followed; an emergency
 //          stop is the same path with more brake
@@ -24,6 +24,7 @@
 
 #include "protocol/vocabulary/result.hpp"
 #include "protocol/vocabulary/time.hpp"
+#include "vehicle/autonomy/planning/governor.hpp"
 #include "vehicle/autonomy/planning/line.hpp"
 #include "vehicle/autonomy/planning/offset.hpp"
 #include "vehicle/autonomy/planning/stop_plan.hpp"
@@ -45,9 +46,9 @@ struct Params {
   SpeedLaw speed_law = SpeedLaw::kLimited;
   double green_speed_mps = kUnset;    // if race control gives no round speed
   double caution_speed_mps = kUnset;  // under yellow
-  double accel_max_mps2 = kUnset;
-  double decel_max_mps2 = kUnset;  // of the drive trajectory
-  double jerk_max_mps3 = kUnset;
+  Pace comfort;                       // of the drive trajectory
+  // On a green track, towards its speed, and always for a corner ahead; at least as that.
+  Pace racing;
   double speed_band_mps = kUnset;  // largest distance of the reference from the measured speed
   double stop_decel_max_mps2 = kUnset;
   double stop_jerk_max_mps3 = kUnset;
@@ -67,9 +68,6 @@ struct Params {
 inline constexpr auto kRanges = std::to_array<world::NamedRange<Params>>({
     {"green_speed_mps", &Params::green_speed_mps, 0.0, 110.0},
     {"caution_speed_mps", &Params::caution_speed_mps, 0.0, 60.0},
-    {"accel_max_mps2", &Params::accel_max_mps2, 0.2, 10.0},
-    {"decel_max_mps2", &Params::decel_max_mps2, 0.2, 10.0},
-    {"jerk_max_mps3", &Params::jerk_max_mps3, 0.5, 30.0},
     {"speed_band_mps", &Params::speed_band_mps, 0.5, 10.0},
     {"stop_decel_max_mps2", &Params::stop_decel_max_mps2, 1.0, 12.0},
     {"stop_jerk_max_mps3", &Params::stop_jerk_max_mps3, 1.0, 30.0},
@@ -79,6 +77,12 @@ inline constexpr auto kRanges = std::to_array<world::NamedRange<Params>>({
     {"merge_from_m", &Params::merge_from_m, 0.5, 5.0},
     {"merge_time_s", &Params::merge_time_s, 1.0, 10.0},
     {"merge_least_m", &Params::merge_least_m, 10.0, 200.0},
+});
+
+inline constexpr auto kPaceRanges = std::to_array<world::NamedRange<Pace>>({
+    {"accel_max_mps2", &Pace::accel_max_mps2, 0.2, 10.0},
+    {"decel_max_mps2", &Pace::decel_max_mps2, 0.2, 10.0},
+    {"jerk_max_mps3", &Pace::jerk_max_mps3, 0.5, 30.0},
 });
 
 // Source of the target speed.
@@ -97,7 +101,9 @@ enum class Reason : std::uint8_t {
   kGreen,
   kRoundSpeed,
   kOperatorLimit,
-  kLineLimit
+  kLineLimit,   // what the car can do at this place of its line
+  kTyreLimit,   // the same, where warm tyres could do more
+  kCornerAhead  // the governor slows the car for what lies ahead
 };
 
 enum class Followed : std::uint8_t {

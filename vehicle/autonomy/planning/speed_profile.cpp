@@ -7,46 +7,12 @@
 namespace pitwall::planning {
 namespace {
 
-constexpr double kLandingShare = 0.8;  // of the jerk: the rest lets the landing law be followed
-constexpr double kCoast_mps2 = 0.3;    // rolling resistance: a car always slows by that much
+constexpr double kCoast_mps2 = 0.3;  // rolling resistance: a car always slows by that much
 // Where a stop looks for the ellipse to shrink: as far as the jerk takes to let go of the brake.
 constexpr std::array kStopAhead_s{0.0, 0.2, 0.4, 0.6};
-constexpr double kCapAhead_s = 0.45;  // a falling limit is read this far ahead: time for the jerk
-constexpr double kCapHorizon_m = 250.0;  // how far ahead the line's limits are looked at
-constexpr double kCapDecelShare = 0.9;
 constexpr double kSpacingMin_m = 2.0;
 constexpr int kSubsteps = 3;  // the limits change slowly, the landing on the target does not
 constexpr double kSubstep_s = kProfileStep_s / kSubsteps;
-
-const LinePoint& nearest(const Line& line, double s_m) {
-  const auto i = static_cast<std::size_t>(line.wrap(s_m) / line.spacing_m);
-  return line.points[std::min(i, line.points.size() - 1)];
-}
-
-// The speed now from which every limit of the line ahead can be met at a moderate deceleration.
-double cap(const Line& line, double s_m, double speed_mps, const DriveLimits& limits,
-           double decel_mps2) {
-  constexpr double kCapStep_m = 10.0;
-  const double horizon_m = std::min(kCapHorizon_m, speed_mps * speed_mps / (2.0 * decel_mps2));
-  const std::size_t count = line.points.size();
-  const auto stride =
-      std::max(static_cast<std::size_t>(kCapStep_m / line.spacing_m), static_cast<std::size_t>(1));
-  const double stride_m = static_cast<double>(stride) * line.spacing_m;
-  auto i = static_cast<std::size_t>(line.wrap(s_m + kCapAhead_s * speed_mps) / line.spacing_m);
-  const double here_mps = limit_mps(nearest(line, s_m), limits);
-  double lowest = here_mps * here_mps;
-  for (double d = 0.0; d <= horizon_m; d += stride_m, i += stride) {
-    if (i >= count) i %= count;
-    const double v = limit_mps(line.points[i], limits);
-    lowest = std::min(lowest, v * v + 2.0 * decel_mps2 * d);
-  }
-  return std::sqrt(lowest);
-}
-
-SpeedLimits drive_limits(const Line& line, double s_m, double speed_mps, const DriveLimits& l) {
-  const double limit_mps = cap(line, s_m, speed_mps, l, kCapDecelShare * l.decel_max_mps2);
-  return {std::min(l.target_mps, limit_mps), l.accel_max_mps2, l.decel_max_mps2, l.jerk_max_mps3};
-}
 
 SpeedLimits stop_limits(const RoadAhead& road, double distance_m, double speed_mps,
                         const StopLimits& l) {
@@ -57,7 +23,7 @@ SpeedLimits stop_limits(const RoadAhead& road, double distance_m, double speed_m
 struct History {
   struct Moment {
     double gone_m = 0.0;
-    SpeedReference reference;  // the acceleration is that of the step that led here
+    SpeedReference reference;
   };
   std::array<Moment, kProfileSteps + 1> at;
   std::size_t size = 0;
@@ -65,16 +31,17 @@ struct History {
 };
 
 template <class LimitsAt>
-void play(double s_m, SpeedReference now, double reach_m, LimitsAt limits_at, History& out) {
+void play(SpeedReference now, double reach_m, LimitsAt limits_at, History& out) {
   out.at[0] = {0.0, now};
   out.size = 1;
   while (out.size <= kProfileSteps && out.at[out.size - 1].gone_m <= reach_m) {
     const double gone_m = out.at[out.size - 1].gone_m;
-    const SpeedLimits limits = limits_at(s_m + gone_m, now.speed_mps);
+    SpeedLimits limits = limits_at(gone_m, now);
     double step_m = 0.0;
     for (int i = 0; i < kSubsteps; ++i) {
       const SpeedReference then = advance(now, limits, kSubstep_s);
       step_m += 0.5 * (now.speed_mps + then.speed_mps) * kSubstep_s;
+      limits.target_mps += limits.target_accel_mps2 * kSubstep_s;
       now = then;
     }
     out.at[out.size++] = {gone_m + step_m, now};
@@ -100,19 +67,13 @@ SpeedProfile sampled(const History& history, double spacing_m) {
     const double step_m = b.gone_m - a.gone_m;
     const double t = step_m > 0.0 ? (d_m - a.gone_m) / step_m : 0.0;
     out.at[i] = {a.reference.speed_mps + t * (b.reference.speed_mps - a.reference.speed_mps),
-                 b.reference.accel_mps2};
+                 a.reference.accel_mps2 + t * (b.reference.accel_mps2 - a.reference.accel_mps2)};
   }
   if (history.stands) out.stop_distance_m = last.gone_m;
   return out;
 }
 
 }  // namespace
-
-double limit_mps(const LinePoint& p, const DriveLimits& limits) {
-  const double by_grip_mps = limit_mps(p, limits.tyres);
-  if (!limits.steering) return by_grip_mps;
-  return steering::fastest_mps(*limits.steering, p.curvature_per_m, p.bank_rad, by_grip_mps);
-}
 
 const RoadSample& RoadAhead::sample(double distance_m) const {
   const double index = std::max(distance_m, 0.0) / kRoadStep_m + 0.5;
@@ -135,32 +96,20 @@ double stop_decel_mps2(const RoadAhead& road, double distance_m, double speed_mp
   return std::max(std::min(brake + coast, l.decel_max_mps2), coast);
 }
 
-SpeedReference advance(const SpeedReference& r, const SpeedLimits& limits, double dt_s) {
-  if (!(dt_s > 0.0)) return r;
-  const double error = limits.target_mps - r.speed_mps;
-  const double size =
-      std::min(std::sqrt(2.0 * kLandingShare * limits.jerk_max_mps3 * std::abs(error)),
-               std::abs(error) / dt_s);
-  const double wanted =
-      std::clamp(std::copysign(size, error), -limits.decel_max_mps2, limits.accel_max_mps2);
-  const double change = limits.jerk_max_mps3 * dt_s;
-  const double accel = r.accel_mps2 + std::clamp(wanted - r.accel_mps2, -change, change);
-  const double speed = r.speed_mps + 0.5 * (r.accel_mps2 + accel) * dt_s;
-  if (speed <= 0.0) return {0.0, std::max(accel, 0.0)};
-  return {speed, accel};
-}
-
-SpeedReference advance_drive(const Line& line, double s_m, const SpeedReference& from,
+SpeedReference advance_drive(const SpeedsAhead& ahead, const SpeedReference& from,
                              const DriveLimits& limits, double dt_s) {
-  return advance(from, drive_limits(line, s_m, from.speed_mps, limits), dt_s);
+  return advance(from, drive_limits(ahead, 0.0, from, limits), dt_s);
 }
 
-SpeedProfile drive_profile(const Line& line, double s_m, const SpeedReference& from,
+SpeedProfile drive_profile(const SpeedsAhead& ahead, const SpeedReference& from,
                            const DriveLimits& limits, double spacing_m) {
   History history;
   const double reach_m = spacing_m * static_cast<double>(world::kTrajectoryPoints);
   play(
-      s_m, from, reach_m, [&](double s, double v) { return drive_limits(line, s, v, limits); },
+      from, reach_m,
+      [&](double gone_m, const SpeedReference& now) {
+        return drive_limits(ahead, gone_m, now, limits);
+      },
       history);
   return sampled(history, spacing_m);
 }
@@ -175,7 +124,10 @@ SpeedProfile stop_profile(const RoadAhead& road, const SpeedReference& from,
   constexpr double kAnywhere_m = 1e9;
   History history;
   play(
-      0.0, from, kAnywhere_m, [&](double d, double v) { return stop_limits(road, d, v, limits); },
+      from, kAnywhere_m,
+      [&](double gone_m, const SpeedReference& now) {
+        return stop_limits(road, gone_m, now.speed_mps, limits);
+      },
       history);
   const double least_m = history.stands ? history.at[history.size - 1].gone_m : 0.0;
   constexpr double kSegments = world::kTrajectoryPoints - 1;

@@ -1,8 +1,7 @@
-// Speed profiles that a car can follow: a reference that moves to its target with limited
-// acceleration and jerk, and its simulation forward along a path.
+// Speed profiles that a car can follow: the reference of speed_reference.hpp, simulated forward
+// along the line below the limits of the governor, or along the path of a stop.
 //   invariants
-//          demanded acceleration = +-sqrt(2 j |target - v|) within its limits, approached at rate
-//          j: it reaches the target with zero acceleration and without overshoot
+//          at every point the acceleration is that of the reference there
 //          a stop brakes with what the corner leaves of the friction ellipse at every point ahead
 //          that it reaches before the jerk limit could release the brake
 //   cost   O(kProfileSteps), no allocation
@@ -14,24 +13,12 @@
 #include <cstddef>
 
 #include "protocol/vocabulary/units.hpp"
-#include "vehicle/autonomy/planning/line.hpp"
+#include "vehicle/autonomy/planning/governor.hpp"
+#include "vehicle/autonomy/planning/speed_reference.hpp"
 #include "vehicle/envelope/friction.hpp"
-#include "vehicle/steering/angle_limits.hpp"
 #include "vehicle/world/trajectory.hpp"
 
 namespace pitwall::planning {
-
-struct SpeedReference {
-  double speed_mps = 0.0, accel_mps2 = 0.0;
-};
-
-struct SpeedLimits {
-  double target_mps = 0.0;
-  double accel_max_mps2 = 0.0, decel_max_mps2 = 0.0;  // both >= 0
-  double jerk_max_mps3 = 1.0;
-};
-
-SpeedReference advance(const SpeedReference& reference, const SpeedLimits& limits, double dt_s);
 
 inline constexpr double kProfileStep_s = 0.05;
 inline constexpr std::size_t kProfileSteps = 800;  // 40 s: twice a stop from top speed
@@ -43,21 +30,10 @@ struct SpeedProfile {
   double stop_distance_m = kUnset;  // to standstill; unset if it does not stop
 };
 
-struct DriveLimits {
-  double target_mps = kUnset;
-  world::TyrePlace tyres;
-  double accel_max_mps2 = kUnset, decel_max_mps2 = kUnset, jerk_max_mps3 = kUnset;
-  const steering::AngleBudget* steering = nullptr;  // null: no limit
-};
-
-// Speed that friction and steering allow at a point of the line.
-double limit_mps(const LinePoint& point, const DriveLimits& limits);
-
-// Next reference towards the target, below the limits of the line, with braking ahead of lower
-// ones.
-SpeedReference advance_drive(const Line& line, double s_m, const SpeedReference& from,
+// Next reference towards the demanded speed, as far as the governor lets it.
+SpeedReference advance_drive(const SpeedsAhead& ahead, const SpeedReference& from,
                              const DriveLimits& limits, double dt_s);
-SpeedProfile drive_profile(const Line& line, double s_m, const SpeedReference& from,
+SpeedProfile drive_profile(const SpeedsAhead& ahead, const SpeedReference& from,
                            const DriveLimits& limits, double spacing_m);
 
 // Path of a stop from the car, at equal distances; beyond its end the last sample holds.

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <set>
 
 #include "tests/support/allocation_guard.hpp"
 #include "tests/vehicle/autonomy/planning/stadium.hpp"
@@ -106,9 +107,11 @@ TEST(Planning, SpeedNeverStepsWhateverIsDemanded) {
     world::RaceControl rc = green((i / 150) % 2 == 0 ? 60.0 : 30.0);
     if ((i / 400) % 2 == 1) rc.track = TrackFlag::kRed;
     const Output out = rig.tick(rc);
-    EXPECT_LE(std::abs(out.next.speed_mps - last), rig.params.decel_max_mps2 * 0.05 + 1e-9) << i;
+    EXPECT_LE(std::abs(out.next.speed_mps - last), rig.params.comfort.decel_max_mps2 * 0.05 + 1e-9)
+        << i;
     if (out.next.speed_mps > 0.0) {
-      EXPECT_LE(std::abs(out.next.accel_mps2 - last_accel), rig.params.jerk_max_mps3 * 0.05 + 1e-9);
+      EXPECT_LE(std::abs(out.next.accel_mps2 - last_accel),
+                rig.params.comfort.jerk_max_mps3 * 0.05 + 1e-9);
     }
     EXPECT_NEAR(out.drive.points[0].speed_mps, out.next.speed_mps, 1e-9);
     EXPECT_NEAR(out.stop.points[0].speed_mps, out.next.speed_mps, 1e-9);
@@ -298,6 +301,66 @@ TEST(Planning, TheLineLimitsTheSpeed) {
   EXPECT_NEAR(out.target_speed_mps, 25.0, 1e-9);
 }
 
+// Full on a green track; gentle for the operator and behind a flag.
+TEST(Planning, RacesOnAGreenTrackAndDrivesGentlyBehindFlags) {
+  PlanningRig rig;
+  rig.params.racing = {.accel_max_mps2 = 5.0, .decel_max_mps2 = 7.0, .jerk_max_mps3 = 12.0};
+  const Pace gentle = rig.params.comfort;
+  struct Range {
+    double least_mps2 = 0.0, most_mps2 = 0.0;
+  };
+  const auto driven = [&](const world::RaceControl& rc, double limit_mps = kUnset) {
+    (void)rig.tick(rc, Followed::kDrive, limit_mps);
+    rig.state.accel_mps2 = 0.0;
+    Range range;
+    for (int i = 0; i < 100; ++i) {
+      const double mps2 = rig.tick(rc, Followed::kDrive, limit_mps).next.accel_mps2;
+      range = {std::min(range.least_mps2, mps2), std::max(range.most_mps2, mps2)};
+    }
+    return range;
+  };
+  rig.speed_mps = 20.0;
+  EXPECT_GT(driven(green(60.0)).most_mps2, 4.5);
+  EXPECT_GE(driven(green(60.0), 15.0).least_mps2, -gentle.decel_max_mps2 - 1e-9);
+  EXPECT_LE(driven(green(60.0), 50.0).most_mps2, gentle.accel_max_mps2 + 1e-9);
+  (void)driven(green(60.0));
+  EXPECT_LT(driven(green(20.0)).least_mps2, -5.0);
+  (void)driven(green(60.0));
+  world::RaceControl yellow = green(60.0);
+  yellow.track = TrackFlag::kYellow;
+  EXPECT_GE(driven(yellow).least_mps2, -gentle.decel_max_mps2 - 1e-9);
+}
+
+// What longitudinal control feeds forward is what the speeds do: the reference changes its
+// acceleration every twentieth of a second, by at most the jerk.
+TEST(Planning, TheAccelerationOfATrajectoryIsThatOfItsSpeeds) {
+  PlanningRig rig;
+  rig.speed_mps = 30.0;
+  const double off_mps2 = rig.params.comfort.jerk_max_mps3 * 0.05;
+  for (const double target_mps : {60.0, 25.0, 40.0})
+    for (int k = 0; k < 60; ++k) {
+      const Output out = rig.tick(green(target_mps));
+      for (std::size_t i = 1; i < out.drive.points.size(); ++i) {
+        const auto &a = out.drive.points[i - 1], &b = out.drive.points[i];
+        const double mps2 = (b.speed_mps * b.speed_mps - a.speed_mps * a.speed_mps) /
+                            (2.0 * rig.params.point_spacing_m);
+        ASSERT_NEAR(0.5 * (a.accel_mps2 + b.accel_mps2), mps2, off_mps2) << target_mps << ' ' << i;
+      }
+    }
+}
+
+TEST(Planning, SaysWhetherLineTyresOrACornerAheadHoldTheSpeed) {
+  PlanningRig rig;
+  rig.tyre_c = 30.0, rig.speed_mps = 40.0;
+  std::set<Reason> cold, warm;
+  while (rig.s_m < 1.5 * rig.line.length_m) cold.insert(rig.tick(green(80.0)).reason);
+  // On the straights cold tyres carry the largest speed of the line, too.
+  EXPECT_EQ(cold, (std::set{Reason::kLineLimit, Reason::kTyreLimit, Reason::kCornerAhead}));
+  rig.tyre_c = 85.0;
+  while (rig.s_m < 3.0 * rig.line.length_m) warm.insert(rig.tick(green(80.0)).reason);
+  EXPECT_EQ(warm, std::set{Reason::kLineLimit});
+}
+
 TEST(Planning, TakesNothingFromTheHeap) {
   if (!pitwall::testing::kAllocationsCounted) GTEST_SKIP() << "the sanitizer has its own heap";
   PlanningRig rig;
@@ -317,7 +380,8 @@ TEST(Planning, PrepareNamesTheIllegalParameter) {
     return line ? std::string("legal") : line.error().place;
   };
   EXPECT_EQ(place([](Params&) {}), "legal");
-  EXPECT_EQ(place([](Params& p) { p.jerk_max_mps3 = 0.0; }), "jerk_max_mps3");
+  EXPECT_EQ(place([](Params& p) { p.comfort.jerk_max_mps3 = 0.0; }), "jerk_max_mps3");
+  EXPECT_EQ(place([](Params& p) { p.racing.decel_max_mps2 = 2.9; }), "racing.decel_max_mps2");
   EXPECT_EQ(place([](Params& p) { p.line.friction.friction = kUnset; }), "line.friction.friction");
   EXPECT_EQ(place([](Params& p) { p.line.offset_m = 7.0; }), "line.offset_m");
   EXPECT_EQ(place([](Params& p) { p.line.friction.brake_front = 1.0; }),

@@ -42,7 +42,8 @@ inline Params recommended() {
             .grip_share = 0.8,
             .friction = envelope::testing::av21()};
   p.green_speed_mps = 40.0, p.caution_speed_mps = 22.0;
-  p.accel_max_mps2 = 2.5, p.decel_max_mps2 = 3.0, p.jerk_max_mps3 = 5.0;
+  p.comfort = {.accel_max_mps2 = 2.5, .decel_max_mps2 = 3.0, .jerk_max_mps3 = 5.0};
+  p.racing = p.comfort;
   p.speed_band_mps = 4.0;
   p.stop_decel_max_mps2 = 5.0, p.stop_jerk_max_mps3 = 8.0, p.stop_grip_share = 0.7;
   p.stop_friction = 1.0;
