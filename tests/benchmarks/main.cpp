@@ -20,6 +20,7 @@
 #include "tests/benchmarks/radio/radio_gates.hpp"
 #include "tests/benchmarks/replay/bench_replay.hpp"
 #include "tests/benchmarks/step/bench_step.hpp"
+#include "tests/benchmarks/time_trial/bench_time_trial.hpp"
 
 namespace pitwall::benchmarks {
 namespace {
@@ -42,6 +43,7 @@ constexpr std::array kBenchmarks{
     Benchmark{"radio-gates", "the radio's gates at length, in virtual time", radio_gates},
     Benchmark{"replay", "replay of a CAN log beside canplayer and python-can", bench_replay},
     Benchmark{"step", "one step of the car", bench_step},
+    Benchmark{"time_trial", "laps of Las Vegas at the limit, 20 seeds", bench_time_trial},
 };
 
 int usage(std::FILE* out, int code) {
