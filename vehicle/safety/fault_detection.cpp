@@ -237,13 +237,16 @@ world::Received<double> part_of(const world::Received<T>& whole, Part part) {
 }
 
 // A rod that is bent or a motor that slips on its shaft turns the wheels elsewhere than its sensor
-// says: the car shows it. Where the sensor itself is outside its bounds, that is the finding.
+// says: the car shows it. Where the sensor itself is outside its bounds, that is the finding; front
+// wheels that lock explain it too.
 void turning(CauseCollector& f, FaultState& state, Instant now) {
   const ActuatorParams& p = f.params.following;
   const double excess_rad =
       std::abs(f.in.innovation_rad) - f.in.innovation_sigma_rad - p.unexplained_max_rad;
   const bool follows = state.steering.within == now;
-  if (!follows || !(excess_rad > 0.0)) state.last_explained = now;  // not a number is explained
+  const bool locks = f.out.front_slip > f.in.lock_slip;
+  if (!follows || locks || !(excess_rad > 0.0))
+    state.last_explained = now;  // not a number is explained
   f.out.steering_biased =
       now - state.last_explained >= p.steering.persist && !f.is_off(Monitor::kSteeringFollows);
   f.add(Monitor::kSteeringFollows, Cause::kSteeringBiased, f.out.steering_biased,
@@ -332,8 +335,8 @@ FaultOutput detect(const FaultParams& params, FaultState& state, const FaultInpu
   gnss(collector);
   streams(collector);
   flags(collector);
-  actuators(collector, state, now);
   wheels(collector, state, now);
+  actuators(collector, state, now);
   computer(collector, state, now);
   clocks(collector, state, now);
   return collector.out;

@@ -17,7 +17,7 @@ namespace pitwall::testing {
 namespace {
 
 constexpr double kRound_mph = 5.0, kLongest_s = 300.0, kSlipAbove_mps = 5.0;
-constexpr double kLapBefore_m = 2454.3 + 500.0;  // and the way to its beginning, from rest
+constexpr double kRampFrom_s = 10.0, kRamp_mps2 = 1.0;
 constexpr double kStart_m = 2250.0;
 
 plant::Params cold_car(double loss) {
@@ -35,12 +35,12 @@ pipeline::Setup setup_of(Chain chain) {
   return setup;
 }
 
-scenario::Scenario scenario_of(std::uint64_t seed) {
+scenario::Scenario scenario_of(const SpinCase& spin) {
   scenario::Scenario s = flying_lap("lvms").scenario;
-  s.seed = seed;
+  s.seed = spin.seed;
   s.duration = from_seconds(kLongest_s);
   s.expect.clear();
-  s.plant = cold_car(drawn_loss(seed));
+  s.plant = cold_car(drawn_loss(spin.seed));
   s.start.s_m = kStart_m;
   s.tyres.temperature_c = kSpinTyre_c;
   scenario::Fault held;  // at their temperature, whatever warms or cools them
@@ -53,20 +53,22 @@ scenario::Scenario scenario_of(std::uint64_t seed) {
                     {.at = seconds(9), .track = world::TrackFlag::kYellow},
                     {.at = seconds(10),
                      .track = world::TrackFlag::kGreen,
-                     .round_target_speed_mph = base_speed_mph() + kSpinRaise_mph}};
+                     .round_target_speed_mph = spin.base_mph + kSpinRaise_mph}};
   return s;
 }
 
 class Drive {
  public:
-  Drive(std::uint64_t seed, Chain chain) : base_mps_(from_mph(base_speed_mph())) {
-    run_.seed = seed, run_.chain = chain, run_.loss = drawn_loss(seed);
+  explicit Drive(const SpinCase& spin) : base_mps_(from_mph(spin.base_mph)) {
+    run_.of = spin, run_.loss = drawn_loss(spin.seed);
   }
 
   pipeline::Outputs step(const pipeline::Setup& setup, pipeline::Car& car,
                          const pipeline::Inputs& in) const {
     pipeline::Inputs own = in;
-    own.operator_speed_limit_mps = run_.raised ? base_mps_ + from_mph(kSpinRaise_mph) : base_mps_;
+    const double ramp_mps = kRamp_mps2 * ((in.now - Instant{}).seconds() - kRampFrom_s);
+    own.operator_speed_limit_mps =
+        run_.raised ? base_mps_ + from_mph(kSpinRaise_mph) : std::clamp(ramp_mps, 0.0, base_mps_);
     return pipeline::step(setup, car, own);
   }
 
@@ -74,8 +76,10 @@ class Drive {
     const plant::Truth& t = rig.truth();
     if (over()) return;
     const double station_m = rig.road().s_m;
-    if (!run_.raised && t.odometer_m > kLapBefore_m && station_before_m_ < kTurn_m &&
-        station_m >= kTurn_m) {
+    const double since_start_s = (now - Instant{}).seconds() - kRampFrom_s;
+    if (kRamp_mps2 * since_start_s < base_mps_) based_m_ = t.odometer_m;
+    const bool at_turn = station_before_m_ < kTurn_m && station_m >= kTurn_m;
+    if (!run_.raised && at_turn && t.odometer_m - based_m_ > lap_m()) {
       run_.raised = true, raised_at_ = now, raised_m_ = t.odometer_m;
       run_.from_mps = t.speed_mps;
     }
@@ -100,7 +104,7 @@ class Drive {
 
   double base_mps_;
   SpinRun run_;
-  double station_before_m_ = 1e9, raised_m_ = 0.0;
+  double station_before_m_ = 1e9, based_m_ = 0.0, raised_m_ = 0.0;
   Instant raised_at_{};
   bool lap_done_ = false;
 };
@@ -114,17 +118,14 @@ double drawn_loss(std::uint64_t seed) {
   return random.between(kLossLeast, kLossMost);
 }
 
-double base_speed_mph() {
-  static const double kBase_mph = [] {
-    const plant::Params plant = cold_car(0.5 * (kLossLeast + kLossMost));
-    const double grip = plant::thermal_grip(plant.thermal, kSpinTyre_c);
-    return kRound_mph * std::floor(to_mph(speed_of(plant, "lvms", grip)) / kRound_mph);
-  }();
-  return kBase_mph;
+double base_speed_mph(double loss) {
+  const plant::Params plant = cold_car(loss);
+  const double grip = plant::thermal_grip(plant.thermal, kSpinTyre_c);
+  return kRound_mph * std::floor(to_mph(speed_of(plant, "lvms", grip)) / kRound_mph);
 }
 
-SpinRun run_spin(std::uint64_t seed, Chain chain) {
-  Drive drive{seed, chain};
+SpinRun run_spin(const SpinCase& spin) {
+  Drive drive{spin};
   bench::LockstepOptions options;
   options.step = [&](const pipeline::Setup& setup, pipeline::Car& car, const pipeline::Inputs& in) {
     return drive.step(setup, car, in);
@@ -133,23 +134,21 @@ SpinRun run_spin(std::uint64_t seed, Chain chain) {
     drive.watch(rig, now);
   };
   options.over = [&](const bench::RunView&) { return drive.over(); };
-  CHECK(bench::run_lockstep(scenario_of(seed), setup_of(chain), options));
+  CHECK(bench::run_lockstep(scenario_of(spin), setup_of(spin.chain), options));
   return drive.run();
 }
 
-std::vector<SpinRun> run_spins(std::size_t seeds, unsigned workers) {
-  std::vector<SpinRun> runs(seeds * kChains.size());
-  static_cast<void>(base_speed_mph());  // reads the files once
-  sweep::in_parallel(runs.size(), workers, [&](std::size_t i) {
-    runs[i] = run_spin(1 + i / kChains.size(), kChains[i % kChains.size()]);
-  });
+std::vector<SpinRun> run_spins(const std::vector<SpinCase>& cases, unsigned workers) {
+  std::vector<SpinRun> runs(cases.size());
+  static_cast<void>(flying_lap("lvms"));  // reads the files once
+  sweep::in_parallel(runs.size(), workers, [&](std::size_t i) { runs[i] = run_spin(cases[i]); });
   return runs;
 }
 
 SpinCount count_of(const std::vector<SpinRun>& runs, Chain chain) {
   SpinCount out;
   for (const SpinRun& run : runs) {
-    if (run.chain != chain) continue;
+    if (run.of.chain != chain) continue;
     out.runs += 1, out.raised += run.raised, out.spun += run.spun, out.left += run.left;
     out.lost += run.lost() && run.raised;
   }
@@ -173,7 +172,7 @@ std::string row_of(const SpinRun& r) {
   return formatted(
       "seed %3llu loss %.3f %-5s %s from %4.1f m/s, to %4.1f m/s, slip %5.1f deg, wall %5.2f m, "
       "%5.1f s after at station %4.0f m",
-      static_cast<unsigned long long>(r.seed), r.loss, text_of(r.chain),
+      static_cast<unsigned long long>(r.of.seed), r.loss, text_of(r.of.chain),
       !r.raised ? (r.lost() ? "LOST BEFORE" : "NOT RAISED ")
       : r.spun  ? "SPINS      "
       : r.left  ? "AT THE WALL"
@@ -186,8 +185,7 @@ std::string to_json(const std::vector<SpinRun>& runs) {
     return std::isfinite(value) ? formatted("%.4g", value) : std::string{"null"};
   };
   const auto yes = [](bool value) { return value ? "true" : "false"; };
-  std::string text = formatted("{\"simulated\": true, \"base_mph\": %.0f, \"raise_mph\": %.0f, ",
-                               base_speed_mph(), kSpinRaise_mph);
+  std::string text = formatted("{\"simulated\": true, \"raise_mph\": %.0f, ", kSpinRaise_mph);
   for (const Chain chain : kChains) {
     const SpinCount c = count_of(runs, chain);
     text += formatted("\"%s\": {\"runs\": %zu, \"raised\": %zu, \"spun\": %zu, \"left\": %zu}, ",
@@ -197,9 +195,11 @@ std::string to_json(const std::vector<SpinRun>& runs) {
   for (std::size_t i = 0; i < runs.size(); ++i) {
     const SpinRun& r = runs[i];
     text += (i == 0 ? "\n" : ",\n") +
-            formatted("{\"seed\": %llu, \"chain\": \"%s\", \"loss\": %s, \"raised\": %s, ",
-                      static_cast<unsigned long long>(r.seed), text_of(r.chain),
-                      number(r.loss).c_str(), yes(r.raised)) +
+            formatted(
+                "{\"seed\": %llu, \"chain\": \"%s\", \"base_mph\": %.0f, \"loss\": %s, \"raised\": "
+                "%s, ",
+                static_cast<unsigned long long>(r.of.seed), text_of(r.of.chain), r.of.base_mph,
+                number(r.loss).c_str(), yes(r.raised)) +
             formatted("\"spun\": %s, \"left\": %s, \"from_mps\": %s, \"fastest_mps\": %s, ",
                       yes(r.spun), yes(r.left), number(r.from_mps).c_str(),
                       number(r.fastest_mps).c_str()) +

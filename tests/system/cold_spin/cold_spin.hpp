@@ -2,9 +2,10 @@
 // drive the same simulated car with the same noise: ours, and the published longitudinal chain,
 // which hands the demanded speed to control without a limit by the line and the tyres.
 //   situation
-//          Las Vegas, both lateral laws ours. A lap at the base speed, then the operator's limit
-//          rises by 20 mph at the beginning of turn 1; the run ends a lap later, with a spin or at
-//          a wall
+//          Las Vegas, both lateral laws ours. The operator's limit rises by 1 m/s^2 to the base
+//          speed: the published chain, told 60 m/s at standstill, spins its rear wheels on cold
+//          tyres. After a lap at the base speed the limit rises by 20 mph at the beginning of turn
+//          1. The run ends a lap later, with a spin or at a wall
 //          Tyres are held at 29 C. The share of grip lost at 30 C is drawn uniformly from 0.25 to
 //          0.45 by the seed, which also draws the noise of the sensors. It was fixed before the
 //          first run
@@ -37,9 +38,14 @@ enum class Chain : std::uint8_t { kOurs, kPaper };
 inline constexpr std::array kChains{Chain::kOurs, Chain::kPaper};
 const char* text_of(Chain chain);
 
-struct SpinRun {
-  std::uint64_t seed = 0;
+// One run of one chain.
+struct SpinCase {
+  std::uint64_t seed = 1;
   Chain chain = Chain::kOurs;
+  double base_mph = kUnset;
+};
+struct SpinRun {
+  SpinCase of;
   double loss = kUnset;             // share of grip lost at 30 C
   bool raised = false;              // the car came to the turn after a lap at the base speed
   bool spun = false, left = false;  // side slip above 20 degrees; a corner of the car in a wall
@@ -53,11 +59,9 @@ struct SpinRun {
 };
 
 double drawn_loss(std::uint64_t seed);
-double base_speed_mph();
-SpinRun run_spin(std::uint64_t seed, Chain chain);
-
-// Both chains with seeds 1 to `seeds`.
-std::vector<SpinRun> run_spins(std::size_t seeds, unsigned workers);
+double base_speed_mph(double loss = 0.5 * (kLossLeast + kLossMost));
+SpinRun run_spin(const SpinCase& spin);
+std::vector<SpinRun> run_spins(const std::vector<SpinCase>& cases, unsigned workers);
 
 struct SpinCount {
   std::size_t runs = 0, raised = 0, spun = 0, left = 0, lost = 0;

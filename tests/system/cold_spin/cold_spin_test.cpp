@@ -11,8 +11,13 @@
 namespace pitwall::testing {
 namespace {
 
-TEST(ColdSpin, ThePublishedChainIsLostAndOursIsNot) {
-  const std::vector<SpinRun> runs = run_spins(3, 2);
+// Of ten seeds the one that draws the least grip.
+TEST(ColdSpin, WithTheLeastGripThePublishedChainIsLostAndOursIsNot) {
+  std::uint64_t worst = 1;
+  for (std::uint64_t seed = 2; seed <= 10; ++seed)
+    if (drawn_loss(seed) > drawn_loss(worst)) worst = seed;
+  const std::vector<SpinRun> runs = run_spins(
+      {{worst, Chain::kOurs, base_speed_mph()}, {worst, Chain::kPaper, base_speed_mph()}}, 2);
   for (const SpinRun& run : runs) std::printf("%s\n", row_of(run).c_str());
   EXPECT_EQ(fault_of(runs), "");
 }
@@ -36,8 +41,11 @@ TEST(ColdSpin, TheGatesAreNotMetByWhateverHappens) {
   const auto runs = [](bool ours_spins, bool paper_spins, bool raised = true) {
     std::vector<SpinRun> all;
     for (std::uint64_t seed = 1; seed <= 10; ++seed) {
-      all.push_back({.seed = seed, .chain = Chain::kOurs, .raised = raised});
-      all.push_back({.seed = seed, .chain = Chain::kPaper, .raised = true, .spun = paper_spins});
+      SpinRun ours, paper;
+      ours.of.seed = paper.of.seed = seed;
+      paper.of.chain = Chain::kPaper;
+      ours.raised = raised, paper.raised = true, paper.spun = paper_spins;
+      all.insert(all.end(), {ours, paper});
     }
     all[0].left = ours_spins;
     return all;
@@ -55,10 +63,15 @@ TEST(ColdSpin, TheGatesAreNotMetByWhateverHappens) {
 }
 
 TEST(ColdSpin, TheFiguresAreJson) {
-  const std::vector<SpinRun> runs{{.seed = 1, .chain = Chain::kPaper, .loss = 0.3}};
+  SpinRun run;
+  run.of = {7, Chain::kPaper, 135.0};
+  const std::vector<SpinRun> runs{run};
   const auto json = json::JsonValue::parse(to_json(runs), "figures");
   ASSERT_TRUE(json) << to_string(json.error());
-  EXPECT_EQ(json->number("base_mph"), base_speed_mph());
+  const json::JsonValue& each = json->items("each")[0];
+  EXPECT_EQ(each.number("seed"), 7.0);
+  EXPECT_EQ(each.number("base_mph"), 135.0);
+  EXPECT_EQ(each.text("chain"), "paper");
 }
 
 }  // namespace

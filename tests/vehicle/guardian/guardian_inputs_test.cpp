@@ -75,6 +75,32 @@ TEST(GuardianInputs, TheSteeringIsTheMotorsAngle) {
   EXPECT_FALSE(state.signals.wheel_speed_mps.received);
 }
 
+// Of two frames, and of one wheel alone only if it agreed with the others without brake.
+TEST(GuardianInputs, ASlippingFrontWheelIsFoundAsInTheCar) {
+  const auto brake = [](double kpa, std::uint8_t counter, Instant at) {
+    av21::BrakePressureReport m;
+    m.brake_pressure_fdbk_front = m.brake_pressure_fdbk_rear = kpa;
+    m.brk_pressure_fdbk_counter = counter;
+    return received_at(m, at);
+  };
+  for (const bool rolled : {false, true}) {
+    State state;
+    Instant at = kAt;
+    const auto receive_next = [&](const can::ReceivedFrame& received) {
+      hear_one(state, received);
+      at += milliseconds(5);
+    };
+    receive_next(brake(rolled ? 0.0 : 2000.0, 1, at));
+    for (int frame = 0; frame < 2; ++frame)
+      receive_next(wheels_at({144.0, 144.0, 144.0, 144.0}, at));
+    receive_next(brake(2000.0, 2, at));
+    receive_next(wheels_at({108.0, 144.0, 144.0, 144.0}, at));
+    EXPECT_NEAR(state.front_slip, 0.0, 1e-9) << "one frame";
+    receive_next(wheels_at({108.0, 144.0, 144.0, 144.0}, at));
+    EXPECT_NEAR(state.front_slip, rolled ? 0.25 : 0.0, 1e-9);
+  }
+}
+
 TEST(GuardianInputs, AFrameOfAnotherLengthIsNotTaken) {
   State state;
   can::ReceivedFrame wheels = wheels_at({36.0, 36.0, 36.0, 36.0}, kAt);

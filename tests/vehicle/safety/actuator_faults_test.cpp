@@ -23,6 +23,7 @@ struct Axle {
   world::ActuatorCommand reported{
       .at = {}, .road_wheel_rad = 0.02, .throttle_fraction = 0.4, .brake_kpa = 1000.0, .gear = 4};
   double innovation_rad = 0.0, innovation_sigma_rad = 0.001;
+  double front_turns = 1.0;  // share of the car's speed that both front wheels have
   double steering_off_rad = 0.0, front_kept = 1.0, rear_kept = 1.0, throttle_off = 0.0;
   bool moves = true;
   double speed_mps = 50.0;
@@ -31,6 +32,8 @@ struct Axle {
     now += milliseconds(10);
     car.at(now, speed_mps);
     car.ego.yaw_rate_rad_per_s = kUnset;
+    for (auto* frame : {&car.signals.wheel_speed_mps, &car.signals.wheel_speed_before_mps})
+      frame->value.at[0] = frame->value.at[1] = front_turns * speed_mps;
     car.signals.steering_motor_rad = {19.5 * reported.road_wheel_rad + steering_off_rad, now, true};
     car.signals.brake = {
         {front_kept * reported.brake_kpa, rear_kept * reported.brake_kpa}, now, true};
@@ -46,6 +49,7 @@ struct Axle {
                    .driving = moves,
                    .moves = moves,
                    .reported = reported,
+                   .lock_slip = 0.1,
                    .innovation_rad = innovation_rad,
                    .innovation_sigma_rad = innovation_sigma_rad,
                    .speed_mps = speed_mps},
@@ -139,6 +143,19 @@ TEST(ActuatorFaults, AnInnovationOfOneBumpIsNoBias) {
   }
   a.innovation_rad = 0.03;
   EXPECT_TRUE(a.run(milliseconds(100)).steering_biased);
+}
+
+// A wheel that is locked does not steer, and no rod is bent.
+TEST(ActuatorFaults, FrontWheelsThatLockExplainACarThatDoesNotTurn) {
+  for (const double turns : {0.5, 0.95}) {
+    Axle a;
+    a.run(seconds(1));
+    a.innovation_rad = 0.03;
+    a.front_turns = turns;
+    const FaultOutput out = a.run(milliseconds(300));
+    EXPECT_EQ(out.causes.has(Cause::kFrontLock), turns == 0.5);
+    EXPECT_EQ(out.steering_biased, turns == 0.95);
+  }
 }
 
 TEST(ActuatorFaults, WithinTheToleranceIsNone) {
