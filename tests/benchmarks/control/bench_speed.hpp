@@ -1,5 +1,5 @@
-// Subcommand `pitwall-benchmarks speed [--only NAME] [--json FILE]`: the paper's longitudinal law and
-// ours, each with its steering, through the same calls, in the same run.
+// Subcommand `pitwall-benchmarks speed [--only NAME] [--json FILE]`: the paper's longitudinal law
+// and ours, each with its steering, through the same calls, in the same run.
 //
 //   in     hil/scenarios/{lvms,ims,tms}_flying_lap.yaml and the car file that they name
 //   out    the table and the gates of speed_table.hpp; two runs at a time

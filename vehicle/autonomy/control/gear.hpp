@@ -6,7 +6,7 @@
 //          who holds a target below a shift does not shift up for a little overshoot, and likewise
 //          down: target and speed agree, or the speed is kBeyond_mps past the shift
 //          the next shift waits until the gearbox reports the last one. What it does not report
-//          within confirm_s is missed: the gear that it has is asked for again, for dwell_s at least
+//          within confirm_s is missed: the gear that it has is asked for, for dwell_s at least
 //          without a fresh report the speed alone decides; who does not drive the car asks for what
 //          it has
 //   errors the gear is held if the speed is not finite

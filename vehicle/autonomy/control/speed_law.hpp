@@ -1,7 +1,7 @@
-// Longitudinal law with feed-forward: the planned acceleration plus a PI on the speed error, limited
-// to what the tyres have left, as throttle and brake pressure by the drivetrain (drivetrain.hpp).
-//   in     reference speed and planned acceleration, the motion of the car, the gear that is engaged,
-//          what was applied in the last tick
+// Longitudinal law with feed-forward: the planned acceleration plus a PI on the speed error,
+// limited to what the tyres have left, as throttle and brake pressure (drivetrain.hpp).
+//   in     reference speed and planned acceleration, the motion of the car and its gear, what was
+//          applied in the last tick
 //   out    throttle and brake pressure
 //   invariants
 //          wanted = planned + clamp(kp e + integral), within the tyres' limits beside the present
