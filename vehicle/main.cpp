@@ -146,6 +146,7 @@ class Drive {
     losses_.add(bus_);
     frames_.gate_refusals = out.passed.refused_total;
     frames_.gate_verdicts = car_->gate.verdicts;
+    frames_.missed_shifts = car_->control.gear.missed;
   }
 
   // A snapshot is made when somebody shall have it now.

@@ -10,6 +10,7 @@
 
 #include "tests/benchmarks/command_line.hpp"
 #include "tests/benchmarks/control/bench_control.hpp"
+#include "tests/benchmarks/control/bench_speed.hpp"
 #include "tests/benchmarks/gateway/bench_gateway.hpp"
 #include "tests/benchmarks/laps/bench_laps.hpp"
 #include "tests/benchmarks/modules/bench_dbc.hpp"
@@ -42,6 +43,7 @@ constexpr std::array kBenchmarks{
     Benchmark{"radio", "radio protocols side by side over one emulated link", bench_radio},
     Benchmark{"radio-gates", "the radio's gates at length, in virtual time", radio_gates},
     Benchmark{"replay", "replay of a CAN log beside canplayer and python-can", bench_replay},
+    Benchmark{"speed", "longitudinal laws side by side, up and down the gears", bench_speed},
     Benchmark{"step", "one step of the car", bench_step},
     Benchmark{"time_trial", "laps of Las Vegas at the limit, 20 seeds", bench_time_trial},
 };

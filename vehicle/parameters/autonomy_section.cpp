@@ -142,6 +142,8 @@ control::Params read_control(yaml::StrictMap map) {
   p.controller = read_controller(map, "controller");
   p.lateral = read_lateral(lateral);
   p.longitudinal = read_longitudinal(map.map("longitudinal"));
+  yaml::StrictMap speed = map.map("speed");
+  read_ranges(speed, control::kSpeedLawRanges, p.speed);
   p.gear = read_gear(map.map("gear"));
   return p;
 }

@@ -67,6 +67,9 @@ CarFile read_root(yaml::StrictMap& map) {
   engine.mass_kg = car.params.control.bicycle.mass_kg;
   engine.up_above_mps = car.params.control.gear.up_above_mps;
   engine.down_below_mps = car.params.control.gear.down_below_mps;
+  control::SpeedLawParams& speed = car.params.control.speed;
+  speed.car = car.params.planning.line.friction;
+  speed.brake_kpa_per_mps2 = stop.brake_kpa_per_mps2;
   car.params.localization.steering_ratio = car.params.outbound.steering_ratio;
   return car;
 }

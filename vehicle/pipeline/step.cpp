@@ -121,12 +121,19 @@ void drive(const Setup& setup, Car& car, const Inputs& in, Outputs& out) {
   if (car.follow == Follow::kDrive && control::is_usable(ego))
     learn(p.learning, p.bicycle, car.learned,
           {ego.vx_mps, ego.yaw_rate_rad_per_s, car.bank_rad, ego.vy_mps}, in.dt);
-  out.steered = control::step(setup.params.control, setup.gains, car.control,
-                              {.ego = ego,
-                               .trajectory = car.plan.output.drive,
-                               .learned = car.learned,
-                               .angle_max_rad = angle_max_rad(setup, out, in.now)},
-                              in.now, in.dt);
+  const world::VehicleSignals& signals = out.received.signals;
+  out.steered =
+      control::step(setup.params.control, setup.gains, car.control,
+                    {.ego = ego,
+                     .trajectory = car.plan.output.drive,
+                     .learned = car.learned,
+                     .angle_max_rad = angle_max_rad(setup, out, in.now),
+                     .gearbox = control::gear_report(signals.powertrain, in.now),
+                     .tyre_c = world::coldest_c(signals.tyre_temperature_c, in.now),
+                     .climb_rad = car.surroundings.road.climb_rad,
+                     .drives = car.follow == Follow::kDrive,
+                     .applied = car.supervisor.last_known ? &car.supervisor.last : nullptr},
+                    in.now, in.dt);
   car.control = out.steered.next;
   out.tracking = {out.steered.lateral.cross_track_m, out.steered.lateral.heading_error_rad,
                   out.steered.target_speed_mps};

@@ -119,6 +119,7 @@ Result<CarSummary, Problem> read_car_summary(const std::string& path) {
     car.tx_drops = count("tx_drops");
     car.rx_dropped = count("rx_dropped");
     car.gate_refusals = count("gate_refusals");
+    car.missed_shifts = count("missed_shifts");
     car.frames_applied = count("frames_applied");
     car.frames_lost = count("frames_lost");
     car.loss_reports = count("loss_reports");

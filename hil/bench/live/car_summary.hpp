@@ -42,7 +42,7 @@ struct CarSummary {
 
   std::uint64_t ticks = 0, missed_deadlines = 0;
   std::uint64_t frames_received = 0, frames_sent = 0, frames_refused = 0, tx_drops = 0;
-  std::uint64_t rx_dropped = 0, gate_refusals = 0;
+  std::uint64_t rx_dropped = 0, gate_refusals = 0, missed_shifts = 0;
   std::uint64_t frames_applied = 0, frames_lost = 0, loss_reports = 0;
   Counts refused_by_kind, gate_verdicts;
   std::string controller;

@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "hil/bench/loading.hpp"
-#include "hil/plant/plant_file.hpp"
 #include "hil/sweep/in_parallel.hpp"
 #include "protocol/json/json_text.hpp"
 #include "protocol/transport/file.hpp"
@@ -36,19 +35,10 @@ struct Job {
 };
 
 Result<Job, Problem> job_of(const bench::Loaded& on, const World& world, const char* law) {
-  scenario::Scenario scenario = on.scenario;
-  scenario.perturb = world.perturb;
-  if (world.plant) scenario.plant = *world.plant;
-  if (!world.plant_file.empty()) {
-    const auto text = transport::read_file(world.plant_file);
-    if (!text) return Unexpected{text.error()};
-    const auto plant = plant::read_plant(*text, world.plant_file);
-    if (!plant) return Unexpected{plant.error()};
-    scenario.plant_file = world.plant_file;
-    scenario.plant = plant->params;
-  }
-  Job job{.plan = control_bench::plan_of(scenario, on.setup.track.length_m()),
-          .lane_changes = control_bench::lane_change_plan(scenario),
+  const auto there = control_bench::in_world(on.scenario, world);
+  if (!there) return Unexpected{there.error()};
+  Job job{.plan = control_bench::plan_of(*there, on.setup.track.length_m()),
+          .lane_changes = control_bench::lane_change_plan(*there),
           .setup = on.setup,
           .law = law,
           .world = world};

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <ranges>
 
+#include "hil/plant/plant_file.hpp"
+#include "protocol/transport/file.hpp"
 #include "protocol/vocabulary/check.hpp"
 #include "protocol/vocabulary/units.hpp"
 #include "tests/hil/plant/family/car_family.hpp"
@@ -90,6 +92,21 @@ std::vector<World> family_worlds(std::size_t count) {
     all.push_back({car.name, "", {}, car.params});
   }
   return all;
+}
+
+Result<scenario::Scenario, Problem> in_world(const scenario::Scenario& scenario,
+                                             const World& world) {
+  scenario::Scenario out = scenario;
+  out.perturb = world.perturb;
+  if (world.plant) out.plant = *world.plant;
+  if (world.plant_file.empty()) return out;
+  const auto text = transport::read_file(world.plant_file);
+  if (!text) return Unexpected{text.error()};
+  const auto plant = plant::read_plant(*text, world.plant_file);
+  if (!plant) return Unexpected{plant.error()};
+  out.plant_file = world.plant_file;
+  out.plant = plant->params;
+  return out;
 }
 
 }  // namespace pitwall::control_bench

@@ -15,6 +15,7 @@
 
 #include "hil/grading/cross_track.hpp"
 #include "hil/scenario/scenario.hpp"
+#include "protocol/vocabulary/result.hpp"
 #include "tests/benchmarks/laps/lap_plan.hpp"
 
 namespace pitwall::control_bench {
@@ -53,5 +54,9 @@ struct World {
 std::vector<World> worlds();
 // The first drawn cars of the family of `./pitwall long cars`, whose seed is 1.
 std::vector<World> family_worlds(std::size_t count);
+
+// Reads the plant file of the world; a Problem of it.
+Result<scenario::Scenario, Problem> in_world(const scenario::Scenario& scenario,
+                                             const World& world);
 
 }  // namespace pitwall::control_bench

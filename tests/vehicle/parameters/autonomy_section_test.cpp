@@ -167,7 +167,10 @@ Reported control(const CarParams& p) {
       {"control.gear.down_below_mps[3]", p.control.gear.down_below_mps[3]},
       {"control.gear.down_below_mps[4]", p.control.gear.down_below_mps[4]},
       {"control.gear.dwell_s", p.control.gear.dwell_s},
+      {"control.gear.confirm_s", p.control.gear.confirm_s},
   };
+  for (const auto& r : control::kSpeedLawRanges)
+    reported["control.speed." + std::string(r.name)] = p.control.speed.*r.value;
   for (std::size_t i = 0; i < control::kSpeedBrackets; ++i) {
     const std::string bracket = "control.lateral.brackets[" + std::to_string(i) + "].";
     for (std::size_t k = 0; k < 4; ++k)

@@ -29,6 +29,7 @@ std::optional<Problem> illegal(const Params& p) {
   if (auto problem = first_illegal(kLateralRanges, p.lateral, "lateral.")) return problem;
   if (auto problem = first_illegal(kLongitudinalRanges, p.longitudinal, "longitudinal."))
     return problem;
+  if (auto problem = first_illegal(kSpeedLawRanges, p.speed, "speed.")) return problem;
   if (auto problem = first_illegal(steering::kRanges, p.steering, "steering.")) return problem;
   if (auto problem =
           first_illegal(steering::kBicycleRanges, p.steering.bicycle, "steering.bicycle."))
@@ -52,10 +53,16 @@ Output step(const Params& params, const LateralGains& gains, const State& state,
   out.next = state;
   const Action action = params.controller.step(params, gains, out.next, in, dt);
   out.lateral = action.lateral;
+  out.speed = action.speed;
   out.target_speed_mps = action.longitudinal.target_speed_mps;
   out.next.road_wheel_rad = action.lateral.angle_rad;
   out.next.longitudinal = action.longitudinal.next;
-  out.next.gear = step(params.gear, state.gear, in.ego.vx_mps, now);
+  out.next.gear = step(params.gear, state.gear,
+                       {.speed_mps = in.ego.vx_mps,
+                        .target_mps = out.target_speed_mps,
+                        .report = in.gearbox,
+                        .drives = in.drives},
+                       now);
   out.command = {.at = now,
                  .road_wheel_rad = out.next.road_wheel_rad,
                  .throttle_fraction = out.next.longitudinal.throttle_fraction,

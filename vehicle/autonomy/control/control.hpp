@@ -19,6 +19,7 @@ namespace pitwall::control {
 struct Output {
   world::ActuatorCommand command;
   LateralDiagnostics lateral;
+  SpeedDiagnostics speed;
   double target_speed_mps = kUnset;
   State next;
 };

@@ -2,6 +2,7 @@
 #include "vehicle/autonomy/control/controller.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "vehicle/autonomy/control/feed_forward.hpp"
 #include "vehicle/autonomy/control/preview.hpp"
@@ -26,12 +27,50 @@ LongitudinalOutput drive(const Params& p, const State& state, const Inputs& in, 
   return step(p.longitudinal, state.longitudinal, target, in.ego.vx_mps, dt);
 }
 
+SpeedInputs speed_inputs(const SpeedLawParams& p, const State& state, const Inputs& in,
+                         bool followed) {
+  constexpr double kSameThrottle = 0.005, kSameBrake_kpa = 20.0;  // slews are rounded twice
+  SpeedInputs out{
+      .motion = {.speed_mps = in.ego.vx_mps, .gear = state.gear.gear, .climb_rad = in.climb_rad},
+      .yaw_rate_rad_per_s = in.ego.yaw_rate_rad_per_s,
+      .tyre_c = in.tyre_c,
+      .shifting = in.gearbox.known && in.gearbox.shifting,
+      .drives = in.drives,
+      .applied = state.longitudinal};
+  if (in.gearbox.known && !in.gearbox.shifting)
+    out.motion.gear = std::min<std::uint8_t>(in.gearbox.gear, kGears);
+  if (in.applied != nullptr) {
+    out.applied = {in.applied->throttle_fraction, in.applied->brake_kpa};
+    out.changed = std::abs(out.applied.throttle_fraction - state.longitudinal.throttle_fraction) >
+                      kSameThrottle ||
+                  std::abs(out.applied.brake_kpa - state.longitudinal.brake_kpa) > kSameBrake_kpa;
+  }
+  const auto here = followed ? project(in.trajectory, in.ego.x_m, in.ego.y_m) : std::nullopt;
+  if (!here) return out;
+  const world::TrajectoryPoint point = at(in.trajectory, *here);
+  out.reference_mps = point.speed_mps;
+  out.bank_rad = point.bank_rad;
+  const double ahead_m = std::max(in.ego.vx_mps, 0.0) * p.accel_preview_s;
+  out.planned_mps2 = at(in.trajectory, *here + ahead_m).accel_mps2;
+  return out;
+}
+
+// The speed law of every controller of ours.
+void drive_forward(const Params& p, State& state, const Inputs& in, Action& action, Duration dt) {
+  const SpeedInputs inputs = speed_inputs(p.speed, state, in, is_followed(action.lateral));
+  const SpeedOutput out = step(p.speed, p.longitudinal, state.speed, inputs, dt);
+  action.longitudinal = {
+      .target_speed_mps = inputs.reference_mps, .raw_command = kUnset, .next = out.next};
+  action.speed = out.seen;
+}
+
 }  // namespace
 
 Action paper_lqr(const Params& p, const LateralGains& gains, State& state, const Inputs& in,
                  Duration dt) {
   Action out;
   state.steering.begun = false;
+  state.speed = {};
   out.lateral =
       steer(p.lateral, gains, {state.road_wheel_rad, in.angle_max_rad}, in.ego, in.trajectory);
   out.longitudinal = drive(p, state, in, is_followed(out.lateral), dt);
@@ -43,7 +82,7 @@ Action feed_forward(const Params& p, const LateralGains&, State& state, const In
   Action out;
   out.lateral = steer_forward(p.steering, p.lateral, in.learned, state.steering,
                               {state.road_wheel_rad, in.angle_max_rad}, in.ego, in.trajectory, dt);
-  out.longitudinal = drive(p, state, in, is_followed(out.lateral), dt);
+  drive_forward(p, state, in, out, dt);
   return out;
 }
 

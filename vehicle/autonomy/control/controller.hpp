@@ -20,7 +20,9 @@
 #include "vehicle/autonomy/control/gear.hpp"
 #include "vehicle/autonomy/control/lateral.hpp"
 #include "vehicle/autonomy/control/longitudinal.hpp"
+#include "vehicle/autonomy/control/speed_law.hpp"
 #include "vehicle/steering/path_steering.hpp"
+#include "vehicle/world/actuator_command.hpp"
 #include "vehicle/world/ego_state.hpp"
 #include "vehicle/world/trajectory.hpp"
 
@@ -33,6 +35,7 @@ struct Inputs;
 struct Action {
   LateralDiagnostics lateral;
   LongitudinalOutput longitudinal;
+  SpeedDiagnostics speed;  // of speed_law.hpp
 };
 
 struct Controller {
@@ -45,7 +48,8 @@ struct Params {
   BicycleParams bicycle;
   LateralParams lateral;
   steering::Params steering;
-  LongitudinalParams longitudinal;
+  LongitudinalParams longitudinal;  // rates and limits of throttle and brake; the published law
+  SpeedLawParams speed;
   GearParams gear;
 };
 
@@ -54,6 +58,7 @@ struct State {
   LongitudinalState longitudinal;
   GearState gear;
   steering::State steering;
+  SpeedLawState speed;
 };
 
 struct Inputs {
@@ -61,12 +66,17 @@ struct Inputs {
   const world::Trajectory& trajectory;
   steering::Learned learned{};
   double angle_max_rad = kUnset;  // limit of the frame gate at this speed; unset: none
+  GearReport gearbox{};
+  double tyre_c = kUnset;  // coldest tyre; unset counts as cold
+  double climb_rad = 0.0;  // of the road, along the path
+  bool drives = true;      // the command is sent to the car, if no other module changes it
+  const world::ActuatorCommand* applied = nullptr;  // in the last tick; null: the last command
 };
 
 // The published controller: lateral.hpp and longitudinal.hpp.
 Action paper_lqr(const Params& params, const LateralGains& gains, State& state,
                  const Inputs& inputs, Duration dt);
-// Steering by feed-forward.hpp.
+// Steering by feed_forward.hpp, speed by speed_law.hpp.
 Action feed_forward(const Params& params, const LateralGains& gains, State& state,
                     const Inputs& inputs, Duration dt);
 

@@ -180,6 +180,7 @@ std::string summary_json(const StepTally& tally, const FrameTotals& frames,
   out.number("tx_drops", frames.tx_drops);
   out.number("rx_dropped", frames.rx_dropped);
   out.number("gate_refusals", frames.gate_refusals);
+  out.number("missed_shifts", frames.missed_shifts);
   out.number("loss_reports", losses.reports());
   json::Object verdicts;
   for (std::size_t i = 0; i < safety::kVerdicts; ++i)

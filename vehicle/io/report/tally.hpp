@@ -61,6 +61,7 @@ struct FrameTotals {
   std::uint64_t received = 0, sent = 0, tx_drops = 0, rx_dropped = 0;
   std::uint64_t gate_refusals = 0;
   std::array<std::uint64_t, safety::kVerdicts> gate_verdicts{};  // of the proposed frames
+  std::uint64_t missed_shifts = 0;  // asked for and not reported by the gearbox in time
 };
 
 // One JSON object. `bus` is that of the last tick; `radio`, `receivers` and `recorder` are the

@@ -37,6 +37,7 @@ io::FrameTotals some_totals() {
   frames.tx_drops = 103;
   frames.rx_dropped = 104;
   frames.gate_refusals = 105;
+  frames.missed_shifts = 116;
   for (std::size_t i = 0; i < frames.gate_verdicts.size(); ++i) frames.gate_verdicts[i] = 200 + i;
   return frames;
 }
@@ -114,6 +115,7 @@ TEST_F(CarSummaryFile, IsReadAsTheCarWroteIt) {
   EXPECT_EQ(car->tx_drops, 103u);
   EXPECT_EQ(car->rx_dropped, 104u);
   EXPECT_EQ(car->gate_refusals, 105u);
+  EXPECT_EQ(car->missed_shifts, 116u);
   EXPECT_EQ(car->frames_refused, 45u);
   EXPECT_EQ(car->step_p50_us, tally.quantile_us(0.5));
   EXPECT_EQ(car->step_p99_us, tally.quantile_us(0.99));

@@ -3,8 +3,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
+#include <cstdio>
 
+#include "protocol/transport/clock.hpp"
 #include "tests/support/allocation_guard.hpp"
 #include "tests/vehicle/autonomy/control/single_track.hpp"
 
@@ -67,7 +70,8 @@ TEST(Control, ABadTuneLosesTheCar) {
 TEST(Control, HoldsSteeringAndLetsGoWithoutTrajectory) {
   const Params p = recommended();
   const LateralGains gains = gains_of(p);
-  State state{.road_wheel_rad = 0.02, .longitudinal = {0.7, 0.0}, .gear = {}, .steering = {}};
+  State state{
+      .road_wheel_rad = 0.02, .longitudinal = {0.7, 0.0}, .gear = {}, .steering = {}, .speed = {}};
   const world::Trajectory none;
   testing::Car car;
   car.vx_mps = 40.0;
@@ -112,23 +116,70 @@ TEST(Control, CommandIsFiniteWhateverTheEgo) {
   }
 }
 
+// A tick of every controller with all that it can be given: engine, gearbox, what was applied.
+struct FullTick {
+  Params params = recommended();
+  LateralGains gains;
+  world::Trajectory trajectory = oval().window(700.0, 45.0);
+  testing::Car car;
+  world::ActuatorCommand applied{.throttle_fraction = 0.3, .brake_kpa = 0.0};
+
+  FullTick() {
+    params.speed.car.engine = envelope::testing::av21_engine();
+    gains = gains_of(params);
+    car.vx_mps = 43.0;
+    car.x_m = trajectory.points[4].x_m, car.y_m = trajectory.points[4].y_m + 0.3;
+    car.yaw_rad = trajectory.points[4].yaw_rad;
+  }
+  Output run(const Controller& controller, State state, Instant now) {
+    params.controller = controller;
+    return step(params, gains, state,
+                {.ego = car.ego(now),
+                 .trajectory = trajectory,
+                 .gearbox = {.known = true, .gear = 3, .shifting = false},
+                 .tyre_c = 70.0,
+                 .climb_rad = 0.01,
+                 .applied = &applied},
+                now, milliseconds(10));
+  }
+};
+
 TEST(Control, TakesNothingFromTheHeap) {
   if (!pitwall::testing::kAllocationsCounted) GTEST_SKIP() << "the sanitizer has its own heap";
-  Params p = recommended();
-  const LateralGains gains = gains_of(p);
-  const auto path = oval();
-  const world::Trajectory t = path.window(0.0, 30.0);
-  testing::Car car;
-  car.vx_mps = 30.0;
-  const world::EgoState ego = car.ego(Instant{});
+  FullTick tick;
   EXPECT_EQ(pitwall::testing::allocations_of([&] {
-              for (const Controller& controller : kControllers) {
-                p.controller = controller;
-                (void)step(p, gains, {}, {.ego = ego, .trajectory = t}, Instant{},
-                           milliseconds(10));
-              }
+              for (const Controller& controller : kControllers)
+                (void)tick.run(controller, {}, Instant{});
             }),
             0u);
+}
+
+// Of the least time of each tick in several runs: the rest is disturbance by the machine.
+TEST(Control, ATickCostsAtMostTwentyMicroseconds) {
+  constexpr double kMost_us = 20.0;
+  constexpr std::size_t kTicks = 400, kRuns = 8;
+  for (const Controller& controller : kControllers) {
+    std::array<double, kTicks> least_us;
+    least_us.fill(1e9);
+    for (std::size_t run = 0; run < kRuns; ++run) {
+      FullTick tick;
+      State state;
+      state.gear.gear = 3;
+      for (std::size_t i = 0; i < kTicks; ++i) {
+        const Instant now{static_cast<std::int64_t>(i) * 10'000'000};
+        tick.car.vx_mps = 43.0 + 0.005 * static_cast<double>(i);
+        const Duration before = transport::thread_time();
+        const Output out = tick.run(controller, state, now);
+        const double took_us = (transport::thread_time() - before).seconds() * 1e6;
+        least_us[i] = std::min(least_us[i], took_us);
+        state = out.next;
+      }
+    }
+    std::ranges::sort(least_us);
+    EXPECT_LE(least_us[kTicks * 99 / 100], kMost_us) << controller.name;
+    std::printf("%s: %.2f us, p99 of %zu ticks\n", std::string(controller.name).c_str(),
+                least_us[kTicks * 99 / 100], kTicks);
+  }
 }
 
 TEST(Control, PrepareNamesTheIllegalParameter) {

@@ -59,7 +59,8 @@ TEST(Controller, ThePapersIsItsTwoLawsAndNothingElse) {
   const Params p = recommended();
   const LateralGains gains = prepare(p).value();
   const Scene scene;
-  State state{.road_wheel_rad = 0.01, .longitudinal = {0.3, 0.0}, .gear = {}, .steering = {}};
+  State state{
+      .road_wheel_rad = 0.01, .longitudinal = {0.3, 0.0}, .gear = {}, .steering = {}, .speed = {}};
   const LateralDiagnostics lateral =
       steer(p.lateral, gains, {state.road_wheel_rad}, scene.ego, scene.trajectory);
   const LongitudinalOutput longitudinal =
@@ -69,6 +70,28 @@ TEST(Controller, ThePapersIsItsTwoLawsAndNothingElse) {
   EXPECT_EQ(action.lateral.angle_rad, lateral.angle_rad);
   EXPECT_NEAR(action.longitudinal.raw_command, longitudinal.raw_command, 1e-12);
   EXPECT_EQ(action.longitudinal.next.throttle_fraction, longitudinal.next.throttle_fraction);
+}
+
+TEST(Controller, OursGoesByTheGearboxAndByWhatWasApplied) {
+  Params p = recommended();
+  p.controller = controller_named("feed_forward");
+  p.speed.car.engine = envelope::testing::av21_engine();
+  const LateralGains gains = prepare(p).value();
+  const Scene scene;
+  const world::ActuatorCommand applied{.throttle_fraction = 0.35, .brake_kpa = 0.0};
+  const auto throttle = [&](const GearReport& report) {
+    Inputs in{.ego = scene.ego, .trajectory = scene.trajectory};
+    in.gearbox = report;
+    in.applied = &applied;
+    State state;
+    state.gear.gear = 3;
+    return step(p, gains, state, in, Instant{}, milliseconds(10)).command.throttle_fraction;
+  };
+  const double engaged = throttle({.known = true, .gear = 3, .shifting = false});
+  EXPECT_NEAR(engaged, 0.35 + p.longitudinal.throttle_rise_per_s * 0.01, 1e-12);
+  EXPECT_EQ(throttle({.known = true, .gear = 3, .shifting = true}), 0.35);
+  EXPECT_LT(throttle({.known = true, .gear = 0, .shifting = false}), 0.35) << "neutral";
+  EXPECT_EQ(throttle({.known = false, .gear = 0, .shifting = true}), engaged) << "stale";
 }
 
 // A controller that can fail: without a yaw rate it hands over to the paper's.

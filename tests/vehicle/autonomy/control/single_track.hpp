@@ -11,6 +11,7 @@
 #include <numbers>
 #include <vector>
 
+#include "tests/vehicle/envelope/car.hpp"
 #include "vehicle/autonomy/control/control.hpp"
 
 namespace pitwall::control::testing {
@@ -248,7 +249,19 @@ inline Params recommended() {
                 .hold_speed_mps = 0.5};
   p.gear = {.up_above_mps = {21.5, 33.5, 45.5, 56.5, 65.5},
             .down_below_mps = {19.0, 30.5, 42.0, 52.5, 61.0},
-            .dwell_s = 0.8};
+            .dwell_s = 0.8,
+            .confirm_s = 0.7};
+  p.speed = {.accel_preview_s = 0.1,
+             .kp_per_s = 1.5,
+             .ki_per_s2 = 0.4,
+             .feedback_max_mps2 = 3.0,
+             .integral_max_mps2 = 1.5,
+             .rolling_mps2 = 0.13,
+             .dead_zone_mps2 = 0.3,
+             .grip_share = 0.9,
+             .car = envelope::testing::av21(),  // its engine unknown, as that of the model here
+             .brake_kpa_per_mps2 = 350.0};
+
   return p;
 }
 

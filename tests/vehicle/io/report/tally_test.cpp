@@ -168,6 +168,7 @@ TEST(Summary, IsReadBackWithEveryKey) {
   FrameTotals frames;
   frames.received = 11, frames.sent = 12, frames.tx_drops = 13, frames.rx_dropped = 14;
   frames.gate_refusals = 15;
+  frames.missed_shifts = 18;
   for (std::size_t i = 0; i < safety::kVerdicts; ++i) frames.gate_verdicts[i] = 1000 + i;
   const auto losses = std::make_unique<LossTally>();
   losses->add(some_health());
@@ -187,7 +188,8 @@ TEST(Summary, IsReadBackWithEveryKey) {
                         {"frames_lost", 17},
                         {"loss_reports", 6},
                         {"frames_refused", 945},
-                        {"gate_refusals", 15}});
+                        {"gate_refusals", 15},
+                        {"missed_shifts", 18}});
     expect_bus(map);
     Expected verdicts;
     for (std::size_t i = 0; i < safety::kVerdicts; ++i)
