@@ -78,6 +78,20 @@ control::LateralParams read_lateral(yaml::StrictMap map) {
   return lateral;
 }
 
+control::LqrParams read_lqr_ff(yaml::StrictMap map) {
+  control::LqrParams lqr;
+  std::vector<yaml::StrictMap> speeds = map.maps("weights");
+  if (speeds.size() != control::kLqrSpeeds)
+    map.fail("weights", "expected one entry per speed: " + std::to_string(control::kLqrSpeeds));
+  for (std::size_t i = 0; i < control::kLqrSpeeds; ++i) {
+    if (speeds[i].number("at_mps", 0.0, 110.0) != control::kLqrSpeed_mps[i])
+      speeds[i].fail("at_mps", "expected " + std::to_string(control::kLqrSpeed_mps[i]) + " m/s");
+    read_ranges(speeds[i], control::kLqrWeightRanges, lqr.weights[i]);
+  }
+  read_ranges(map, control::kLqrRanges, lqr);
+  return lqr;
+}
+
 control::LongitudinalParams read_longitudinal(yaml::StrictMap map) {
   control::LongitudinalParams l;
   read_ranges(map, control::kLongitudinalRanges, l);
@@ -141,6 +155,7 @@ control::Params read_control(yaml::StrictMap map) {
     lateral.fail("drive_law", "is control.controller now, for steering and speed together");
   p.controller = read_controller(map, "controller");
   p.lateral = read_lateral(lateral);
+  p.lqr_ff = read_lqr_ff(map.map("lqr_ff"));
   p.longitudinal = read_longitudinal(map.map("longitudinal"));
   yaml::StrictMap speed = map.map("speed");
   read_ranges(speed, control::kSpeedLawRanges, p.speed);

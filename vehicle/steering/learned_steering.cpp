@@ -29,8 +29,6 @@ double bends(double lateral_mps2) {
   return square(std::min(std::abs(lateral_mps2), kBendsTo_mps2));
 }
 
-double tick_s(Duration dt) { return std::clamp(dt.seconds(), 0.0, kTickMax_s); }
-
 using Covariance = decltype(Learned::covariance);
 
 constexpr std::size_t place_of(std::size_t i, std::size_t j) {

@@ -26,6 +26,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <type_traits>
 
@@ -37,6 +38,8 @@
 namespace pitwall::steering {
 
 inline constexpr double kTickMax_s = 0.05;  // a longer pause counts as this
+
+inline double tick_s(Duration dt) { return std::clamp(dt.seconds(), 0.0, kTickMax_s); }
 
 struct Bicycle {
   double wheelbase_m = 2.971;

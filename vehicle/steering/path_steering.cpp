@@ -12,15 +12,6 @@ constexpr double kObserveFrom_mps = 10.0;  // below, a yaw rate over a speed say
 
 double share_of(double dt_s, double time_s) { return 1.0 - std::exp(-dt_s / time_s); }
 
-// What one unit of curvature takes at the wheel.
-double angle_per_curvature_m(const Params& p, const Learned& learned, double speed_mps,
-                             double lateral_mps2) {
-  const double model = p.bicycle.understeer_rad_per_mps2;
-  const double gradient =
-      model + p.gain_share * std::max(understeer_at(p.bicycle, learned, lateral_mps2) - model, 0.0);
-  return p.bicycle.wheelbase_m + std::max(gradient, 0.0) * speed_mps * speed_mps;
-}
-
 void observe(const Params& p, const Learned& learned, State& s, const Turning& at, double dt_s) {
   double seen_rad = 0.0;
   if (at.speed_mps > kObserveFrom_mps && std::isfinite(at.yaw_rate_rad_per_s))
@@ -37,6 +28,14 @@ double stray_m_rad_per_s2(const Params& p) {
          (1.0 - p.observer_share);
 }
 
+double angle_per_curvature_m(const Params& p, const Learned& learned, double speed_mps,
+                             double lateral_mps2) {
+  const double model = p.bicycle.understeer_rad_per_mps2;
+  const double gradient =
+      model + p.gain_share * std::max(understeer_at(p.bicycle, learned, lateral_mps2) - model, 0.0);
+  return p.bicycle.wheelbase_m + std::max(gradient, 0.0) * speed_mps * speed_mps;
+}
+
 double lag_s(const Params& p, const Learned& learned) { return p.learning.lag_s + learned.lag_s; }
 
 double yaw_per_m(const Params& p, const Learned& learned, double speed_mps, const RoadPoint& at,
@@ -49,11 +48,10 @@ double yaw_per_m(const Params& p, const Learned& learned, double speed_mps, cons
 
 double steer(const Params& p, const Learned& learned, State& s, const SteeringInputs& in,
              Duration dt) {
-  const double dt_s = std::clamp(dt.seconds(), 0.0, kTickMax_s);
   const double speed_mps = std::max(in.speed_mps, 0.0);
   const double v_mps = std::max(speed_mps, p.gain_speed_least_mps);
   const Deviation& at = in.deviation;
-  observe(p, learned, s, {speed_mps, in.yaw_rate_rad_per_s, at.bank_rad}, dt_s);
+  observe(p, learned, s, {speed_mps, in.yaw_rate_rad_per_s, at.bank_rad}, tick_s(dt));
   // A slow car turns at once, and its gyroscopes' noise would reach the wheel.
   const double lead_s = p.lead_s * std::min(v_mps / kLeadFrom_mps, 1.0);
   const double path_rate = v_mps * in.ahead.yaw_per_m_here;
@@ -68,27 +66,38 @@ double steer(const Params& p, const Learned& learned, State& s, const SteeringIn
   const double course_rad = at.course_rad + lead_s * excess_rad_per_s;
   const double feedback_per_m =
       -(w * w * lateral_m + 2.0 * p.damping * w * v_mps * course_rad) / (v_mps * v_mps);
+  const double trim_per_m = p.trim_per_s * per_curvature_m * w * w / (v_mps * v_mps);
+  return steer(p, learned, s, in,
+               {.angle_rad = per_curvature_m * feedback_per_m,
+                .unknown_rad = s.unknown_rad,
+                .trim_rad_per_s = -trim_per_m * at.lateral_m},
+               dt)
+      .angle_rad;
+}
+
+Steered steer(const Params& p, const Learned& learned, State& s, const SteeringInputs& in,
+              const Feedback& feedback, Duration dt) {
+  const double speed_mps = std::max(in.speed_mps, 0.0);
   const double forward_rad =
       angle_rad(p.bicycle, learned, {speed_mps, in.ahead.yaw_per_m, in.ahead.bank_rad});
-  const double known_rad = forward_rad + per_curvature_m * feedback_per_m + s.unknown_rad;
-  if (!std::isfinite(known_rad + at.curvature_per_m)) return in.last_angle_rad;
+  const double known_rad = forward_rad + feedback.angle_rad + feedback.unknown_rad;
+  if (!std::isfinite(known_rad + in.deviation.curvature_per_m)) return {in.last_angle_rad};
   if (speed_mps < p.hold_speed_mps) {  // the wheels would turn on the spot
     s.begun = false;
-    return in.last_angle_rad;
+    return {in.last_angle_rad};
   }
   if (!s.begun) {
     s.begun = true;
     s.trim_rad = 0.0;
     s.bump_rad = in.last_angle_rad - known_rad;
   }
-  const double trim_per_m = p.trim_per_s * per_curvature_m * w * w / (v_mps * v_mps);
   const double raw_rad = known_rad + s.trim_rad + s.bump_rad;
   const double angle_rad = std::clamp(raw_rad, -in.angle_max_rad, in.angle_max_rad);
   if (angle_rad == raw_rad)
-    s.trim_rad = std::clamp(s.trim_rad - trim_per_m * at.lateral_m * dt_s, -p.correction_max_rad,
-                            p.correction_max_rad);
-  s.bump_rad -= share_of(dt_s, p.settle_s) * s.bump_rad;
-  return angle_rad;
+    s.trim_rad = std::clamp(s.trim_rad + feedback.trim_rad_per_s * tick_s(dt),
+                            -p.correction_max_rad, p.correction_max_rad);
+  s.bump_rad -= share_of(tick_s(dt), p.settle_s) * s.bump_rad;
+  return {angle_rad, angle_rad - raw_rad, true};
 }
 
 }  // namespace pitwall::steering

@@ -130,4 +130,25 @@ PathAhead path_ahead(const Params& params, const Learned& learned, double speed_
 double steer(const Params& params, const Learned& learned, State& state, const SteeringInputs& in,
              Duration dt);
 
+// Steering angle that one unit of curvature needs at a speed: A.
+double angle_per_curvature_m(const Params& params, const Learned& learned, double speed_mps,
+                             double lateral_mps2);
+
+// What a feedback law adds to the feed-forward: an angle, a correction of what is not modelled, and
+// the rate of its integral.
+struct Feedback {
+  double angle_rad = 0.0, unknown_rad = 0.0, trim_rad_per_s = 0.0;
+};
+
+struct Steered {
+  double angle_rad = kUnset;
+  double cut_rad = 0.0;    // what the limit took from the angle that the law asked for
+  bool following = false;  // false: the angle is held, and the law begins anew
+};
+
+// The same with the feedback of another law: feed-forward, integral with anti-windup (it is held
+// while the angle is at its limit), first angle without a bump.
+Steered steer(const Params& params, const Learned& learned, State& state, const SteeringInputs& in,
+              const Feedback& feedback, Duration dt);
+
 }  // namespace pitwall::steering

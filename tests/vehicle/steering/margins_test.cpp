@@ -1,14 +1,5 @@
 // The margins of stability of the steering law over a family of linear cars, and the table of them
-// in docs/safe_stop.md. The bounds were there before the figures:
-//   the worst car     Astrom and Murray, Feedback Systems, 2nd ed., sec. 10.3, ask a design for a
-//                     phase margin of 30 to 60 degrees, a factor of 2 to 5 and a sensitivity of at
-//                     most 2. The worst of a family, each of its traits at the end of its range,
-//                     may be a little below: 25 degrees, 1.8 (5 dB) up, a half down, 2.5
-//   nothing learned   for as long as no turn was driven, no more is asked than that the sensitivity
-//                     is below the 4 above which Skogestad and Postlethwaite, Multivariable
-//                     Feedback Control, 2nd ed., sec. 2.4.3, call a loop poor
-//   the car itself    as the first book asks
-//   delay             as long as the longest pause of the computer that the law reckons with
+// in docs/safe_stop.md.
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
@@ -24,45 +15,23 @@
 #include <vector>
 
 #include "protocol/vocabulary/units.hpp"
-#include "tests/vehicle/steering/loop_margins.hpp"
-#include "tests/vehicle/steering/steering_loop.hpp"
+#include "tests/vehicle/steering/margin_family.hpp"
 
 namespace pitwall::steering {
 namespace {
 
+using testing::expect_margins_of_a_car;
+using testing::expect_margins_of_a_family;
+using testing::expect_not_poor;
+using testing::family;
+using testing::kStable;
 using testing::Loop;
 using testing::loop_of;
 using testing::LoopCase;
 using testing::Margins;
+using testing::margins_of;
 using testing::spectral_radius;
-
-constexpr double kStable = 1.0 - 1e-9;  // a spectral radius
-
-std::vector<LoopCase> family() {
-  struct Worn {
-    double front, rear;
-  };
-  struct Actuator {
-    double delay_s, lag_s;
-  };
-  constexpr double kNearCritical = 0.9;
-  std::vector<LoopCase> cars;
-  for (const double understeer : {0.0, 0.0012, 0.0025})
-    for (const double friction : {1.0, 1.3})
-      for (const Worn worn : {Worn{1.0, 1.0}, {0.5, 0.5}, {0.3, 0.5}, {0.6, 0.4}})
-        for (const Actuator actuator : {Actuator{0.02, 0.04}, {0.04, 0.06}, {0.08, 0.1}})
-          for (const double speed_mps : {15.0, 30.0, 45.0, 65.0}) {
-            const LoopCase c{speed_mps, understeer,       friction,       worn.front,
-                             worn.rear, actuator.delay_s, actuator.lag_s, true};
-            if (speed_mps < kNearCritical * critical_speed_mps(c)) cars.push_back(c);
-          }
-  return cars;
-}
-
-Margins margins_of(const Loop& loop) {
-  return testing::margins_of([&](double w) { return response(loop, w); },
-                             std::numbers::pi / kTick.seconds());
-}
+using testing::Worst;
 
 std::string text_of(const LoopCase& c) {
   std::ostringstream out;
@@ -70,35 +39,6 @@ std::string text_of(const LoopCase& c) {
       << c.rear_share << ' ' << c.delay_s << ' ' << c.lag_s << ' ' << c.learned;
   return out.str();
 }
-
-// The worst of each over cars; those that do not come back by themselves are counted.
-struct Worst {
-  Margins margins;
-  std::vector<double> sensitivities;
-  std::size_t unstable = 0, cars = 0;
-
-  void add(const Loop& loop) {
-    ++cars;
-    if (!(spectral_radius(loop) < kStable)) {
-      ++unstable;
-      sensitivities.push_back(HUGE_VAL);
-      return;
-    }
-    const Margins m = margins_of(loop);
-    margins = {.phase_rad = std::min(margins.phase_rad, m.phase_rad),
-               .gain_up = std::min(margins.gain_up, m.gain_up),
-               .gain_down = std::max(margins.gain_down, m.gain_down),
-               .delay_s = std::min(margins.delay_s, m.delay_s),
-               .sensitivity = std::max(margins.sensitivity, m.sensitivity)};
-    sensitivities.push_back(m.sensitivity);
-  }
-
-  double median() const {
-    std::vector<double> sorted = sensitivities;
-    std::sort(sorted.begin(), sorted.end());
-    return sorted[sorted.size() / 2];
-  }
-};
 
 Worst over_family(const Params& params, bool learned) {
   Worst out;
@@ -132,31 +72,11 @@ const Worst& law_before() {
 
 TEST(Margins, TheFamilyHasAsManyCarsAsThePageSays) { EXPECT_EQ(family().size(), 276U); }
 
-TEST(Margins, TheWorstCarOfTheFamilyHasThem) {
-  const Worst& worst = this_law();
-  EXPECT_EQ(worst.unstable, 0U);
-  EXPECT_GE(to_deg(worst.margins.phase_rad), 25.0);
-  EXPECT_GE(worst.margins.gain_up, 1.8);
-  EXPECT_LE(worst.margins.gain_down, 0.5);
-  EXPECT_LE(worst.margins.sensitivity, 2.5);
-  EXPECT_GE(worst.margins.delay_s, kTickMax_s);
-}
+TEST(Margins, TheWorstCarOfTheFamilyHasThem) { expect_margins_of_a_family(this_law()); }
 
-TEST(Margins, WhileNothingIsLearnedTheWorstCarIsNotPoor) {
-  const Worst& worst = this_law_unlearned();
-  EXPECT_EQ(worst.unstable, 0U);
-  EXPECT_LE(worst.margins.sensitivity, 4.0);
-  EXPECT_GE(worst.margins.delay_s, kTickMax_s);
-}
+TEST(Margins, WhileNothingIsLearnedTheWorstCarIsNotPoor) { expect_not_poor(this_law_unlearned()); }
 
-TEST(Margins, OurOwnCarAtSpeedHasThoseOfATextbook) {
-  const Worst own = of_own_car({});
-  EXPECT_EQ(own.unstable, 0U);
-  EXPECT_GE(to_deg(own.margins.phase_rad), 30.0);
-  EXPECT_GE(own.margins.gain_up, 2.0);
-  EXPECT_LE(own.margins.gain_down, 0.5);
-  EXPECT_LE(own.margins.sensitivity, 2.0);
-}
+TEST(Margins, OurOwnCarAtSpeedHasThoseOfATextbook) { expect_margins_of_a_car(of_own_car({})); }
 
 // The tests above can fail.
 TEST(Margins, TheLawBeforeHadThemNot) {
@@ -188,7 +108,8 @@ TEST(Margins, TheLawIsLinearNearAStraight) {
     const testing::LawSystem one = law_of({}, c, 1e-4), other = law_of({}, c, 1e-5);
     for (std::size_t k = 0; k < 5; ++k) {
       for (std::size_t i = 0; i < 5; ++i) ASSERT_NEAR(one.a[k][i], other.a[k][i], 1e-9);
-      for (std::size_t i = 0; i < 3; ++i) ASSERT_NEAR(one.b[k][i], other.b[k][i], 1e-9);
+      for (std::size_t i = 0; i < testing::kMeasured; ++i)
+        ASSERT_NEAR(one.b[k][i], other.b[k][i], 1e-9);
     }
   }
 }

@@ -44,7 +44,12 @@ std::optional<Problem> illegal(const Params& p) {
 
 Result<LateralGains, Problem> prepare(const Params& params) {
   if (auto problem = illegal(params)) return Unexpected{*problem};
-  return design(params.lateral, params.bicycle);
+  auto gains = design(params.lateral, params.bicycle);
+  if (!gains) return gains;
+  auto lqr = design(params.lqr_ff, params.bicycle);
+  if (!lqr) return Unexpected{lqr.error()};
+  gains->lqr_ff = *lqr;
+  return gains;
 }
 
 Output step(const Params& params, const LateralGains& gains, const State& state, const Inputs& in,

@@ -86,4 +86,13 @@ Action feed_forward(const Params& p, const LateralGains&, State& state, const In
   return out;
 }
 
+Action lqr_ff(const Params& p, const LateralGains& gains, State& state, const Inputs& in,
+              Duration dt) {
+  Action out;
+  out.lateral = steer_lqr(p.steering, gains.lqr_ff, p.lateral, in.learned, state.lqr_ff,
+                          {state.road_wheel_rad, in.angle_max_rad}, in.ego, in.trajectory, dt);
+  drive_forward(p, state, in, out, dt);
+  return out;
+}
+
 }  // namespace pitwall::control

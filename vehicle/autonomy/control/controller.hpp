@@ -20,6 +20,7 @@
 #include "vehicle/autonomy/control/gear.hpp"
 #include "vehicle/autonomy/control/lateral.hpp"
 #include "vehicle/autonomy/control/longitudinal.hpp"
+#include "vehicle/autonomy/control/lqr_ff.hpp"
 #include "vehicle/autonomy/control/speed_law.hpp"
 #include "vehicle/steering/path_steering.hpp"
 #include "vehicle/world/actuator_command.hpp"
@@ -47,6 +48,7 @@ struct Params {
   Controller controller;
   BicycleParams bicycle;
   LateralParams lateral;
+  LqrParams lqr_ff;
   steering::Params steering;
   LongitudinalParams longitudinal;  // rates and limits of throttle and brake; the published law
   SpeedLawParams speed;
@@ -59,6 +61,7 @@ struct State {
   GearState gear;
   steering::State steering;
   SpeedLawState speed;
+  LqrState lqr_ff;
 };
 
 struct Inputs {
@@ -79,10 +82,14 @@ Action paper_lqr(const Params& params, const LateralGains& gains, State& state,
 // Steering by feed_forward.hpp, speed by speed_law.hpp.
 Action feed_forward(const Params& params, const LateralGains& gains, State& state,
                     const Inputs& inputs, Duration dt);
+// Steering by lqr_ff.hpp, speed by speed_law.hpp.
+Action lqr_ff(const Params& params, const LateralGains& gains, State& state, const Inputs& inputs,
+              Duration dt);
 
 inline constexpr std::array kControllers{
     Controller{"paper_lqr", paper_lqr},
     Controller{"feed_forward", feed_forward},
+    Controller{"lqr_ff", lqr_ff},
 };
 
 // Without a step if there is none of this name.

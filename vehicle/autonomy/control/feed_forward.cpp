@@ -29,15 +29,15 @@ Errors errors_at(const TrajectoryPoint& p, const EgoState& ego) {
 
 }  // namespace
 
-LateralDiagnostics steer_forward(const steering::Params& params, const LateralParams& lateral,
-                                 const steering::Learned& learned, steering::State& state,
-                                 const Angles& angles, const EgoState& ego,
-                                 const world::Trajectory& trajectory, Duration dt) {
-  LateralDiagnostics out;
+OnPath on_path(const steering::Params& params, const LateralParams& lateral,
+               const steering::Learned& learned, const Angles& angles, const EgoState& ego,
+               const world::Trajectory& trajectory) {
+  OnPath path;
+  LateralDiagnostics& out = path.diagnostics;
   out.angle_rad = angles.last_rad;
-  if (!is_usable(ego)) return out.verdict = LateralVerdict::kNoEgo, out;
+  if (!is_usable(ego)) return out.verdict = LateralVerdict::kNoEgo, path;
   const auto on_path_m = project(trajectory, ego.x_m, ego.y_m);
-  if (!on_path_m) return out.verdict = LateralVerdict::kNoTrajectory, out;
+  if (!on_path_m) return out.verdict = LateralVerdict::kNoTrajectory, path;
   const double v_mps = std::max(ego.vx_mps, 0.0);
   const TrajectoryPoint here = at(trajectory, *on_path_m);
   const auto road_at = [&](double ahead_m) -> steering::RoadPoint {
@@ -48,20 +48,31 @@ LateralDiagnostics steer_forward(const steering::Params& params, const LateralPa
   out.cross_track_m = out.e1_m = e.lateral_m;
   out.heading_error_rad = out.e2_rad = e.heading_rad;
   out.bracket = static_cast<std::uint8_t>(bracket_of(v_mps));
-  const double max_rad = angle_max_rad(lateral, angles);
-  out.angle_rad = steering::steer(
-      params, learned, state,
-      {.deviation = {e.lateral_m, e.course_rad, here.curvature_per_m, here.bank_rad},
-       .ahead = path_ahead(params, learned, v_mps, road_at),
-       .speed_mps = v_mps,
-       .yaw_rate_rad_per_s = ego.yaw_rate_rad_per_s,
-       .last_angle_rad = angles.last_rad,
-       .angle_max_rad = max_rad},
-      dt);
-  out.saturated = std::abs(out.angle_rad) >= max_rad;
   out.verdict = std::abs(e.lateral_m) <= lateral.deviation_max_m ? LateralVerdict::kGood
                                                                  : LateralVerdict::kTooFar;
+  path.in = {.deviation = {e.lateral_m, e.course_rad, here.curvature_per_m, here.bank_rad},
+             .ahead = path_ahead(params, learned, v_mps, road_at),
+             .speed_mps = v_mps,
+             .yaw_rate_rad_per_s = ego.yaw_rate_rad_per_s,
+             .last_angle_rad = angles.last_rad,
+             .angle_max_rad = angle_max_rad(lateral, angles)};
+  return path;
+}
+
+LateralDiagnostics steered(const OnPath& path, double angle_rad) {
+  LateralDiagnostics out = path.diagnostics;
+  out.angle_rad = angle_rad;
+  out.saturated = std::abs(angle_rad) >= path.in.angle_max_rad;
   return out;
+}
+
+LateralDiagnostics steer_forward(const steering::Params& params, const LateralParams& lateral,
+                                 const steering::Learned& learned, steering::State& state,
+                                 const Angles& angles, const EgoState& ego,
+                                 const world::Trajectory& trajectory, Duration dt) {
+  const OnPath path = on_path(params, lateral, learned, angles, ego, trajectory);
+  if (!path.is_usable()) return path.diagnostics;
+  return steered(path, steering::steer(params, learned, state, path.in, dt));
 }
 
 }  // namespace pitwall::control

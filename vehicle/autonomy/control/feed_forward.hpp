@@ -14,7 +14,26 @@
 
 namespace pitwall::control {
 
+// Where the car is on its path, for every law with feed-forward: the verdict and errors of the
+// diagnostics, and the inputs of steering/path_steering.hpp.
+struct OnPath {
+  LateralDiagnostics diagnostics;
+  steering::SteeringInputs in;
+
+  bool is_usable() const {
+    return diagnostics.verdict == LateralVerdict::kGood ||
+           diagnostics.verdict == LateralVerdict::kTooFar;
+  }
+};
+
 // The angle limits are those of `lateral` and `angles`.
+OnPath on_path(const steering::Params& params, const LateralParams& lateral,
+               const steering::Learned& learned, const Angles& angles, const world::EgoState& ego,
+               const world::Trajectory& trajectory);
+
+// The diagnostics with the angle of a law.
+LateralDiagnostics steered(const OnPath& path, double angle_rad);
+
 LateralDiagnostics steer_forward(const steering::Params& params, const LateralParams& lateral,
                                  const steering::Learned& learned, steering::State& state,
                                  const Angles& angles, const world::EgoState& ego,

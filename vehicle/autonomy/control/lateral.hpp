@@ -22,6 +22,7 @@
 #include "protocol/vocabulary/result.hpp"
 #include "protocol/vocabulary/units.hpp"
 #include "vehicle/autonomy/control/bicycle_params.hpp"
+#include "vehicle/autonomy/control/lqr_gains.hpp"
 #include "vehicle/world/ego_state.hpp"
 #include "vehicle/world/legal_range.hpp"
 #include "vehicle/world/trajectory.hpp"
@@ -58,6 +59,7 @@ inline constexpr auto kLateralRanges = std::to_array<world::NamedRange<LateralPa
 using LateralGain = std::array<double, 4>;
 struct LateralGains {
   std::array<LateralGain, kSpeedBrackets> k;
+  LqrGains lqr_ff;  // of lqr_ff.hpp; not made here
 };
 
 enum class LateralVerdict : std::uint8_t { kUnknown, kGood, kNoTrajectory, kNoEgo, kTooFar };

@@ -70,8 +70,12 @@ TEST(Control, ABadTuneLosesTheCar) {
 TEST(Control, HoldsSteeringAndLetsGoWithoutTrajectory) {
   const Params p = recommended();
   const LateralGains gains = gains_of(p);
-  State state{
-      .road_wheel_rad = 0.02, .longitudinal = {0.7, 0.0}, .gear = {}, .steering = {}, .speed = {}};
+  State state{.road_wheel_rad = 0.02,
+              .longitudinal = {0.7, 0.0},
+              .gear = {},
+              .steering = {},
+              .speed = {},
+              .lqr_ff = {}};
   const world::Trajectory none;
   testing::Car car;
   car.vx_mps = 40.0;

@@ -59,8 +59,12 @@ TEST(Controller, ThePapersIsItsTwoLawsAndNothingElse) {
   const Params p = recommended();
   const LateralGains gains = prepare(p).value();
   const Scene scene;
-  State state{
-      .road_wheel_rad = 0.01, .longitudinal = {0.3, 0.0}, .gear = {}, .steering = {}, .speed = {}};
+  State state{.road_wheel_rad = 0.01,
+              .longitudinal = {0.3, 0.0},
+              .gear = {},
+              .steering = {},
+              .speed = {},
+              .lqr_ff = {}};
   const LateralDiagnostics lateral =
       steer(p.lateral, gains, {state.road_wheel_rad}, scene.ego, scene.trajectory);
   const LongitudinalOutput longitudinal =

@@ -222,6 +222,19 @@ inline Params recommended() {
   p.lateral.angle_max_rad = 0.1;
   p.lateral.gain_speed_floor_mps = 5.0;
   p.lateral.deviation_max_m = 5.0;
+  p.lqr_ff = {.weights = {{{0.001, 1400.0},
+                           {0.001, 1400.0},
+                           {0.02, 1500.0},
+                           {0.24, 2800.0},
+                           {0.24, 4000.0},
+                           {0.014, 2400.0},
+                           {0.013, 2900.0},
+                           {0.013, 4200.0},
+                           {0.017, 20000.0}}},
+              .delay_s = 0.06,
+              .lag_s = 0.06,
+              .tyre_share = 0.5,
+              .trim_per_s = 0.05};
   p.longitudinal = {.kp_per_mps = 0.2,
                     .feedforward_per_mps = 0.008,
                     .brake_kpa_per_command = 7000.0,
