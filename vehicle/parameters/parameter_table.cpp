@@ -55,7 +55,6 @@ std::string autonomy_lines() {
          lines_of("planning", planning::kRanges) +
          lines_of("planning.stop", planning::kStopPathRanges) +
          lines_of("control.lateral", control::kLateralRanges) +
-         lines_of("control.lqr_ff.weights", control::kLqrWeightRanges) +
          lines_of("control.lqr_ff", control::kLqrRanges) +
          lines_of("control.longitudinal", control::kLongitudinalRanges) +
          lines_of("control.speed", control::kSpeedLawRanges) +

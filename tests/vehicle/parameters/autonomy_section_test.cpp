@@ -177,6 +177,12 @@ Reported control(const CarParams& p) {
       reported[bracket + "q[" + std::to_string(k) + "]"] = p.control.lateral.weights[i].state[k];
     reported[bracket + "r"] = p.control.lateral.weights[i].steering;
   }
+  for (const auto& r : control::kLqrRanges)
+    reported["control.lqr_ff." + std::string(r.name)] = p.control.lqr_ff.*r.value;
+  for (std::size_t i = 0; i < control::kLqrSpeeds; ++i)
+    for (const auto& r : control::kLqrWeightRanges)
+      reported["control.lqr_ff.weights[" + std::to_string(i) + "]." + r.name] =
+          p.control.lqr_ff.weights[i].*r.value;
   return reported;
 }
 
@@ -295,6 +301,17 @@ TEST(AutonomySection, BracketsBeginWhereTheControllerHasThem) {
   EXPECT_NE(why.find("25"), std::string::npos) << why;
 }
 
+TEST(AutonomySection, WeightsAreThoseOfTheSpeedsOfTheDesign) {
+  const std::string why = refusal(with(av21(), "at_mps: 22", "at_mps: 23"));
+  EXPECT_NE(why.find("at_mps"), std::string::npos) << why;
+  EXPECT_NE(why.find("22"), std::string::npos) << why;
+  const std::string row = "      - {at_mps: 22, turn: 0.02, angle: 1500.0}\n";
+  for (const std::string& instead : {std::string{}, row + row}) {
+    const std::string count = refusal(with(av21(), row, instead));
+    EXPECT_NE(count.find("one entry per speed: 9"), std::string::npos) << count;
+  }
+}
+
 TEST(AutonomySection, EveryUnitAndEveryBracketIsNeededOnce) {
   int rows = 0;
   for (const testing::Piece& line : testing::lines(av21())) {
@@ -311,8 +328,8 @@ TEST(AutonomySection, EveryUnitAndEveryBracketIsNeededOnce) {
 }
 
 TEST(AutonomySection, AControllerThatIsNoneAndTheOldKeyAreRefusedWithTheNamesOfNow) {
-  EXPECT_EQ(read_car(av21(), "car.yaml")->params.control.controller.name, "feed_forward");
-  const std::string none = refusal(with(av21(), "controller: feed_forward", "controller: pid"));
+  EXPECT_EQ(read_car(av21(), "car.yaml")->params.control.controller.name, "lqr_ff");
+  const std::string none = refusal(with(av21(), "controller: lqr_ff", "controller: pid"));
   EXPECT_NE(none.find("paper_lqr, feed_forward"), std::string::npos) << none;
   const std::string old =
       refusal(with(av21(), "    brackets:", "    drive_law: feed_forward\n    brackets:"));

@@ -16,8 +16,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
+#include <fstream>
 #include <initializer_list>
+#include <iterator>
 #include <numbers>
+#include <string>
 #include <vector>
 
 #include "protocol/vocabulary/units.hpp"
@@ -107,6 +111,27 @@ inline void expect_margins_of_a_car(const Worst& own) {
   EXPECT_GE(own.margins.gain_up, 2.0);
   EXPECT_LE(own.margins.gain_down, 0.5);
   EXPECT_LE(own.margins.sensitivity, 2.0);
+}
+
+// A row of the tables of docs/safe_stop.md.
+inline std::string row_of(const char* law, const Worst& worst) {
+  char text[200];
+  const Margins& m = worst.margins;
+  if (worst.unstable != 0)
+    std::snprintf(text, sizeof text, "| %s | none in %zu cases | | | | %.1f |", law, worst.unstable,
+                  worst.median());
+  else
+    std::snprintf(text, sizeof text, "| %s | %.1f deg | %.2f / %.1f | %.0f ms | %.1f | %.1f |", law,
+                  to_deg(m.phase_rad), m.gain_up, 1.0 / m.gain_down, 1e3 * m.delay_s, m.sensitivity,
+                  worst.median());
+  return text;
+}
+
+inline void expect_on_the_page(std::initializer_list<std::string> rows) {
+  std::ifstream file(PITWALL_SOURCE_DIR "/docs/safe_stop.md");
+  const std::string page{std::istreambuf_iterator<char>(file), {}};
+  for (const std::string& row : rows)
+    EXPECT_NE(page.find(row + '\n'), std::string::npos) << "docs/safe_stop.md has not: " << row;
 }
 
 }  // namespace pitwall::steering::testing

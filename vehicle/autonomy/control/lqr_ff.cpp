@@ -11,15 +11,31 @@ namespace {
 
 using PathError = std::array<double, 4>;  // e1, e1', e2, e2'
 
-PathError path_error(const steering::Params& p, const steering::Learned& learned,
-                     const LqrInputs& in, double v_mps) {
+double share_of(double time_s) { return 1.0 - std::exp(-kLqrTick.seconds() / time_s); }
+
+// Slip angle beyond the steady one of the path.
+double slip_error_rad(const steering::Params& p, const LqrGains& gains, LqrState& state,
+                      double seen_rad, double turn_error_rad_per_s, double v_mps) {
+  const double lag_s = gains.rear_slip_rad_per_mps2 * v_mps;
+  const double asked_rad = (p.bicycle.cg_to_rear_m / v_mps - lag_s) * turn_error_rad_per_s;
+  state.model_slip_rad += share_of(lag_s) * (asked_rad - state.model_slip_rad);
+  const double beyond_rad = seen_rad - state.model_slip_rad;
+  state.slip_offset_rad += share_of(gains.slip_s) * (beyond_rad - state.slip_offset_rad);
+  return seen_rad - state.slip_offset_rad;
+}
+
+PathError path_error(const steering::Params& p, const LqrGains& gains,
+                     const steering::Learned& learned, LqrState& state, const LqrInputs& in,
+                     double v_mps) {
   const steering::Deviation& at = in.path.deviation;
   const double cos_bank = std::cos(at.bank_rad);
   const double steady_rad =
       steering::slip_rad(p.bicycle, learned, {v_mps, at.curvature_per_m, at.bank_rad});
-  const double slip_rad = in.slip_mps / v_mps - steady_rad;
-  return {at.lateral_m, v_mps * at.course_rad, at.course_rad - slip_rad * cos_bank,
-          in.path.yaw_rate_rad_per_s / cos_bank - v_mps * in.path.ahead.yaw_per_m_here};
+  const double seen_rad = (in.slip_mps / v_mps - steady_rad) * cos_bank;
+  const double turn_error_rad_per_s =
+      in.path.yaw_rate_rad_per_s / cos_bank - v_mps * in.path.ahead.yaw_per_m_here;
+  const double slip_rad = slip_error_rad(p, gains, state, seen_rad, turn_error_rad_per_s, v_mps);
+  return {at.lateral_m, v_mps * at.course_rad, at.course_rad - slip_rad, turn_error_rad_per_s};
 }
 
 double regulated_rad(const LqrGain& gain, const LqrState& state, const PathError& error) {
@@ -48,16 +64,18 @@ double steer_lqr(const steering::Params& p, const LqrGains& gains, const steerin
   const double scale = steering::angle_per_curvature_m(p, learned, v_mps, demand_mps2) /
                        steering::angle_per_curvature_m(p, {}, v_mps, 0.0);
   const LqrGain gain = gain_at(gains, v_mps);
-  const double u_rad = regulated_rad(gain, state, path_error(p, learned, in, v_mps));
+  LqrState next = state;
+  const double u_rad = regulated_rad(gain, state, path_error(p, gains, learned, next, in, v_mps));
   const steering::Steered steered =
-      steering::steer(p, learned, state.path, in.path,
+      steering::steer(p, learned, next.path, in.path,
                       {.angle_rad = scale * u_rad,
                        .trim_rad_per_s = -gains.trim_per_s * scale * gain.error[0] * at.lateral_m},
                       dt);
   if (steered.following)
-    send(gains, state, u_rad + steered.cut_rad / scale);
+    send(gains, next, u_rad + steered.cut_rad / scale);
   else
-    state.sent_rad = {}, state.wheel_rad = 0.0;
+    next = {.path = next.path};
+  state = next;
   return steered.angle_rad;
 }
 

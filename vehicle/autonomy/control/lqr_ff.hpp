@@ -7,8 +7,11 @@
 //          angle = L k + K a + d' + A / A0 u + trim + bump, see path_steering.hpp; A0 is A with
 //          nothing learned
 //          u     = -(gains of e1, e1', e2, e2', angle of the road wheels, u within the delay):
-//                  e1' = v chi, e2' = r / cos(bank) - v k_yaw, e2 = chi less what the car slips
-//                  beyond the steady slip angle of its path
+//                  e1' = v chi, e2' = r / cos(bank) - v k_yaw, e2 = chi - s
+//          s     = what the car slips beyond the steady slip angle of its path, high-pass of the
+//                  measured one over slip_s and low-pass of the model's: G v s' = (lr / v - G v)
+//                  e2' - s. The steady slip angle of a car is not known to a milliradian, and the
+//                  gain of e2 is 40 times that of e1
 //          trim' = -trim_per_s A / A0 (gain of e1) e1, held while the angle is at its limit; what
 //          the limit takes from u was not sent
 //   errors as in path_steering.hpp; while the law does not follow nothing counts as sent
@@ -28,8 +31,9 @@ namespace pitwall::control {
 
 struct LqrState {
   steering::State path;
-  std::array<double, kLqrDelayTicks> sent_rad{};  // u of the ticks before, newest first
-  double wheel_rad = 0.0;                         // what of it the road wheels have turned
+  std::array<double, kLqrDelayTicks> sent_rad{};       // u of the ticks before, newest first
+  double wheel_rad = 0.0;                              // what of it the road wheels have turned
+  double model_slip_rad = 0.0, slip_offset_rad = 0.0;  // s by the model; what is measured beyond it
 };
 static_assert(std::is_trivially_copyable_v<LqrState>);
 

@@ -88,6 +88,10 @@ Result<LqrGains, Problem> design(const LqrParams& params, const BicycleParams& c
   LqrGains gains;
   gains.delay_ticks = static_cast<std::size_t>(std::lround(params.delay_s / kLqrTick.seconds()));
   gains.wheel_share = 1.0 - std::exp(-kLqrTick.seconds() / params.lag_s);
+  gains.rear_slip_rad_per_mps2 =
+      car.mass_kg * car.cg_to_front_m /
+      ((car.cg_to_front_m + car.cg_to_rear_m) * params.tyre_share * car.cornering_rear_n_per_rad);
+  gains.slip_s = params.slip_s;
   gains.trim_per_s = params.trim_per_s;
   for (std::size_t i = 0; i < kLqrSpeeds; ++i) {
     const std::string place = "lqr_ff.weights[" + std::to_string(i) + "].";

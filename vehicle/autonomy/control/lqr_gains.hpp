@@ -39,6 +39,7 @@ struct LqrParams {
   double delay_s = kUnset;     // computer, bus and actuator, from a command to its first effect
   double lag_s = kUnset;       // of the actuator
   double tyre_share = kUnset;  // of the cornering stiffness of the bicycle: worn tyres
+  double slip_s = kUnset;      // over which a measured slip angle is compared with the model's
   double trim_per_s = kUnset;  // rate of the integral, in gains of e1
 };
 
@@ -51,6 +52,7 @@ inline constexpr auto kLqrRanges = std::to_array<world::NamedRange<LqrParams>>({
     {"delay_s", &LqrParams::delay_s, 0.01, 0.2},
     {"lag_s", &LqrParams::lag_s, 0.02, 0.3},
     {"tyre_share", &LqrParams::tyre_share, 0.2, 1.5},
+    {"slip_s", &LqrParams::slip_s, 0.2, 20.0},
     {"trim_per_s", &LqrParams::trim_per_s, 0.0, 1.0},
 });
 
@@ -64,7 +66,8 @@ struct LqrGains {
   std::array<LqrGain, kLqrSpeeds> at_speed;
   std::size_t delay_ticks = 0;
   double wheel_share = 0.0;  // of the way to the command that the wheels turn in a tick
-  double trim_per_s = 0.0;
+  double rear_slip_rad_per_mps2 = kUnset;    // of the model, G
+  double slip_s = kUnset, trim_per_s = 0.0;  // of the parameters
 };
 
 Result<LqrGains, Problem> design(const LqrParams& params, const BicycleParams& car);

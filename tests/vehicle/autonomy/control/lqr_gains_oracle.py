@@ -1,9 +1,9 @@
 #!/usr/bin/python3
 """Gains of the lateral law lqr_ff by SciPy, for lqr_gains_test.cpp.
 
-In, by lines: mass, yaw inertia, axle distances, cornering stiffnesses; delay in ticks, lag, share of
-the stiffness; then a speed and its weights each. Out, one line for a speed: gains of e1, e1', e2,
-e2', the angle of the road wheels, and the commands within the delay, newest first.
+In, by lines: mass, yaw inertia, axle distances, cornering stiffnesses; delay in ticks, lag, share
+of the stiffness; then a speed and its weights each. Out, one line for a speed: gains of e1, e1',
+e2, e2', the angle of the road wheels, and the commands within the delay, newest first.
 """
 # SPDX-License-Identifier: Apache-2.0
 import sys

@@ -58,10 +58,13 @@ TEST(LqrGains, AreThoseOfSciPy) {
   }
 }
 
-TEST(LqrGains, TheWheelsFollowAsTheLagSays) {
+TEST(LqrGains, TheWheelsFollowAsTheLagSaysAndTheRearAxleSlipsAsItsTyresSay) {
   const Params p = recommended();
   EXPECT_NEAR(lqr_gains_of(p).wheel_share, 1.0 - std::exp(-0.01 / p.lqr_ff.lag_s), 1e-15);
   EXPECT_EQ(lqr_gains_of(p).trim_per_s, p.lqr_ff.trim_per_s);
+  EXPECT_EQ(lqr_gains_of(p).slip_s, p.lqr_ff.slip_s);
+  // 790 * 1.724 / 2.971 / 130e3.
+  EXPECT_NEAR(lqr_gains_of(p).rear_slip_rad_per_mps2, 0.0035263, 1e-6);
 }
 
 // Between two speeds no gain jumps, and at a speed of the grid it is that of the design.

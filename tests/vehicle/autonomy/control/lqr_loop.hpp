@@ -15,8 +15,8 @@ namespace pitwall::control::testing {
 using steering::testing::kMeasured;
 using steering::testing::LoopCase;
 
-// States of the law: trim, bump, turned wheels, what was sent, the command.
-constexpr std::size_t kLqrStates = 3 + kLqrDelayTicks + 1;
+// States of the law: trim, bump, turned wheels, two of the slip, what was sent, the command.
+constexpr std::size_t kLqrStates = 5 + kLqrDelayTicks + 1;
 
 inline std::array<double, kLqrStates> lqr_tick(const steering::Params& params,
                                                const LqrGains& gains, const LoopCase& c,
@@ -25,8 +25,11 @@ inline std::array<double, kLqrStates> lqr_tick(const steering::Params& params,
   steering::Learned learned;
   if (c.learned)
     learned.understeer_rad_per_mps2 = c.understeer - params.bicycle.understeer_rad_per_mps2;
-  LqrState state{.path = {.begun = true, .trim_rad = x[0], .bump_rad = x[1]}, .wheel_rad = x[2]};
-  std::copy_n(x.begin() + 3, kLqrDelayTicks, state.sent_rad.begin());
+  LqrState state{.path = {.begun = true, .trim_rad = x[0], .bump_rad = x[1]},
+                 .wheel_rad = x[2],
+                 .model_slip_rad = x[3],
+                 .slip_offset_rad = x[4]};
+  std::copy_n(x.begin() + 5, kLqrDelayTicks, state.sent_rad.begin());
   const double angle_rad = steer_lqr(params, gains, learned, state,
                                      {.path = {.deviation = {measured[0], measured[1], 0.0, 0.0},
                                                .ahead = {0.0, 0.0, 0.0},
@@ -36,8 +39,9 @@ inline std::array<double, kLqrStates> lqr_tick(const steering::Params& params,
                                                .angle_max_rad = 1.0},
                                       .slip_mps = measured[3]},
                                      kTick);
-  std::array<double, kLqrStates> next{state.path.trim_rad, state.path.bump_rad, state.wheel_rad};
-  std::copy_n(state.sent_rad.begin(), kLqrDelayTicks, next.begin() + 3);
+  std::array<double, kLqrStates> next{state.path.trim_rad, state.path.bump_rad, state.wheel_rad,
+                                      state.model_slip_rad, state.slip_offset_rad};
+  std::copy_n(state.sent_rad.begin(), kLqrDelayTicks, next.begin() + 5);
   next.back() = angle_rad;
   return next;
 }

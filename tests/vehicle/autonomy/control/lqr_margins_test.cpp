@@ -3,6 +3,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
+#include <array>
+#include <vector>
+
 #include "tests/vehicle/autonomy/control/lqr_loop.hpp"
 
 namespace pitwall::control {
@@ -31,13 +34,17 @@ Worst over(const LqrParams& params, std::vector<LoopCase> cars, bool learned) {
   return out;
 }
 
-TEST(LqrMargins, TheWorstCarOfTheFamilyHasThoseOfTheStop) {
-  expect_margins_of_a_family(over(recommended().lqr_ff, family(), true));
+const Worst& over_family(bool learned) {
+  static const std::array worst{over(recommended().lqr_ff, family(), false),
+                                over(recommended().lqr_ff, family(), true)};
+  return worst[learned ? 1 : 0];
 }
 
-TEST(LqrMargins, WhileNothingIsLearnedTheWorstCarIsNotPoor) {
-  expect_not_poor(over(recommended().lqr_ff, family(), false));
+TEST(LqrMargins, TheWorstCarOfTheFamilyHasThoseOfTheStop) {
+  expect_margins_of_a_family(over_family(true));
 }
+
+TEST(LqrMargins, WhileNothingIsLearnedTheWorstCarIsNotPoor) { expect_not_poor(over_family(false)); }
 
 TEST(LqrMargins, OurOwnCarHasThoseOfATextbookAtEverySpeed) {
   for (const double speed_mps : {10.0, 15.0, 22.0, 30.0, 37.0, 45.0, 55.0, 65.0, 75.0}) {
@@ -76,6 +83,13 @@ TEST(LqrMargins, AtTheMarginTheClosedLoopCeasesToBeStable) {
     EXPECT_LT(spectral_radius(loop, m.gain_down * (1.0 + kInside)), kStable) << i;
     EXPECT_GT(spectral_radius(loop, m.gain_down * (1.0 - kInside)), 1.0) << i;
   }
+}
+
+TEST(LqrMargins, AreThoseOfThePage) {
+  steering::testing::expect_on_the_page(
+      {row_of("lqr_ff", over_family(true)),
+       row_of("lqr_ff, nothing learned yet", over_family(false)),
+       row_of("lqr_ff, our own car at 65 m/s", over(recommended().lqr_ff, {LoopCase{}}, true))});
 }
 
 }  // namespace

@@ -229,11 +229,12 @@ inline Params recommended() {
                            {0.24, 4000.0},
                            {0.014, 2400.0},
                            {0.013, 2900.0},
-                           {0.013, 4200.0},
+                           {0.011, 4600.0},
                            {0.017, 20000.0}}},
               .delay_s = 0.06,
               .lag_s = 0.06,
               .tyre_share = 0.5,
+              .slip_s = 1.0,
               .trim_per_s = 0.05};
   p.longitudinal = {.kp_per_mps = 0.2,
                     .feedforward_per_mps = 0.008,
