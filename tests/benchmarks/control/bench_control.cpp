@@ -24,7 +24,7 @@ using control_bench::Gate;
 using control_bench::LaneChangeRow;
 using control_bench::World;
 
-constexpr std::array kLaws{control_bench::kPaper, control_bench::kOurs};
+constexpr std::array kLaws{control_bench::kPaper, control_bench::kOfStops, control_bench::kOurs};
 constexpr unsigned kWorkers = 2;
 
 struct Job {

@@ -21,7 +21,8 @@
 namespace pitwall::control_bench {
 
 inline constexpr const char* kPaper = "paper_lqr";
-inline constexpr const char* kOurs = "feed_forward";
+inline constexpr const char* kOurs = "lqr_ff";
+inline constexpr const char* kOfStops = "feed_forward";  // beside them, not judged
 
 // By the brackets of grading::kBrackets.
 struct Goal {
