@@ -56,13 +56,13 @@ void send(const LqrGains& gains, LqrState& state, double u_rad) {
 
 double steer_lqr(const steering::Params& p, const LqrGains& gains, const steering::Learned& learned,
                  LqrState& state, const LqrInputs& in, Duration dt) {
-  CHECK(gains.delay_ticks >= 1 && gains.delay_ticks <= kLqrDelayTicks);
+  CHECK(gains.delay_ticks > 0);
   const steering::Deviation& at = in.path.deviation;
   const double v_mps = std::max(in.path.speed_mps, p.gain_speed_least_mps);
   const double demand_mps2 =
       steering::lateral_demand_mps2({v_mps, at.curvature_per_m, at.bank_rad});
   const double scale = steering::angle_per_curvature_m(p, learned, v_mps, demand_mps2) /
-                       steering::angle_per_curvature_m(p, {}, v_mps, 0.0);
+                       steering::angle_per_curvature_m(p, {}, v_mps, demand_mps2);
   const LqrGain gain = gain_at(gains, v_mps);
   LqrState next = state;
   const double u_rad = regulated_rad(gain, state, path_error(p, gains, learned, next, in, v_mps));

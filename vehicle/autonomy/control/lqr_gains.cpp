@@ -31,18 +31,14 @@ ActuatedCar actuated(const LqrParams& params, BicycleParams car, double speed_mp
   return out;
 }
 
-// Series of the exponential, of a matrix halved until it is small.
-HeldMatrix exponential(HeldMatrix m) {
-  constexpr int kTerms = 12;
-  constexpr double kSmall = 0.25;
-  int halved = 0;
-  for (; m.cwiseAbs().maxCoeff() > kSmall; ++halved) m *= 0.5;
+// By its series, until a term is nothing: of a tick, the matrix is small.
+HeldMatrix exponential(const HeldMatrix& m) {
+  constexpr double kNothing = 1e-18;
   HeldMatrix sum = HeldMatrix::Identity(), term = HeldMatrix::Identity();
-  for (int i = 1; i <= kTerms; ++i) {
+  for (int i = 1; term.cwiseAbs().maxCoeff() > kNothing; ++i) {
     term = (term.lazyProduct(m) / i).eval();
     sum += term;
   }
-  for (; halved > 0; --halved) sum = sum.lazyProduct(sum).eval();
   return sum;
 }
 

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <deque>
 #include <numeric>
@@ -64,10 +65,12 @@ TEST(LqrFf, OnItsPathTheCarHasTheAngleOfTheRoadAhead) {
 
 // The law, written again with whatever was sent in a queue.
 TEST(LqrFf, IsTheRegulatorOfTheErrorsAndOfWhatWasSent) {
-  const Law law;
-  const steering::Params& p = law.params.steering;
   Random random{7};
-  for (int run = 0; run < 20; ++run) {
+  for (int run = 0; run < 30; ++run) {
+    Law law;
+    const steering::Params& p = law.params.steering;
+    law.params.lqr_ff.delay_s = std::array{0.01, 0.06, 0.2}[static_cast<std::size_t>(run % 3)];
+    law.gains = design(law.params.lqr_ff, law.params.bicycle).value();
     const double v = random.between(12.0, 70.0), bank = random.between(-0.4, 0.4);
     const double kappa = random.between(-0.004, 0.004), here = random.between(-0.004, 0.004);
     const LqrGain gain = gain_at(law.gains, v);
@@ -127,6 +130,13 @@ TEST(LqrFf, ASlipAngleThatStaysMovesTheCarNoFurther) {
   for (int i = 0; i < 1500; ++i) last = law(state, in);
   EXPECT_GT(std::abs(first - right), 1e-3);
   EXPECT_NEAR(last, right, 1e-6);
+}
+
+TEST(LqrFfDeath, WithoutADesignItDoesNotSteer) {
+  Law law;
+  law.gains = {};
+  LqrState state = begun();
+  EXPECT_DEATH((void)law(state, on_its_path(law.params.steering, {})), "CHECK");
 }
 
 TEST(LqrFf, WhileItDoesNotFollowNothingWasSent) {

@@ -43,7 +43,7 @@ TEST(LqrGains, AreThoseOfSciPy) {
   ASSERT_EQ(std::system(command.c_str()), 0)  // NOLINT: a test
       << "does /usr/bin/python3 have SciPy (python3-scipy)?";
   std::ifstream answer(answered);
-  constexpr double kClose = 1e-7;  // of each gain
+  constexpr double kClose = 1e-9;  // of each gain
   for (std::size_t i = 0; i < kLqrSpeeds; ++i) {
     const auto expect = [&](double ours) {
       double theirs = 0.0;
