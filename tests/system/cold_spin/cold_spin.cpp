@@ -31,6 +31,7 @@ pipeline::Setup setup_of(Chain chain) {
   pipeline::Setup setup = flying_lap("lvms").setup;
   if (chain == Chain::kOurs) return setup;
   setup.params.planning.speed_law = planning::SpeedLaw::kPaper;
+  setup.params.control.controller = control::controller_named("paper_lqr");
   setup.params.supervisor.faults.off.add(world::Monitor::kOversteer);
   return setup;
 }

@@ -2,10 +2,10 @@
 // drive the same simulated car with the same noise: ours, and the published longitudinal chain,
 // which hands the demanded speed to control without a limit by the line and the tyres.
 //   situation
-//          Las Vegas, both lateral laws ours. The operator's limit rises by 1 m/s^2 to the base
-//          speed: the published chain, told 60 m/s at standstill, spins its rear wheels on cold
-//          tyres. After a lap at the base speed the limit rises by 20 mph at the beginning of turn
-//          1. The run ends a lap later, with a spin or at a wall
+//          Las Vegas. The operator's limit rises by 1 m/s^2 to the base speed: the published
+//          chain, told 60 m/s at standstill, spins its rear wheels on cold tyres. After a lap at
+//          the base speed the limit rises by 20 mph at the beginning of turn 1. The run ends a lap
+//          later, with a spin or at a wall
 //          Tyres are held at 29 C. The share of grip lost at 30 C is drawn uniformly from 0.25 to
 //          0.45 by the seed, which also draws the noise of the sensors. It was fixed before the
 //          first run
@@ -15,7 +15,8 @@
 //          of that loss uses at most 0.8 of its lateral grip at the hardest place of the lap
 //          (kUseShare of cars/car_stops.hpp)
 //   published chain
-//          planning.speed_law paper; the monitor of over-steer, which the paper's car had not, off
+//          planning.speed_law paper, control.controller paper_lqr; the monitor of over-steer, which
+//          the paper's car had not, off
 //   source Saba et al., Fast and Modular Autonomy Software for Autonomous Racing Vehicles
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
