@@ -52,7 +52,7 @@ TEST(TrialTable, EveryUncleanRunIsNamedButOneOnASlipperyRoadMissesNoGate) {
     EXPECT_NE(to_text(with(change, touches)).find("TOUCHED A WALL"), std::string::npos);
     EXPECT_NE(to_text(with(change, spins)).find("SPUN"), std::string::npos);
   }
-  EXPECT_NE(to_json(with(0, touches)).find("\"clean\":false"), std::string::npos)
+  EXPECT_NE(to_json(with(0, touches)).find("\"clean\": false, \"fast\": true"), std::string::npos)
       << to_json(with(0, touches));
 }
 
