@@ -36,8 +36,8 @@ Plan plan_of(const scenario::Scenario& like, const planning::Params& limits) {
     s.race_control.push_back(
         {.at = at, .track = world::TrackFlag::kGreen, .round_target_speed_mph = speed_mph});
     const double change_mps = speed_mps - last_mps;
-    const double ramp_mps2 =
-        kRampShare * (change_mps > 0.0 ? limits.accel_max_mps2 : limits.decel_max_mps2);
+    const double ramp_mps2 = kRampShare * (change_mps > 0.0 ? limits.racing.accel_max_mps2
+                                                            : limits.racing.decel_max_mps2);
     const Duration steady = at + from_seconds(std::abs(change_mps) / ramp_mps2 + kLanding_s);
     plan.holds.push_back({speed_mps, at, steady, steady + from_seconds(kSteady_s)});
     plan.slow_downs += change_mps < 0.0 ? 1 : 0;
