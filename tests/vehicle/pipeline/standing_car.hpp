@@ -134,6 +134,14 @@ class StandingCar {
                                         .mode_switch_state = 0,
                                         .raptor_rolling_counter = static_cast<double>(n % 8),
                                         .safety_switch_state = 0});
+      case av21::PtReport1::kId:
+        return encoded(av21::PtReport1{.engine_run_switch = 1,
+                                       .engine_state = 1,
+                                       .throttle_position = 0,
+                                       .current_gear = 1,
+                                       .engine_speed_rpm = 1500,
+                                       .vehicle_speed_kmph = 0,
+                                       .gear_shift_status = 1});
       default:
         break;
     }
