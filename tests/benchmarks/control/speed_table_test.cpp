@@ -60,7 +60,7 @@ TEST(SpeedTable, ThePapersRowIsShownAndNotJudged) {
   paper.law = control_bench::kPaper, paper.overshoot_mps = 2.0;
   EXPECT_TRUE(all_held({good(), paper}));
   EXPECT_NE(to_text({good(), paper}).find("paper_lqr"), std::string::npos);
-  EXPECT_NE(to_json({good(), paper}).find("\"law\":\"paper_lqr\""), std::string::npos);
+  EXPECT_NE(to_json({good(), paper}).find("\"law\": \"paper_lqr\""), std::string::npos);
 }
 
 }  // namespace
