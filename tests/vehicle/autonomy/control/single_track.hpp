@@ -200,6 +200,23 @@ inline Lap drive(const Params& params, const LateralGains& gains, const Path& pa
   return lap;
 }
 
+inline LqrParams recommended_lqr_ff() {
+  return {.weights = {{{0.001, 1400.0},
+                       {0.001, 1400.0},
+                       {0.02, 1500.0},
+                       {0.24, 2800.0},
+                       {0.24, 4000.0},
+                       {0.014, 2400.0},
+                       {0.013, 2900.0},
+                       {0.011, 4600.0},
+                       {0.017, 20000.0}}},
+          .delay_s = 0.06,
+          .lag_s = 0.06,
+          .tyre_share = 0.5,
+          .slip_s = 1.0,
+          .trim_per_s = 0.05};
+}
+
 // Recommended parameters of the AV-21.
 inline Params recommended() {
   Params p;
@@ -222,20 +239,7 @@ inline Params recommended() {
   p.lateral.angle_max_rad = 0.1;
   p.lateral.gain_speed_floor_mps = 5.0;
   p.lateral.deviation_max_m = 5.0;
-  p.lqr_ff = {.weights = {{{0.001, 1400.0},
-                           {0.001, 1400.0},
-                           {0.02, 1500.0},
-                           {0.24, 2800.0},
-                           {0.24, 4000.0},
-                           {0.014, 2400.0},
-                           {0.013, 2900.0},
-                           {0.011, 4600.0},
-                           {0.017, 20000.0}}},
-              .delay_s = 0.06,
-              .lag_s = 0.06,
-              .tyre_share = 0.5,
-              .slip_s = 1.0,
-              .trim_per_s = 0.05};
+  p.lqr_ff = recommended_lqr_ff();
   p.longitudinal = {.kp_per_mps = 0.2,
                     .feedforward_per_mps = 0.008,
                     .brake_kpa_per_command = 7000.0,
