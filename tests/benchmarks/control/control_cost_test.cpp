@@ -3,24 +3,22 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/benchmarks/laps/lap_plan.hpp"
+#include "tests/benchmarks/laps/shipped_scenario.hpp"
 
 namespace pitwall::control_bench {
 namespace {
 
 const std::vector<std::string> kBoth{"paper_lqr", "feed_forward"};
 
-Result<bench::Loaded, Problem> seconds_of_a_lap() {
-  auto loaded = bench::load(laps::kScenarios.front(), "");
-  if (loaded) loaded->scenario.duration = seconds(12);
+bench::Loaded seconds_of_a_lap() {
+  bench::Loaded loaded = laps::shipped_scenario("lvms_flying_lap");
+  loaded.scenario.duration = seconds(12);
   return loaded;
 }
 
 // How long it takes is the machine's; that all was measured, and that nothing allocates, is not.
 TEST(ControlCost, MeasuresEachLawWithTheInputsOfADrive) {
-  const auto loaded = seconds_of_a_lap();
-  ASSERT_TRUE(loaded) << to_string(loaded.error());
-  const auto cost = measure_cost(*loaded, kBoth);
+  const auto cost = measure_cost(seconds_of_a_lap(), kBoth);
   ASSERT_TRUE(cost) << to_string(cost.error());
   EXPECT_GT(cost->ticks, 500U);
   EXPECT_GT(cost->profile_points, 1000U);
@@ -52,11 +50,10 @@ TEST(ControlCost, AGateForEachFigure) {
 }
 
 TEST(ControlCost, AParameterThatControlRefusesIsToldWithItsName) {
-  auto loaded = seconds_of_a_lap();
-  ASSERT_TRUE(loaded) << to_string(loaded.error());
-  loaded->scenario.duration = seconds(1);
-  loaded->setup.params.control.lateral.angle_max_rad = 9.0;
-  const auto cost = measure_cost(*loaded, kBoth);
+  bench::Loaded loaded = seconds_of_a_lap();
+  loaded.scenario.duration = seconds(1);
+  loaded.setup.params.control.lateral.angle_max_rad = 9.0;
+  const auto cost = measure_cost(loaded, kBoth);
   ASSERT_FALSE(cost);
   EXPECT_EQ(cost.error().place, "lateral.angle_max_rad");
 }

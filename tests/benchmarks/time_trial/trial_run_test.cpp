@@ -45,7 +45,7 @@ TEST(TrialRun, ARunThatIsCutShortIsNotClean) {
 
 TEST(TrialRun, ACarWithoutGripIsNotClean) {
   bench::Loaded slippery = trial(1);
-  slippery.scenario.perturb.friction = 0.35;
+  slippery.scenario.perturb.friction = 0.65;
   slippery.scenario.duration = seconds(120);
   const auto row = run_trial(slippery.scenario, slippery.setup);
   ASSERT_TRUE(row);

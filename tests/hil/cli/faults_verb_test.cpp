@@ -32,7 +32,7 @@ TEST_F(FaultsVerb, AFaultIsJudgedAtAnotherSpeed) {
   const ProgramOutput walking = run({"faults", "--only", "f06", "--speed", "walking"});
   EXPECT_EQ(walking.code, 0) << walking.out << walking.err;
   EXPECT_NE(walking.out.find("f06_frames_twice@walking"), std::string::npos) << walking.out;
-  EXPECT_NE(walking.out.find("drives 3."), std::string::npos) << walking.out;
+  EXPECT_NE(walking.out.find("drives 4.0 m/s"), std::string::npos) << walking.out;
   expect_refusal({"faults", "--only", "x_oversteer", "--speed", "walking"},
                  "not possible at this speed");
 }

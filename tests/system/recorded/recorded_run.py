@@ -3,7 +3,7 @@
 scenario of its own in lockstep: recorded_run.py BENCH
 
 The car that made the recording drives the same modes and commands within the tolerances; a car
-with another gain does not. The scenario has the verdict and the modes of the one that was recorded.
+with less throttle does not. The scenario has the verdict and the modes of the one that was recorded.
 """
 # SPDX-License-Identifier: Apache-2.0
 import json
@@ -83,13 +83,13 @@ def main():
         expect(same["compared_s"] > 14, "the whole run")
         expect(same["not_played"] == 0 and same["played_frames"] > 10000, "all frames are played")
 
-        car = folder / "stiffer.yaml"
-        gain = (TREE / CAR).read_text().replace("kp_per_mps: 0.2\n", "kp_per_mps: 0.6\n")
-        car.write_text(gain)
+        car = folder / "weaker.yaml"
+        weaker = (TREE / CAR).read_text().replace("throttle_max: 1.0\n", "throttle_max: 0.05\n")
+        car.write_text(weaker)
         text, other = compare(folder, "record", 1, "--car", str(car))
-        expect("stiffer.yaml: not the file that the run was driven with" in text, "another file")
+        expect("weaker.yaml: not the file that the run was driven with" in text, "another file")
         found = {d["signal"]: d for d in other["differences"]}
-        expect("accelerator_cmd.acc_pedal_cmd" in found, "the gain is found in the accelerator")
+        expect("accelerator_cmd.acc_pedal_cmd" in found, "the limit is found in the accelerator")
         expect(found["accelerator_cmd.acc_pedal_cmd"]["first"]["at_s"] > 5,
                "not before the car is let go")
         drive_as_scenario(folder)
