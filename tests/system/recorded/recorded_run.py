@@ -3,7 +3,8 @@
 scenario of its own in lockstep: recorded_run.py BENCH
 
 The car that made the recording drives the same modes and commands within the tolerances; a car
-with less throttle does not. The scenario has the verdict and the modes of the one that was recorded.
+with less throttle does not. The scenario has the verdict and the modes of the one that was
+recorded.
 """
 # SPDX-License-Identifier: Apache-2.0
 import json
