@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "hil/bench/lockstep/lockstep.hpp"
-#include "protocol/vocabulary/text.hpp"
+#include "tests/benchmarks/control/control_run.hpp"
 
 namespace pitwall::speed_bench {
 namespace {
@@ -37,17 +37,10 @@ class Watch {
 
   void look(const pipeline::Outputs& out, const bench::Rig& rig, Instant now) {
     if (!row_.end.empty() || now < Instant{} + plan_.holds.front().from) return;
-    const double speed_mps = rig.truth().speed_mps;
-    const world::Mode mode = out.chosen.mode;
-    if (rig.road().contact || mode == world::Mode::kControlledStop ||
-        mode == world::Mode::kEmergencyStop) {
-      row_.end = std::string(rig.road().contact ? "wall" : safety::text_of(out.chosen.cause)) +
-                 formatted(" at %.1f m/s, %.1f s", speed_mps, now.seconds());
-      return;
-    }
-    if (mode != world::Mode::kDriving) return;
+    row_.end = control_bench::early_end(out, rig, now);
     const Hold* hold = hold_at(now);
-    if (hold == nullptr) return;
+    if (out.chosen.mode != world::Mode::kDriving || !row_.end.empty() || hold == nullptr) return;
+    const double speed_mps = rig.truth().speed_mps;
     const bool steady = now >= Instant{} + hold->steady_from;
     look_at_gears(out, now);
     look_at_pedals(out.chosen.command, steady);

@@ -44,23 +44,9 @@ const pipeline::Setup& setup_of(const std::string& track) {
 }
 
 scenario::Scenario scenario_of(const CarStopCase& stop) {
-  scenario::Scenario s = flying_lap(stop.place.track).scenario;
+  scenario::Scenario s = green_run(stop.place.track, stop.plant, kTyre_c, to_mph(stop.speed_mps));
   s.duration = from_seconds(kEnd_s);
-  s.expect.clear();
-  s.plant = stop.plant;
   s.start.s_m = stop.place.start_m;
-  s.tyres.temperature_c = kTyre_c;
-  scenario::Fault held;  // at their temperature, whatever warms or cools them
-  held.kind = "cold_tyres";
-  held.lasts = from_seconds(1e3);
-  held.value = kTyre_c;
-  s.faults = {held};
-  s.race_control = {{.at = milliseconds(500), .track = world::TrackFlag::kRed},
-                    {.at = seconds(4), .track = world::TrackFlag::kOrange},
-                    {.at = seconds(9), .track = world::TrackFlag::kYellow},
-                    {.at = seconds(10),
-                     .track = world::TrackFlag::kGreen,
-                     .round_target_speed_mph = to_mph(stop.speed_mps)}};
   return s;
 }
 
@@ -254,6 +240,25 @@ void run_car_stops(const CarStopCase& stop, CarStopResults& results, const std::
   run.finish_child();
   std::fflush(nullptr);
   ::_exit(0);
+}
+
+scenario::Scenario green_run(const std::string& track, const plant::Params& plant, double tyre_c,
+                             double round_mph) {
+  scenario::Scenario s = flying_lap(track).scenario;
+  s.expect.clear();
+  s.plant = plant;
+  s.tyres.temperature_c = tyre_c;
+  scenario::Fault held;
+  held.kind = "cold_tyres";
+  held.lasts = from_seconds(1e3);
+  held.value = tyre_c;
+  s.faults = {held};
+  s.race_control = {
+      {.at = milliseconds(500), .track = world::TrackFlag::kRed},
+      {.at = seconds(4), .track = world::TrackFlag::kOrange},
+      {.at = seconds(9), .track = world::TrackFlag::kYellow},
+      {.at = seconds(10), .track = world::TrackFlag::kGreen, .round_target_speed_mph = round_mph}};
+  return s;
 }
 
 }  // namespace pitwall::testing

@@ -75,5 +75,9 @@ using CarStopResults = std::array<CarStopFigures, kCarStops.size()>;
 void run_car_stops(const CarStopCase& stop, CarStopResults& results, const std::string& trace = {});
 
 const bench::Loaded& flying_lap(const std::string& track);
+// That lap from standstill to green after 10 s, on tyres that keep their temperature, whatever
+// warms or cools them.
+scenario::Scenario green_run(const std::string& track, const plant::Params& plant, double tyre_c,
+                             double round_mph);
 
 }  // namespace pitwall::testing

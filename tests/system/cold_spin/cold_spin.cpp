@@ -37,24 +37,11 @@ pipeline::Setup setup_of(Chain chain) {
 }
 
 scenario::Scenario scenario_of(const SpinCase& spin) {
-  scenario::Scenario s = flying_lap("lvms").scenario;
+  scenario::Scenario s = green_run("lvms", cold_car(drawn_loss(spin.seed)), kSpinTyre_c,
+                                   spin.base_mph + kSpinRaise_mph);
   s.seed = spin.seed;
   s.duration = from_seconds(kLongest_s);
-  s.expect.clear();
-  s.plant = cold_car(drawn_loss(spin.seed));
   s.start.s_m = kStart_m;
-  s.tyres.temperature_c = kSpinTyre_c;
-  scenario::Fault held;  // at their temperature, whatever warms or cools them
-  held.kind = "cold_tyres";
-  held.lasts = from_seconds(1e3);
-  held.value = kSpinTyre_c;
-  s.faults = {held};
-  s.race_control = {{.at = milliseconds(500), .track = world::TrackFlag::kRed},
-                    {.at = seconds(4), .track = world::TrackFlag::kOrange},
-                    {.at = seconds(9), .track = world::TrackFlag::kYellow},
-                    {.at = seconds(10),
-                     .track = world::TrackFlag::kGreen,
-                     .round_target_speed_mph = spin.base_mph + kSpinRaise_mph}};
   return s;
 }
 
