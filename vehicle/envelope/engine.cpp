@@ -40,14 +40,18 @@ double engine_rpm(const Engine& engine, std::size_t gear, double speed_mps) {
   return to_rpm(speed_mps / engine.wheel_radius_m * ratio_of(engine, gear));
 }
 
-double full_torque_nm(const Engine& engine, double rpm) {
-  if (rpm <= engine.rpm[0]) return engine.torque_nm[0];
+double at_rpm(const Engine& engine, const std::array<double, kTorqueRows>& values, double rpm) {
+  if (rpm <= engine.rpm.front()) return values.front();
   for (std::size_t i = 1; i < kTorqueRows; ++i) {
     if (rpm > engine.rpm[i]) continue;
     const double t = (rpm - engine.rpm[i - 1]) / (engine.rpm[i] - engine.rpm[i - 1]);
-    return engine.torque_nm[i - 1] + t * (engine.torque_nm[i] - engine.torque_nm[i - 1]);
+    return values[i - 1] + t * (values[i] - values[i - 1]);
   }
-  return 0.0;
+  return values.back();
+}
+
+double full_torque_nm(const Engine& engine, double rpm) {
+  return rpm > engine.rpm.back() ? 0.0 : at_rpm(engine, engine.torque_nm, rpm);
 }
 
 double mps2_per_nm(const Engine& engine, std::size_t gear) {

@@ -63,6 +63,8 @@ bool is_legal(const Engine& engine);
 
 std::size_t gear_at(const Engine& engine, double speed_mps);  // from 1
 double engine_rpm(const Engine& engine, std::size_t gear, double speed_mps);
+// Between the rows of the table; beyond its ends the value of the end.
+double at_rpm(const Engine& engine, const std::array<double, kTorqueRows>& values, double rpm);
 double full_torque_nm(const Engine& engine, double rpm);
 // Acceleration of the car per torque at the crankshaft, 1 / (kg m).
 double mps2_per_nm(const Engine& engine, std::size_t gear);

@@ -23,12 +23,13 @@ inline constexpr int kCostBlocks = 5;
 
 struct LawCost {
   std::string law;
-  double tick_p99_us = kUnset, prepare_us = kUnset;  // prepare: with the Riccati equations
+  double tick_p99_us = kUnset;
 };
 
 struct ControlCost {
   std::vector<LawCost> laws;
   std::size_t ticks = 0, profile_points = 0, allocations = 0;
+  double prepare_us = kUnset;  // of all laws: the Riccati equations of all speeds
   double profile_us = kUnset;
   double unit_us = 0.0;  // of a reference unit between the blocks
 };

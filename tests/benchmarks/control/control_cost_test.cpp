@@ -26,21 +26,22 @@ TEST(ControlCost, MeasuresEachLawWithTheInputsOfADrive) {
   ASSERT_EQ(cost->laws.size(), 2U);
   for (const LawCost& law : cost->laws) {
     EXPECT_GT(law.tick_p99_us, 0.0);
-    EXPECT_GT(law.prepare_us, law.tick_p99_us);
+    EXPECT_GT(cost->prepare_us, law.tick_p99_us);
   }
   EXPECT_NE(to_text(*cost).find("feed_forward"), std::string::npos);
 }
 
 TEST(ControlCost, AGateForEachFigure) {
-  const ControlCost good{.laws = {{"ours", 19.0, 990.0}},
+  const ControlCost good{.laws = {{"ours", 19.0}},
                          .ticks = 1000,
                          .profile_points = 1200,
+                         .prepare_us = 990.0,
                          .profile_us = 1990.0,
                          .unit_us = cost::kReferenceUnit_us};
   EXPECT_TRUE(gates_of(good).held());
   for (const auto spoil :
        {+[](ControlCost& c) { c.laws[0].tick_p99_us = 21.0; },
-        +[](ControlCost& c) { c.laws[0].prepare_us = 1010.0; },
+        +[](ControlCost& c) { c.prepare_us = 1010.0; },
         +[](ControlCost& c) { c.profile_us = 2010.0; }, +[](ControlCost& c) { c.allocations = 1; },
         +[](ControlCost& c) { c.ticks = 0; }}) {
     ControlCost bad = good;
