@@ -314,6 +314,18 @@ Reading take(Context& c, const av21::MarelliReport1& m) {
   return Reading::kApplied;
 }
 
+Reading take(Context& c, const av21::RestOfField& m) {
+  world::Received<world::RivalReport>& rival = c.state.signals.rival;
+  rival.value = {.number = byte_of(m.comp_veh_num),
+                 .rank = byte_of(m.comp_rank),
+                 .laps = byte_of(m.comp_laps_count),
+                 .lap_distance_m = m.comp_lap_distance,
+                 .speed_mps = from_kmh(m.comp_speed)};
+  rival.at = c.at;
+  rival.received = true;
+  return Reading::kApplied;
+}
+
 template <class M>
 Reading decoded(Context& c, const can::Frame& frame) {
   M message;
@@ -346,7 +358,8 @@ constexpr std::array kReaders{
     reader<av21::TireTempRl4>(),       reader<av21::TireTempRr1>(),
     reader<av21::TireTempRr2>(),       reader<av21::TireTempRr3>(),
     reader<av21::TireTempRr4>(),       reader<av21::PtReport1>(),
-    reader<av21::PtReport2>(),         reader<av21::DiagnosticReport>()};
+    reader<av21::PtReport2>(),         reader<av21::DiagnosticReport>(),
+    reader<av21::RestOfField>()};
 
 }  // namespace
 

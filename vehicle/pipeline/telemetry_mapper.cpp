@@ -190,12 +190,25 @@ void put_plan(Values& v, const TelemetryInputs& in) {
   v[field("planner.line_offset")] = plan.output.line_offset_m;
   v[field("planner.stop_distance")] = plan.output.stop_distance_m;
   v[field("planner.operator_limit")] = in.out.speed_limit_mps;
+  v[field("planner.grip_limited")] = in.out.steered.speed.grip_limited ? 1.0 : 0.0;
+  v[field("planner.missed_shifts")] = in.car.control.gear.missed;
   if (plan.good_at) v[field("planner.age")] = (in.now - *plan.good_at).seconds();
   if (in.out.received.race_control.ever_received)
     v[field("planner.role")] = role_of(in.out.received.race_control);
   if (!plan.made_with.ever_received) return;
   v[field("flags.track_acted_on")] = number_of(plan.made_with.track);
   v[field("flags.vehicle_acted_on")] = number_of(plan.made_with.vehicle);
+}
+
+void put_rival(telemetry::Snapshot& snapshot, const world::Received<world::RivalReport>& rival) {
+  if (!rival.received || rival.value.number == 0) return;
+  Values& v = snapshot.values;
+  v[field("rival.number")] = rival.value.number;
+  v[field("rival.rank")] = rival.value.rank;
+  v[field("rival.laps")] = rival.value.laps;
+  v[field("rival.lap_distance")] = rival.value.lap_distance_m;
+  v[field("rival.speed")] = rival.value.speed_mps;
+  snapshot.at(Group::kRival) = rival.at;
 }
 
 void put_uplink(telemetry::Snapshot& snapshot, const TelemetryInputs& in) {
@@ -252,6 +265,7 @@ telemetry::Snapshot map_telemetry(const TelemetryInputs& in) {
   put_dynamics(v, in);
   put_plan(v, in);
   put_uplink(snapshot, in);
+  put_rival(snapshot, s.rival);
   v[field("track.last_lap_time")] = in.log.last_lap_s();
   if (s.wheel_speed_mps.received)
     v[field("wheels.standstill")] = in.out.chosen.standstill ? 1.0 : 0.0;

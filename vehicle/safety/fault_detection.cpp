@@ -236,16 +236,45 @@ world::Received<double> part_of(const world::Received<T>& whole, Part part) {
   return {whole.value.*part, whole.at, whole.received};
 }
 
+constexpr Duration kYawRateAgeMax = milliseconds(50);
+constexpr double kYawRateSmoothing_s = 0.05;
+
+void compare_yaw_rates(YawRateWatch& watch, const world::SensorInput* sensors, Instant now) {
+  if (sensors == nullptr) return;
+  for (const world::ImuSample& sample : sensors->imu) {
+    if (sample.unit >= world::kGnssUnits) continue;
+    watch.rate_rad_per_s[sample.unit] = sample.rate_rad_per_s[2];
+    watch.at[sample.unit] = now;
+  }
+  const double apart = watch.rate_rad_per_s[0] - watch.rate_rad_per_s[1];
+  const bool both = now - watch.at[0] <= kYawRateAgeMax && now - watch.at[1] <= kYawRateAgeMax;
+  const double dt_s = (now - watch.judged).seconds();
+  watch.judged = now;
+  if (!both || !std::isfinite(apart))
+    watch.apart_rad_per_s = 0.0;
+  else
+    watch.apart_rad_per_s +=
+        (1.0 - std::exp(-dt_s / kYawRateSmoothing_s)) * (apart - watch.apart_rad_per_s);
+}
+
+// Whether the IMUs differ by as much yaw rate as the steering would have to explain: until one of
+// them is excluded, what the car's turning says of its steering is in doubt.
+bool yaw_rate_is_disputed(const CauseCollector& f, const YawRateWatch& watch) {
+  const double apart_rad = std::abs(watch.apart_rad_per_s) * f.in.wheelbase_m / f.in.speed_mps;
+  return apart_rad > f.params.following.unexplained_max_rad;
+}
+
 // A rod that is bent or a motor that slips on its shaft turns the wheels elsewhere than its sensor
 // says: the car shows it. Where the sensor itself is outside its bounds, that is the finding; front
-// wheels that lock explain it too.
+// wheels that lock explain it too, and so does an IMU that is wrong.
 void turning(CauseCollector& f, FaultState& state, Instant now) {
   const ActuatorParams& p = f.params.following;
   const double excess_rad =
       std::abs(f.in.innovation_rad) - f.in.innovation_sigma_rad - p.unexplained_max_rad;
   const bool follows = state.steering.within == now;
   const bool locks = f.out.front_slip > f.in.lock_slip;
-  if (!follows || locks || !(excess_rad > 0.0))
+  const bool disputed = yaw_rate_is_disputed(f, state.yaw_rates);
+  if (!follows || locks || disputed || !(excess_rad > 0.0))
     state.last_explained = now;  // not a number is explained
   f.out.steering_biased =
       now - state.last_explained >= p.steering.persist && !f.is_off(Monitor::kSteeringFollows);
@@ -254,6 +283,7 @@ void turning(CauseCollector& f, FaultState& state, Instant now) {
 }
 
 void actuators(CauseCollector& f, FaultState& state, Instant now) {
+  compare_yaw_rates(state.yaw_rates, f.in.sensors, now);
   const ActuatorParams& p = f.params.following;
   const world::VehicleSignals& s = f.in.signals;
   const world::ActuatorCommand& reported = f.in.reported;

@@ -111,10 +111,19 @@ struct FaultInputs {
   // Last command to the actuators; unset before the first.
   world::ActuatorCommand reported{};
   double steering_ratio = 19.5;
+  double wheelbase_m = kUnset;
   double lock_slip = kUnset;  // a front wheel that slips more is locking
   // Of steering::Learned in this tick; unset while nothing is learned.
   double innovation_rad = kUnset, innovation_sigma_rad = kUnset;
   double speed_mps = kUnset;  // from the wheels
+};
+
+// Yaw rates of the two IMUs against each other.
+struct YawRateWatch {
+  std::array<double, world::kGnssUnits> rate_rad_per_s{kUnset, kUnset};
+  std::array<Instant, world::kGnssUnits> at{};
+  double apart_rad_per_s = 0.0;  // of unit 0 less unit 1, smoothed
+  Instant judged{};
 };
 
 struct FaultState {
@@ -125,6 +134,7 @@ struct FaultState {
   Instant bus_dead_since{};  // time of detection
   FollowState steering, brake_front, brake_rear, throttle;
   Instant last_explained{};  // last time that the car turned as its steering sensor reports
+  YawRateWatch yaw_rates;
   OversteerState oversteer;
   FrontWheelState front_wheels;
   ClockState clock;

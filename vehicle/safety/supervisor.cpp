@@ -262,6 +262,7 @@ SupervisorOutput supervise(const SupervisorParams& params, SupervisorState& stat
                                     .computer = inputs.computer,
                                     .reported = state.last_known ? state.last : ActuatorCommand{},
                                     .steering_ratio = params.steering_ratio,
+                                    .wheelbase_m = params.safe_stop.steering.bicycle.wheelbase_m,
                                     .lock_slip = params.safe_stop.lock_slip,
                                     .innovation_rad = inputs.learned.innovation_rad,
                                     .innovation_sigma_rad = inputs.learned.innovation_sigma_rad,

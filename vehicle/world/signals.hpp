@@ -92,6 +92,14 @@ struct Misc {
   std::uint8_t mode_switch = 0, safety_switch = 0;
 };
 
+// Competitor as race control reports it (CAN 1209), for display.
+struct RivalReport {
+  std::uint8_t number = 0;  // 0: race control names none
+  std::uint8_t rank = 0, laps = 0;
+  double lap_distance_m = kUnset;  // since the start line
+  double speed_mps = kUnset;
+};
+
 struct VehicleSignals {
   Received<PerWheel> wheel_speed_mps;         // circumferential speed of each wheel
   Received<PerWheel> wheel_speed_before_mps;  // likewise, of the frame before
@@ -104,6 +112,7 @@ struct VehicleSignals {
   Received<DriveByWireDiagnostics> diagnostics;
   Received<PerWheel> tyre_temperature_c;  // mean of the 16 sensors of each tyre
   Received<PerWheel> tyre_pressure_kpa;   // gauge
+  Received<RivalReport> rival;
 };
 
 }  // namespace pitwall::world

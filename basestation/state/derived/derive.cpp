@@ -67,10 +67,10 @@ void derive_threats(const Pass& pass, const LinkFigures& link) {
   }
 }
 
-// An opponent that is no longer seen is no fault of the link.
+// An opponent that is no longer seen, or named, is no fault of the link.
 bool comes_always(const telemetry::GroupRow& row) {
   return row.direction == telemetry::Direction::kDown &&
-         !(row.group >= Group::kOpponent1 && row.group <= Group::kOpponent4);
+         !(row.group >= Group::kOpponent1 && row.group <= Group::kRival);
 }
 
 void derive_ages(const Pass& pass) {

@@ -40,9 +40,9 @@ constexpr auto one_table(const Rows&... rows) {
 
 inline constexpr auto kFields = detail::one_table(
     rows::kSafetyDown, rows::kMotionRows, rows::kChassisRows, rows::kLocalizationRows,
-    rows::kOpponent1, rows::kOpponent2, rows::kOpponent3, rows::kOpponent4, rows::kPlannerRows,
-    rows::kStreamRows, rows::kSensorRows, rows::kGnss0, rows::kGnss1, rows::kReceiverRows,
-    rows::kHealthRows, rows::kSafetyUp);
+    rows::kOpponent1, rows::kOpponent2, rows::kOpponent3, rows::kOpponent4, rows::kRivalRows,
+    rows::kPlannerRows, rows::kStreamRows, rows::kSensorRows, rows::kGnss0, rows::kGnss1,
+    rows::kReceiverRows, rows::kHealthRows, rows::kSafetyUp);
 inline constexpr std::size_t kFieldCount = kFields.size();
 
 using FieldIndex = std::size_t;

@@ -49,6 +49,7 @@ enum class Group : std::uint8_t {
   kOpponent2,
   kOpponent3,
   kOpponent4,
+  kRival,
   kPlanner,
   kStreams,
   kSensors,
@@ -63,7 +64,7 @@ enum class Group : std::uint8_t {
   kJoystick,  // up: samples of the joystick with its dead-man's switch
   kAuthority  // up: the console that may send commands
 };
-inline constexpr std::size_t kGroups = 36;
+inline constexpr std::size_t kGroups = 37;
 
 constexpr std::size_t index_of(Group group) { return static_cast<std::size_t>(group); }
 
@@ -111,6 +112,7 @@ inline constexpr auto kGroupTable = [] {
       {kOpponent2, "opponent_2", kDown, kMotion, milliseconds(150), 2.0},
       {kOpponent3, "opponent_3", kDown, kMotion, milliseconds(250), 1.0},
       {kOpponent4, "opponent_4", kDown, kMotion, milliseconds(250), 1.0},
+      {kRival, "rival", kDown, kHealth, milliseconds(500), 1.0},
       {kPlanner, "planner", kDown, kMotion, milliseconds(150), 2.0},
       {kStreams, "streams", kDown, kHealth, milliseconds(250), 1.5},
       {kSensors, "sensors", kDown, kStatistics, seconds(1), 0.5},

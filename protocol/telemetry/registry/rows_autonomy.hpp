@@ -24,6 +24,15 @@ inline constexpr auto kOpponent2 = opponent(Group::kOpponent2);
 inline constexpr auto kOpponent3 = opponent(Group::kOpponent3);
 inline constexpr auto kOpponent4 = opponent(Group::kOpponent4);
 
+// What race control tells of the nearest competitor (CAN 1209): shown, and no input of the car.
+inline constexpr auto kRivalRows = std::to_array<FieldRow>({
+    {Group::kRival, "number", "", 0, 254, 1},
+    {Group::kRival, "rank", "", 0, 14, 1},
+    {Group::kRival, "laps", "", 0, 254, 1},
+    {Group::kRival, "lap_distance", "m", 0, 13'000, 1},  // since the start line
+    {Group::kRival, "speed", "m/s", 0, 102, 0.1},
+});
+
 inline constexpr auto kLocalizationRows = [] {
   constexpr Group kGroup = Group::kLocalization;
   return std::to_array<FieldRow>({
@@ -69,6 +78,8 @@ inline constexpr auto kPlannerRows = [] {
       {kGroup, "operator_limit", "m/s", 0, 120, 0.1},
       {kGroup, "cost", "", 0, 1'000, 0.5},
       {kGroup, "age", "s", 0, 5, 0.01},
+      yes_no(kGroup, "grip_limited"),         // the tyres have less left than the pedals want
+      count(kGroup, "missed_shifts", 254.0),  // asked for, and not reported by the gearbox
   });
 }();
 

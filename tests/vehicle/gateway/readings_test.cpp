@@ -131,6 +131,26 @@ TEST(Readings, PowertrainInSi) {
   EXPECT_EQ(p.value.gear, 4);
 }
 
+TEST(Readings, TheCompetitorThatRaceControlNames) {
+  Reader read;
+  av21::RestOfField m;
+  m.comp_veh_num = 17;
+  m.comp_veh_flag = 0;
+  m.comp_rank = 2;
+  m.comp_laps_count = 8;
+  m.comp_lap_distance = 1234;
+  m.comp_speed = 221.4;
+  ASSERT_EQ(read(frame_of(m), at_ms(3)), Reading::kApplied);
+  const auto& rival = read.state.signals.rival;
+  EXPECT_TRUE(rival.received);
+  EXPECT_EQ(rival.at, at_ms(3));
+  EXPECT_EQ(rival.value.number, 17);
+  EXPECT_EQ(rival.value.rank, 2);
+  EXPECT_EQ(rival.value.laps, 8);
+  EXPECT_NEAR(rival.value.lap_distance_m, 1234, 1e-9);
+  EXPECT_NEAR(rival.value.speed_mps, 61.5, 1e-9);
+}
+
 TEST(Readings, EngineHealthAndThrottleFeedback) {
   Reader read;
   av21::PtReport2 e;

@@ -60,6 +60,10 @@ inline void set_received_signals(world::VehicleSignals& s) {
   receive(s.diagnostics, d, 18);
   receive(s.tyre_temperature_c, world::PerWheel{{71, 72, 73, 74}}, 19);
   receive(s.tyre_pressure_kpa, world::PerWheel{{151, 152, 153, 154}}, 20);
+  receive(s.rival,
+          world::RivalReport{
+              .number = 17, .rank = 2, .laps = 8, .lap_distance_m = 1234, .speed_mps = 61.5},
+          21);
 }
 
 // Rates, gaps and latencies of the last second.
@@ -129,6 +133,7 @@ inline Outputs full() {
   out.chosen.causes.add(safety::Cause::kGnssRtkLost);
   out.chosen.causes.add(safety::Cause::kGnssDegraded);
   out.chosen.limited = true;
+  out.steered.speed.grip_limited = true;
   out.chosen.standstill = true;
   out.quiet = true;
   out.estimate.yaw_rad = 1.0;
@@ -155,6 +160,7 @@ inline std::unique_ptr<Car> full_car() {
   car->supervisor.log.record({ago_ms(4'000), safety::Cause::kImuLost, 1.0}, true);
   car->follow = safety::Follow::kStop;
   car->bank_rad = 0.25;
+  car->control.gear.missed = 3;
   car->plan.ever = true;
   car->plan.at = ago_ms(22);
   car->plan.good_at = ago_ms(72);

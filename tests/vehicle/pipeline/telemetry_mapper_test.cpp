@@ -129,6 +129,13 @@ const std::vector<Row> kTelemetryRows{
     {field("planner.stop_distance"), 210},
     {field("planner.operator_limit"), 55.5},
     {field("planner.age"), 0.072},
+    {field("planner.grip_limited"), 1},
+    {field("planner.missed_shifts"), 3},
+    {field("rival.number"), 17},
+    {field("rival.rank"), 2},
+    {field("rival.laps"), 8},
+    {field("rival.lap_distance"), 1234},
+    {field("rival.speed"), 61.5},
 };
 
 TEST(TelemetryTap, EachFieldSaysWhatTheTickSays) { expect(kTelemetryRows); }
@@ -167,7 +174,7 @@ TEST(TelemetryTap, TimesAreThoseOfTheSamples) {
       {kCommand, 0}, {kFeedback, 14},   {kWheels, 11},   {kDynamics, 21}, {kTyres, 19},
       {kEngine, 16}, {kPowertrain, 16}, {kElectric, 15}, {kPlanner, 22},  {kLocalization, 0},
       {kStreams, 0}, {kSensors, 0},     {kGnss1, 0},     {kReceivers, 0}, {kComputer, 0},
-      {kFaults, 0},  {kBus, 0},         {kRadio, 0}};
+      {kFaults, 0},  {kBus, 0},         {kRadio, 0},     {kRival, 21}};
   for (const telemetry::GroupRow& row : telemetry::kGroupTable) {
     const auto expected = ages_ms.find(row.group);
     ASSERT_EQ(snapshot.ever(row.group), expected != ages_ms.end()) << row.name;

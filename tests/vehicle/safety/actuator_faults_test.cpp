@@ -25,6 +25,8 @@ struct Axle {
   double innovation_rad = 0.0, innovation_sigma_rad = 0.001;
   double front_turns = 1.0;  // share of the car's speed that both front wheels have
   double steering_off_rad = 0.0, front_kept = 1.0, rear_kept = 1.0, throttle_off = 0.0;
+  std::array<double, world::kGnssUnits> yaw_rate_rad_per_s{kUnset, kUnset};  // of the IMUs
+  world::SensorInput sensors;
   bool moves = true;
   double speed_mps = 50.0;
 
@@ -38,6 +40,10 @@ struct Axle {
     car.signals.brake = {
         {front_kept * reported.brake_kpa, rear_kept * reported.brake_kpa}, now, true};
     car.signals.throttle_fraction = {reported.throttle_fraction + throttle_off, now, true};
+    sensors.imu.clear();
+    for (std::uint8_t unit = 0; unit < world::kGnssUnits; ++unit)
+      EXPECT_TRUE(sensors.imu.push(
+          {.unit = unit, .at = now, .rate_rad_per_s = {0.0, 0.0, yaw_rate_rad_per_s[unit]}}));
     return detect(params, state,
                   {.signals = car.signals,
                    .bus = car.bus,
@@ -48,7 +54,9 @@ struct Axle {
                    .control_ok = true,
                    .driving = moves,
                    .moves = moves,
+                   .sensors = &sensors,
                    .reported = reported,
+                   .wheelbase_m = 3.0,
                    .lock_slip = 0.1,
                    .innovation_rad = innovation_rad,
                    .innovation_sigma_rad = innovation_sigma_rad,
@@ -156,6 +164,34 @@ TEST(ActuatorFaults, FrontWheelsThatLockExplainACarThatDoesNotTurn) {
     EXPECT_EQ(out.causes.has(Cause::kFrontLock), turns == 0.5);
     EXPECT_EQ(out.steering_biased, turns == 0.95);
   }
+}
+
+// While the IMUs differ by more than the steering would have to explain (0.008 rad at 50 m/s and a
+// wheelbase of 3 m: 0.133 rad/s), the turning of the car says nothing of a rod.
+TEST(ActuatorFaults, AnImuThatIsWrongExplainsACarThatSeemsToTurnElsewhere) {
+  struct Case {
+    std::array<double, world::kGnssUnits> yaw_rate_rad_per_s;
+    bool biased;
+  };
+  for (const Case& c : {Case{{0.3, 0.3}, true}, Case{{0.3, 0.1}, false}, Case{{0.1, 0.3}, false},
+                        Case{{0.3, 0.18}, true}, Case{{0.3, kUnset}, true}}) {
+    Axle a;
+    a.yaw_rate_rad_per_s = {0.1, 0.1};
+    a.run(seconds(1));
+    a.innovation_rad = 0.03;
+    a.yaw_rate_rad_per_s = c.yaw_rate_rad_per_s;
+    EXPECT_EQ(a.run(milliseconds(300)).steering_biased, c.biased) << c.yaw_rate_rad_per_s[1];
+  }
+}
+
+// The IMU that is wrong is one thing, a rod that bends later another.
+TEST(ActuatorFaults, ARodIsSeenAgainAsSoonAsTheImusAgree) {
+  Axle a;
+  a.yaw_rate_rad_per_s = {0.3, 0.1};
+  a.innovation_rad = 0.03;
+  EXPECT_FALSE(a.run(seconds(1)).steering_biased);
+  a.yaw_rate_rad_per_s = {0.1, 0.1};
+  EXPECT_TRUE(a.run(milliseconds(250)).steering_biased);
 }
 
 TEST(ActuatorFaults, WithinTheToleranceIsNone) {

@@ -123,6 +123,14 @@ function GapPanel() {
         <Line label="its speed" path="opponent_1.speed" decimals={0} />
         <Line label="its offset" path="opponent_1.offset" decimals={1} />
       </div>
+      <h3>by race control</h3>
+      <div class="lines two">
+        <Line label="competitor" path="rival.number" />
+        <Line label="rank" path="rival.rank" />
+        <Line label="laps" path="rival.laps" />
+        <Line label="since the start line" path="rival.lap_distance" decimals={0} />
+        <Line label="speed" path="rival.speed" decimals={0} />
+      </div>
     </section>
   );
 }
