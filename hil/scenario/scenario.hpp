@@ -51,6 +51,8 @@ struct FlagChange {
   world::TrackFlag track = world::TrackFlag::kNone;
   world::VehicleFlag vehicle = world::VehicleFlag::kNone;
   double round_target_speed_mph = 0.0;
+
+  bool operator==(const FlagChange&) const = default;
 };
 
 // Fault by its name in the catalogue; the bench refuses an unknown name or parameter.

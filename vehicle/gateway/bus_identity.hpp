@@ -43,7 +43,7 @@
 #include "protocol/can/av21.hpp"
 #include "protocol/can/frame.hpp"
 #include "protocol/vocabulary/time.hpp"
-#include "vehicle/world/bus_health.hpp"
+#include "vehicle/world/health.hpp"
 
 namespace pitwall::gateway {
 

@@ -53,7 +53,7 @@
 #include "vehicle/gateway/bus_load.hpp"
 #include "vehicle/gateway/frozen_signal.hpp"
 #include "vehicle/world/actuator_command.hpp"
-#include "vehicle/world/bus_health.hpp"
+#include "vehicle/world/health.hpp"
 #include "vehicle/world/monitor.hpp"
 #include "vehicle/world/race_control.hpp"
 #include "vehicle/world/signals.hpp"

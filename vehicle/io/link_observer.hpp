@@ -24,7 +24,7 @@
 
 #include "protocol/transport/can/can_interface.hpp"
 #include "protocol/transport/can/can_wire.hpp"
-#include "vehicle/world/bus_health.hpp"
+#include "vehicle/world/health.hpp"
 
 namespace pitwall::io {
 

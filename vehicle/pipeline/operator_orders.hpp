@@ -28,7 +28,6 @@
 #include "vehicle/world/mode.hpp"
 #include "vehicle/world/operator_inputs.hpp"
 #include "vehicle/world/race_control.hpp"
-#include "vehicle/world/sensor_use.hpp"
 
 namespace pitwall::pipeline {
 

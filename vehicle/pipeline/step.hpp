@@ -20,7 +20,7 @@
 #include "vehicle/pipeline/operator_orders.hpp"
 #include "vehicle/pipeline/setup.hpp"
 #include "vehicle/safety/link_loss_policy.hpp"
-#include "vehicle/world/computer_health.hpp"
+#include "vehicle/world/health.hpp"
 #include "vehicle/world/monitor.hpp"
 #include "vehicle/world/operator_inputs.hpp"
 #include "vehicle/world/sensor_input.hpp"

@@ -24,7 +24,7 @@
 #include <type_traits>
 
 #include "protocol/vocabulary/time.hpp"
-#include "vehicle/world/bus_health.hpp"
+#include "vehicle/world/health.hpp"
 #include "vehicle/world/legal_range.hpp"
 #include "vehicle/world/monitor.hpp"
 

@@ -16,7 +16,7 @@
 
 #include "protocol/vocabulary/time.hpp"
 #include "protocol/vocabulary/units.hpp"
-#include "vehicle/world/computer_health.hpp"
+#include "vehicle/world/health.hpp"
 #include "vehicle/world/legal_range.hpp"
 
 namespace pitwall::safety {

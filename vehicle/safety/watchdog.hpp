@@ -24,9 +24,9 @@
 #include "protocol/vocabulary/time.hpp"
 #include "protocol/vocabulary/units.hpp"
 #include "vehicle/world/monitor.hpp"
+#include "vehicle/world/operator_inputs.hpp"
 #include "vehicle/world/race_control.hpp"
 #include "vehicle/world/sensor_input.hpp"
-#include "vehicle/world/sensor_use.hpp"
 #include "vehicle/world/signals.hpp"
 
 namespace pitwall::safety {

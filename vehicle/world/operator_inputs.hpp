@@ -1,5 +1,5 @@
-// Inputs of the operator by radio: levels (stop, joystick), commands to be executed once, and the
-// car's answer to each command.
+// Inputs of the operator by radio: levels (stop, joystick, excluded sensors), commands to be executed
+// once, and the car's answer to each command.
 //   in     from the radio, a switch or a test. A withdrawn input is absent
 //   invariants
 //          a joystick can only slow the car and never steers it. A command is applied only before
@@ -15,6 +15,25 @@
 #include "protocol/vocabulary/units.hpp"
 
 namespace pitwall::world {
+
+// Sensors that the operator can exclude, and the absolute bit set of those that he has.
+enum class Excludable : std::uint8_t {
+  kGnss0,  // positions, velocities and headings of the unit
+  kGnss1,
+  kImu0,
+  kImu1,
+  kWheels
+};
+inline constexpr std::size_t kExcludables = 5;
+
+struct SensorUse {
+  std::uint8_t excluded = 0;  // bit k: Excludable k
+
+  constexpr bool uses(Excludable sensor) const {
+    return (excluded >> static_cast<unsigned>(sensor) & 1U) == 0;
+  }
+  constexpr bool operator==(const SensorUse&) const = default;
+};
 
 enum class StopRequest : std::uint8_t { kNone, kControlled, kEmergency };
 

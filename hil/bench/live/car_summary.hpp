@@ -11,7 +11,7 @@
 #include "protocol/vocabulary/result.hpp"
 #include "protocol/vocabulary/time.hpp"
 #include "protocol/vocabulary/units.hpp"
-#include "vehicle/world/bus_health.hpp"
+#include "vehicle/world/health.hpp"
 
 namespace pitwall::bench {
 

@@ -18,7 +18,7 @@
 
 #include "hil/can_bus/memory_bus.hpp"
 #include "hil/faults/bench_fault.hpp"
-#include "vehicle/world/bus_health.hpp"
+#include "vehicle/world/health.hpp"
 
 namespace pitwall::bench {
 

@@ -76,7 +76,6 @@ bool CarBench::is_over(Instant now) {
   if (!over && !has_contact(result_.outcome)) return false;
   if (record_ && has_contact(result_.outcome))
     record_->event(now, "contact", to_text(result_.outcome));
-  length_ = now - Instant{};
   return true;
 }
 

@@ -1,19 +1,27 @@
-// Lockstep bench: car, bus and rig in one process and one thread, in virtual time. The same
-// scenario, build and seed give the same bytes of event log.
+// Lockstep bench: one car or several on one track, each with its computer, bus and rig, in one
+// process and one thread, in virtual time. The same scenarios, build and seeds give the same bytes
+// of event logs.
 //
-//   t      car: read what the bus delivered by t, step, offer frames
-//   t+1ms  rig: one plant step, offer frames; bus advances        (ten times per tick)
-//   t+10ms car: ...
-// The guardian, if present, is stepped every 5 ms, before the car.
+//   t      cars: read what the bus delivered by t, step, offer frames
+//   t+1ms  rigs: one plant step, offer frames; buses advance       (ten times per tick)
+//   t+10ms cars: ...
+// The guardian of a car, if present, is stepped every 5 ms, before the car.
 //
-//   in     scenario, Setup of the car, a sink for the event log (it may discard everything)
-//   out    RunResult; the caller measures the wall time
-//   errors Problem of the scenario or of an unknown signal; nothing else stops a run
+//   in     for each car its scenario, Setup and options (with a sink for the event log, which may
+//          discard everything)
+//   out    RunResult of each; the caller measures the wall time
+//   invariants
+//          the cars share the track and race control's flags. A run ends for all when it ends for
+//          one of them
+//   errors Problem of a scenario or of an unknown signal; cars on different tracks, with different
+//          flags, durations or ticks; nothing else stops a run
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <cstdint>
 #include <functional>
+#include <span>
+#include <vector>
 
 #include "hil/bench/lockstep/guardian_node.hpp"
 #include "hil/bench/progress.hpp"
@@ -51,6 +59,17 @@ struct LockstepOptions {
   std::function<void(const GuardianNode&, Instant)> watch_guardian = {};
 };
 
+// A car with a full stack of its own.
+struct Stack {
+  const scenario::Scenario& scenario;
+  const pipeline::Setup& setup;
+  LockstepOptions options = {};
+};
+
+// Result of each car, in their order. At least one car.
+Result<std::vector<RunResult>, Problem> run_lockstep(std::span<const Stack> cars);
+
+// Of one car.
 Result<RunResult, Problem> run_lockstep(const scenario::Scenario& scenario,
                                         const pipeline::Setup& setup,
                                         const LockstepOptions& options);

@@ -39,8 +39,8 @@
 #include "vehicle/steering/learned_steering.hpp"
 #include "vehicle/world/ego_state.hpp"
 #include "vehicle/world/monitor.hpp"
+#include "vehicle/world/operator_inputs.hpp"
 #include "vehicle/world/sensor_input.hpp"
-#include "vehicle/world/sensor_use.hpp"
 #include "vehicle/world/signals.hpp"
 
 namespace pitwall::localization {

@@ -14,7 +14,7 @@
 #include "protocol/vocabulary/time.hpp"
 #include "protocol/vocabulary/units.hpp"
 #include "vehicle/safety/frame_gate.hpp"
-#include "vehicle/world/bus_health.hpp"
+#include "vehicle/world/health.hpp"
 
 namespace pitwall::io {
 

@@ -246,7 +246,7 @@ TEST(Guardian, IsSilentWhereTheCarsProcessLives) {
     std::uint32_t takeovers = 0;
     for (const bool guarded : {false, true}) {
       LockstepOptions options;
-      options.log = [](std::span<const std::uint8_t>) { return true; };
+      options.log = nowhere();
       options.guardian = guarded;
       options.watch_guardian = [&](const GuardianNode& n, Instant) {
         takeovers = std::max(takeovers, n.status().takeovers);

@@ -12,10 +12,6 @@
 namespace pitwall::bench {
 namespace {
 
-recording::Sink nowhere() {
-  return [](std::span<const std::uint8_t>) { return true; };
-}
-
 // One full run serves every test that only looks at its result.
 const RunResult& full_run() {
   static const RunResult result = [] {

@@ -32,8 +32,7 @@ void each_step(Rig& rig, Duration span, Look look) {
 }
 
 std::string digest_of(const scenario::Scenario& s) {
-  const auto run =
-      run_lockstep(s, lap().setup, {.log = [](std::span<const std::uint8_t>) { return true; }});
+  const auto run = run_lockstep(s, lap().setup, {.log = nowhere()});
   if (!run) ADD_FAILURE() << to_string(run.error());
   return run ? run->digest : "";
 }

@@ -1,5 +1,5 @@
-// Health of the car's CAN bus: liveness and integrity of every expected message, lost frames,
-// whether the bus fits the database, and the state of the controller.
+// Health of the car's CAN bus (liveness and integrity of every expected message, lost frames,
+// whether the bus fits the database, the state of the controller) and of its computer.
 //   out    filled by gateway/inbound (messages, refusals, losses), gateway/bus_identity (identity)
 //          and vehicle/io (link)
 //   units  Instant and Duration of the car's monotonic clock
@@ -11,6 +11,7 @@
 
 #include "protocol/vocabulary/fixed_vector.hpp"
 #include "protocol/vocabulary/time.hpp"
+#include "protocol/vocabulary/units.hpp"
 
 namespace pitwall::world {
 
@@ -93,6 +94,12 @@ struct BusHealth {
   Instant last_frame{};
   BusIdentity identity;
   LinkObservation link;
+};
+
+// Of the car's computer; unset if not known. Share of all processors over the last second, 0 .. 1;
+// MiB in use, without caches; degrees Celsius of the hottest zone.
+struct ComputerHealth {
+  double processor_share = kUnset, memory_mib = kUnset, temperature_c = kUnset;
 };
 
 }  // namespace pitwall::world
