@@ -85,7 +85,8 @@ void Rig::step(std::span<const can::ReceivedFrame> from_car, Instant now) {
   const race::Timing timing{.laps = static_cast<std::uint8_t>(laps_.finished & 0xFF),
                             .lap_distance_m = road_.s_m,
                             .last_lap_s = std::isfinite(laps_.last_s) ? laps_.last_s : 0.0,
-                            .speed_mps = truth_.speed_mps};
+                            .speed_mps = truth_.speed_mps,
+                            .rival = rival_};
   for (const can::Frame& frame : race::step(script_, race_, timing, now))
     encode_frames(Node::kRaceControl, frame, now);
   release_delayed(now);

@@ -61,6 +61,9 @@ class Rig {
   // Adds a fault of the models to those of the scenario.
   void add_fault(const faults::BenchFault& fault) { plan_.models.push_back(fault); }
 
+  // What race control's timing says of another car, from now on.
+  void show_rival(const std::optional<race::Rival>& rival) { rival_ = rival; }
+
   // Frames that the nodes sent since the last call; valid until the next step.
   std::span<const Outgoing> take_frames();
   // Samples of the sensors since the last call.
@@ -72,6 +75,8 @@ class Rig {
 
   const plant::Truth& truth() const { return truth_; }
   const plant::Road& road() const { return road_; }
+  double length_m() const { return plant_params_.chassis.length_m; }
+  double width_m() const { return plant_params_.chassis.width_m; }
   const Laps& laps() const { return laps_; }
   const race::Flags& flags() const { return race_.flags; }
   double round_target_speed_mph() const { return race_.round_target_speed_mph; }
@@ -114,6 +119,7 @@ class Rig {
   drive_by_wire::Demand demand_;
   race::Script script_;
   race::State race_;
+  std::optional<race::Rival> rival_;
   race::LapTimerParams timer_params_;
   race::LapTimerState timer_;
   Laps laps_;

@@ -88,12 +88,13 @@ bool encode_timing(State& state, const Timing& timing, can::Frame& out, Instant 
 
 bool encode_rival(State& state, const Timing& timing, can::Frame& out) {
   av21::RestOfField m;
-  m.comp_veh_num = timing.rival_present ? timing.rival_number : 0.0;
+  const Rival rival = timing.rival.value_or(Rival{.number = 0, .rank = 0});
+  m.comp_veh_num = rival.number;
   m.comp_veh_flag = 0.0;
-  m.comp_rank = timing.rival_present ? timing.rival_rank : 0.0;
-  m.comp_laps_count = timing.rival_present ? timing.rival_laps : 0.0;
-  m.comp_lap_distance = timing.rival_present ? timing.rival_distance_m : 0.0;
-  m.comp_speed = timing.rival_present ? to_kmh(timing.rival_speed_mps) : 0.0;
+  m.comp_rank = rival.rank;
+  m.comp_laps_count = rival.laps;
+  m.comp_lap_distance = rival.distance_m;
+  m.comp_speed = to_kmh(rival.speed_mps);
   return encoded(m, state, out);
 }
 

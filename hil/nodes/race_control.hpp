@@ -43,6 +43,13 @@ struct Script {
   std::vector<Call> calls{};  // sorted by `at`; step() CHECKs
 };
 
+// Another car, as timing has it.
+struct Rival {
+  std::uint8_t number = 0, rank = 2, laps = 0;
+  double distance_m = 0.0;  // since the start line
+  double speed_mps = 0.0;
+};
+
 // Measurements of timing and scoring.
 struct Timing {
   std::uint8_t laps = 0, rank = 1;
@@ -50,9 +57,7 @@ struct Timing {
   double last_lap_s = 0.0;
   double speed_mps = 0.0, heading_deg = 0.0;
   double latitude_deg = 0.0, longitude_deg = 0.0;
-  bool rival_present = false;
-  std::uint8_t rival_number = 0, rival_rank = 2, rival_laps = 0;
-  double rival_distance_m = 0.0, rival_speed_mps = 0.0;
+  std::optional<Rival> rival{};
 };
 
 // Active faults, set by the bench.

@@ -216,10 +216,7 @@ TEST(RaceControl, TimingAndTheRivalArriveInTheirUnits) {
   State state;
   const Timing timing{.laps = 3,
                       .last_lap_s = 38.5,
-                      .rival_present = true,
-                      .rival_number = 12,
-                      .rival_distance_m = 456.0,
-                      .rival_speed_mps = 40.0};
+                      .rival = Rival{.number = 12, .distance_m = 456.0, .speed_mps = 40.0}};
   av21::BaseToCarTiming lap;
   av21::RestOfField rival;
   int received = 0;

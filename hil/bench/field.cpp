@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "hil/bench/field.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "protocol/vocabulary/check.hpp"
+
+namespace pitwall::bench {
+
+bool FieldContact::is_caused_by(std::size_t car) const {
+  using traffic::Cause;
+  if (contact.cause == Cause::kBoth) return true;
+  return contact.cause == (car == first ? Cause::kFirst : Cause::kSecond);
+}
+
+Field::Field(const world::TrackMap& track, std::vector<std::uint8_t> numbers)
+    : track_(track),
+      numbers_(std::move(numbers)),
+      cars_(numbers_.size()),
+      traces_(numbers_.size()),
+      least_gap_m_(numbers_.size(), kUnset) {}
+
+void Field::step(std::span<const FieldCar> cars, Instant now) {
+  CHECK(cars.size() == cars_.size());
+  std::ranges::copy(cars, cars_.begin());
+  for (std::size_t i = 0; i < cars_.size(); ++i) traces_[i].record(cars_[i].pose, now);
+  for (std::size_t second = 1; second < cars_.size(); ++second)
+    for (std::size_t first = 0; first < second; ++first) judge_pair(first, second, now);
+}
+
+void Field::judge_pair(std::size_t first, std::size_t second, Instant now) {
+  const FieldCar &one = cars_[first], &other = cars_[second];
+  if (!(std::hypot(one.pose.x_m - other.pose.x_m, one.pose.y_m - other.pose.y_m) < kNear_m)) return;
+  const double gap_m =
+      traffic::gap_between(traffic::rectangle_of(one.pose), traffic::rectangle_of(other.pose))
+          .distance_m;
+  for (const std::size_t car : {first, second})
+    least_gap_m_[car] = std::fmin(least_gap_m_[car], gap_m);
+  if (!(gap_m <= 0.0)) return;
+  const auto is_known = [&](const FieldContact& c) {
+    return c.first == first && c.second == second;
+  };
+  if (std::ranges::any_of(contacts_, is_known)) return;
+  const auto contact = traffic::contact_between({one.pose, traces_[first], one.told_to_slow},
+                                                {other.pose, traces_[second], other.told_to_slow},
+                                                track_.at(one.pose.s_m).yaw_rad, now);
+  if (contact) contacts_.push_back({first, second, *contact, one.pose.s_m});
+}
+
+double Field::progress_m(std::size_t car) const {
+  return cars_[car].laps * track_.length_m() + cars_[car].pose.s_m;
+}
+
+std::optional<race::Rival> Field::rival_of(std::size_t car) const {
+  const auto apart_m = [&](std::size_t other) {
+    return std::abs(std::remainder(cars_[other].pose.s_m - cars_[car].pose.s_m, track_.length_m()));
+  };
+  std::optional<std::size_t> nearest;
+  std::uint8_t ahead = 0;
+  for (std::size_t other = 0; other < cars_.size(); ++other) {
+    if (other == car) continue;
+    if (!nearest || apart_m(other) < apart_m(*nearest)) nearest = other;
+  }
+  if (!nearest) return std::nullopt;
+  for (std::size_t other = 0; other < cars_.size(); ++other)
+    if (progress_m(other) > progress_m(*nearest)) ++ahead;
+  const FieldCar& rival = cars_[*nearest];
+  return race::Rival{.number = numbers_[*nearest],
+                     .rank = static_cast<std::uint8_t>(ahead + 1),
+                     .laps = static_cast<std::uint8_t>(rival.laps & 0xFF),
+                     .distance_m = rival.pose.s_m,
+                     .speed_mps = traffic::speed_mps(rival.pose)};
+}
+
+FieldCar car_of(const Rig& rig) {
+  const plant::Truth& truth = rig.truth();
+  const bool green = rig.flags().track == world::TrackFlag::kGreen ||
+                     rig.flags().track == world::TrackFlag::kWavingGreen;
+  return {.pose = {.x_m = truth.x_m,
+                   .y_m = truth.y_m,
+                   .yaw_rad = truth.yaw_rad,
+                   .vx_mps = truth.vx_mps,
+                   .vy_mps = truth.vy_mps,
+                   .yaw_rate_rad_per_s = truth.yaw_rate_rad_per_s,
+                   .s_m = rig.road().s_m,
+                   .n_m = rig.road().n_m,
+                   .length_m = rig.length_m(),
+                   .width_m = rig.width_m()},
+          .laps = rig.laps().finished,
+          .told_to_slow = !green};
+}
+
+}  // namespace pitwall::bench
