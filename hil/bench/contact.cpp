@@ -12,9 +12,10 @@ namespace pitwall::bench {
 namespace {
 
 // Takes out what the run ended too early for.
-void end_judging(const scenario::Scenario& scenario, RunResult& result) {
+void end_judging(const scenario::Scenario& scenario, RunResult& result, Instant at,
+                 const char* what) {
   CHECK(result.verdicts.size() == scenario.expect.size());
-  const Duration end = result.outcome.last->at - Instant{};
+  const Duration end = at - Instant{};
   std::vector<grading::Verdict> shown;
   for (std::size_t i = 0; i < result.verdicts.size(); ++i) {
     grading::Verdict& verdict = result.verdicts[i];
@@ -23,7 +24,8 @@ void end_judging(const scenario::Scenario& scenario, RunResult& result) {
     if ((at_once && verdict.pass) || scenario::is_shown_by(scenario.expect[i], end))
       shown.push_back(std::move(verdict));
     else
-      result.remarks.push_back("not judged, the car hit a wall before: " + verdict.text);
+      result.remarks.push_back(std::string{"not judged, the car "} + what +
+                               " before: " + verdict.text);
   }
   result.verdicts = std::move(shown);
 }
@@ -46,12 +48,29 @@ grading::Verdict contact_verdict(const scenario::Scenario& scenario, const Outco
   return verdict;
 }
 
+grading::Verdict car_contact_verdict(const std::optional<CarContact>& contact) {
+  grading::Verdict verdict;
+  verdict.name = kCarContactVerdict;
+  verdict.text = "no contact with another car that this car causes";
+  verdict.pass = !contact || !contact->is_caused;
+  verdict.margin = verdict.pass ? 0.0 : -contact->closing_mps;
+  verdict.ticks = 1;
+  if (verdict.pass) return verdict;
+  verdict.reason = "CONTACT: " + to_text(*contact);
+  verdict.first_violation = contact->at;
+  return verdict;
+}
+
 }  // namespace
 
 void judge_contact(const scenario::Scenario& scenario, RunResult& result) {
-  if (has_contact(result.outcome)) end_judging(scenario, result);
+  if (has_contact(result.outcome))
+    end_judging(scenario, result, result.outcome.last->at, "hit a wall");
+  else if (result.car_contact)
+    end_judging(scenario, result, result.car_contact->at, "had a contact with another one");
   if (has_contact(result.outcome) || scenario.contact)
     result.verdicts.push_back(contact_verdict(scenario, result.outcome));
+  if (result.other_cars > 0) result.verdicts.push_back(car_contact_verdict(result.car_contact));
 }
 
 }  // namespace pitwall::bench

@@ -18,6 +18,16 @@ void follow(Outcome& outcome, const VehiclePlace& now) {
   if (!outcome.nearest || now.wall_gap_m < outcome.nearest->wall_gap_m) outcome.nearest = now;
 }
 
+std::string to_text(const CarContact& contact) {
+  const std::string cause = contact.is_caused && contact.is_caused_by_other ? "both cars"
+                            : contact.is_caused                             ? "this car"
+                            : contact.is_caused_by_other                    ? contact.with
+                                                                            : "neither";
+  return formatted("contact with %s, %s, at %.2f s, s %.0f m, closing at %.1f m/s; caused by %s",
+                   contact.with.c_str(), traffic::name_of(contact.kind), contact.at.seconds(),
+                   contact.s_m, contact.closing_mps, cause.c_str());
+}
+
 std::string to_text(const Outcome& outcome) {
   if (!outcome.last) return {};
   const VehiclePlace& last = *outcome.last;

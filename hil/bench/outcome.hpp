@@ -1,4 +1,5 @@
-// Outcome of a run for the car: smallest gap to a wall, contact, final position.
+// Outcome of a run for the car: smallest gap to a wall, contact with a wall or with another car,
+// final position.
 //   in     the true state of the car, once per tick, in order of time
 //   out    Outcome; states after a contact are ignored: a run ends there, because the plant has no
 //          walls
@@ -9,6 +10,7 @@
 #include <optional>
 #include <string>
 
+#include "hil/traffic/contact_cause.hpp"
 #include "protocol/vocabulary/time.hpp"
 #include "protocol/vocabulary/units.hpp"
 
@@ -32,6 +34,20 @@ struct Outcome {
 inline bool has_contact(const Outcome& outcome) { return outcome.last && outcome.last->contact; }
 
 void follow(Outcome& outcome, const VehiclePlace& now);
+
+// Contact with another car, which ends a run too.
+struct CarContact {
+  Instant at{};
+  std::string with;  // name of the other car
+  traffic::ContactKind kind = traffic::ContactKind::kFromSide;
+  bool is_caused = false;           // by this car, alone or with the other one
+  bool is_caused_by_other = false;  // likewise
+  double closing_mps = kUnset;
+  double s_m = kUnset;  // station on the track
+};
+
+// Returns one sentence with place, speed and cause.
+std::string to_text(const CarContact& contact);
 
 // Returns one sentence; empty if there was no state.
 std::string to_text(const Outcome& outcome);

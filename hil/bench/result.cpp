@@ -109,7 +109,7 @@ bool RunResult::passed() const {
 
 bool RunResult::failed_by_contact() const {
   return std::ranges::any_of(verdicts, [](const grading::Verdict& verdict) {
-    return verdict.name == kContactVerdict && !verdict.pass;
+    return (verdict.name == kContactVerdict || verdict.name == kCarContactVerdict) && !verdict.pass;
   });
 }
 
@@ -125,6 +125,7 @@ std::string to_text(const RunResult& r) {
                      r.laps.best_flying_mean_mps, to_mph(r.laps.best_flying_mean_mps));
   out += formatted("; top speed %.2f m/s\n", r.speed_max_mps);
   if (const std::string end = to_text(r.outcome); !end.empty()) out += end + "\n";
+  if (r.car_contact) out += to_text(*r.car_contact) + "\n";
   out += formatted("CAN frames: %llu to the car, %llu from the car, %llu lost",
                    static_cast<unsigned long long>(r.traffic.to_car),
                    static_cast<unsigned long long>(r.traffic.from_car),
@@ -149,6 +150,18 @@ std::string to_text(const RunResult& r) {
   if (!r.digest.empty()) out += "event log SHA-256 " + r.digest + "\n";
   if (r.failed_by_contact()) return out + "verdict: CONTACT\n";
   return out + (r.passed() ? "verdict: PASS\n" : "verdict: FAIL\n");
+}
+
+std::string to_json(const CarContact& contact) {
+  return json::Object{}
+      .number("at_s", contact.at.seconds())
+      .number("s_m", contact.s_m)
+      .text("with", contact.with)
+      .text("kind", traffic::name_of(contact.kind))
+      .number("closing_mps", contact.closing_mps)
+      .flag("caused", contact.is_caused)
+      .flag("caused_by_other", contact.is_caused_by_other)
+      .str();
 }
 
 std::string to_json(const Outcome& outcome) {
@@ -197,6 +210,8 @@ std::string to_json(const RunResult& r) {
       .json("laps", laps_json(r.laps))
       .number("speed_max_mps", r.speed_max_mps)
       .json("outcome", to_json(r.outcome))
+      .number("other_cars", r.other_cars)
+      .json("car_contact", r.car_contact ? to_json(*r.car_contact) : "null")
       .number("cross_track_overall_m", r.cross_track.overall.mean_m())
       .number("cross_track_max_m", r.cross_track.overall.max_m)
       .json("cross_track", brackets_json(r.cross_track))

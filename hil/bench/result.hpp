@@ -3,6 +3,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -52,6 +53,8 @@ struct RunResult {
   std::uint64_t bus_losses = 0;  // frames not received when due (live: also late ones)
   double speed_max_mps = 0.0;
   Outcome outcome;
+  std::size_t other_cars = 0;             // on the track
+  std::optional<CarContact> car_contact;  // the first one
   std::optional<RealTime> real_time;
   std::string refused_to_arm;  // reason, if the bus did not match the car at the end; else empty
   std::vector<CompletedAction> done;  // faults on processes, clock and disk that were carried out
@@ -59,7 +62,8 @@ struct RunResult {
   std::string digest;
 
   bool passed() const;
-  // True for a contact that the scenario does not expect, or a harder one.
+  // True for a contact with a wall that the scenario does not expect, or a harder one, and for one
+  // with another car that this car caused.
   bool failed_by_contact() const;
   // True if the bench kept up with its clock. A bench that was late by more than kBehindMax gave
   // the car a bus without frames, and the car may fail without a fault of its own.
@@ -69,6 +73,7 @@ struct RunResult {
 
 // Text report: a table of brackets, laps, traffic, one line per expectation.
 std::string to_text(const RunResult& result);
+std::string to_json(const CarContact& contact);
 std::string to_json(const Outcome& outcome);
 // One verdict as a JSON object; a missing number is null.
 std::string to_json(const grading::Verdict& verdict);

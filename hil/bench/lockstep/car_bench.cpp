@@ -79,6 +79,12 @@ bool CarBench::is_over(Instant now) {
   return true;
 }
 
+void CarBench::note_others(std::size_t cars, const std::optional<CarContact>& contact) {
+  result_.other_cars = cars;
+  result_.car_contact = contact;
+  if (record_ && contact) record_->event(contact->at, "contact", to_text(*contact));
+}
+
 void CarBench::step_computer(Instant now) {
   if (guardian_.car_restarts(now)) {
     *car_ = {};

@@ -43,6 +43,11 @@ class CarBench {
   // The run ends before the time of the scenario.
   void end(Instant now) { length_ = now - Instant{}; }
 
+  // What race control's timing says of another car.
+  void show_rival(const std::optional<race::Rival>& rival) { rig_.show_rival(rival); }
+  // Of the field of the run, before its end.
+  void note_others(std::size_t cars, const std::optional<CarContact>& contact);
+
   const Rig& rig() const { return rig_; }
   RunResult finish();
 

@@ -7,6 +7,7 @@
 #include <string>
 #include <utility>
 
+#include "hil/bench/field.hpp"
 #include "hil/bench/lockstep/car_bench.hpp"
 #include "protocol/vocabulary/check.hpp"
 
@@ -41,6 +42,37 @@ Result<Cars, Problem> build(std::span<const Stack> stacks) {
   return cars;
 }
 
+// What every car shows of itself and sees of the others at this step.
+void step_field(Field& field, const Cars& cars, std::span<FieldCar> places, Instant at) {
+  for (std::size_t i = 0; i < cars.size(); ++i) places[i] = car_of(cars[i]->rig());
+  field.step(places, at);
+  if (cars.size() < 2) return;
+  for (std::size_t i = 0; i < cars.size(); ++i) cars[i]->show_rival(field.rival_of(i));
+}
+
+std::vector<std::uint8_t> numbers_of(std::span<const Stack> stacks) {
+  std::vector<std::uint8_t> numbers;
+  for (const Stack& stack : stacks) numbers.push_back(stack.setup.params.outbound.vehicle_number);
+  return numbers;
+}
+
+// The first contact of this car.
+std::optional<CarContact> contact_of(std::size_t car, const Field& field,
+                                     std::span<const Stack> stacks) {
+  for (const FieldContact& c : field.contacts()) {
+    if (c.first != car && c.second != car) continue;
+    const std::size_t other = c.first == car ? c.second : c.first;
+    return CarContact{.at = c.contact.at,
+                      .with = stacks[other].name,
+                      .kind = c.contact.kind,
+                      .is_caused = c.is_caused_by(car),
+                      .is_caused_by_other = c.is_caused_by(other),
+                      .closing_mps = c.contact.closing_mps,
+                      .s_m = c.s_m};
+  }
+  return std::nullopt;
+}
+
 bool is_over(const Cars& cars, Instant now) {
   bool over = false;
   for (const auto& car : cars) over = car->is_over(now) || over;
@@ -55,17 +87,24 @@ Result<std::vector<RunResult>, Problem> run_lockstep(std::span<const Stack> stac
   if (!built) return Unexpected{built.error()};
   const Cars& cars = *built;
   const Duration tick = stacks.front().setup.params.rates.tick;
+  Field field{stacks.front().setup.track, numbers_of(stacks)};
+  std::vector<FieldCar> places(cars.size());
   Instant now{};
   for (; now - Instant{} <= stacks.front().scenario.duration; now += tick) {
     for (const auto& car : cars) car->step_computer(now);
-    for (Instant at = now + kRigStep; at <= now + tick; at += kRigStep)
+    for (Instant at = now + kRigStep; at <= now + tick; at += kRigStep) {
       for (const auto& car : cars) car->step_rig(at);
-    if (!is_over(cars, now)) continue;
+      step_field(field, cars, places, at);
+    }
+    if (!is_over(cars, now) && field.contacts().empty()) continue;
     for (const auto& car : cars) car->end(now);
     break;
   }
   std::vector<RunResult> results;
-  for (const auto& car : cars) results.push_back(car->finish());
+  for (std::size_t i = 0; i < cars.size(); ++i) {
+    cars[i]->note_others(cars.size() - 1, contact_of(i, field, stacks));
+    results.push_back(cars[i]->finish());
+  }
   return results;
 }
 

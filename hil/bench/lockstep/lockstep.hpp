@@ -12,7 +12,7 @@
 //   out    RunResult of each; the caller measures the wall time
 //   invariants
 //          the cars share the track and race control's flags. A run ends for all when it ends for
-//          one of them
+//          one of them, and at a contact of two
 //   errors Problem of a scenario or of an unknown signal; cars on different tracks, with different
 //          flags, durations or ticks; nothing else stops a run
 // SPDX-License-Identifier: Apache-2.0
@@ -21,6 +21,7 @@
 #include <cstdint>
 #include <functional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "hil/bench/lockstep/guardian_node.hpp"
@@ -64,6 +65,7 @@ struct Stack {
   const scenario::Scenario& scenario;
   const pipeline::Setup& setup;
   LockstepOptions options = {};
+  std::string name = "own";  // for messages
 };
 
 // Result of each car, in their order. At least one car.

@@ -31,22 +31,49 @@ std::vector<RunResult> had(Result<std::vector<RunResult>, Problem> results) {
   return {};
 }
 
-// The cars of a run have nothing in common but the clock: each drives as if it were alone, at any
-// number of cars and in any order.
-TEST(CarBench, EachCarOfARunHasTheBytesThatItHasAlone) {
+// Only race control's report of the others tells that a car is not alone, and the order of the cars
+// is nothing at all.
+TEST(CarBench, TheOrderOfTheCarsChangesNoByte) {
   const std::array parts{part_of_lap(2'250.0, 7), part_of_lap(2'200.0, 8), part_of_lap(1'000.0, 9)};
-  std::vector<std::string> alone;
-  for (const scenario::Scenario& part : parts)
-    alone.push_back(had(run_lockstep(std::array{stack_of(part)})).at(0).digest);
-  EXPECT_NE(alone[0], alone[1]);
-  const auto three =
+  const auto first =
       had(run_lockstep(std::array{stack_of(parts[0]), stack_of(parts[1]), stack_of(parts[2])}));
-  ASSERT_EQ(three.size(), 3u);
-  for (std::size_t i = 0; i < 3; ++i) EXPECT_EQ(three[i].digest, alone[i]) << i;
-  const auto turned = had(run_lockstep(std::array{stack_of(parts[2]), stack_of(parts[0])}));
-  ASSERT_EQ(turned.size(), 2u);
-  EXPECT_EQ(turned[0].digest, alone[2]);
-  EXPECT_EQ(turned[1].digest, alone[0]);
+  const auto turned =
+      had(run_lockstep(std::array{stack_of(parts[2]), stack_of(parts[0]), stack_of(parts[1])}));
+  ASSERT_EQ(first.size(), 3u);
+  ASSERT_EQ(turned.size(), 3u);
+  for (std::size_t i = 0; i < 3; ++i) EXPECT_EQ(turned[(i + 1) % 3].digest, first[i].digest) << i;
+  EXPECT_NE(first[0].digest, first[1].digest);
+  EXPECT_NE(first[0].digest, had(run_lockstep(std::array{stack_of(parts[0])})).at(0).digest)
+      << "race control names the others";
+}
+
+TEST(CarBench, ACarIsToldOfItsNearestRival) {
+  const scenario::Scenario own = part_of_lap(2'250.0, 7), near = part_of_lap(2'200.0, 8),
+                           far = part_of_lap(1'000.0, 9);
+  world::RivalReport seen;
+  std::array stacks{stack_of(own), stack_of(near), stack_of(far)};
+  stacks[0].options.watch = [&](const pipeline::Outputs& out, const Rig&, Instant) {
+    seen = out.received.signals.rival.value;
+  };
+  ASSERT_EQ(had(run_lockstep(stacks)).size(), 3u);
+  EXPECT_EQ(seen.number, lap().setup.params.outbound.vehicle_number);
+  EXPECT_NEAR(seen.lap_distance_m, 2'200.0, 150.0);
+}
+
+// A car that starts in another one touches it at once, and nobody moved.
+TEST(CarBench, AContactEndsTheRunAndIsAttributed) {
+  const scenario::Scenario own = part_of_lap(2'250.0, 7), other = part_of_lap(2'252.0, 8);
+  std::array stacks{stack_of(own), stack_of(other)};
+  stacks[1].name = "other";
+  const auto results = had(run_lockstep(stacks));
+  ASSERT_EQ(results.size(), 2u);
+  for (const RunResult& result : results) {
+    EXPECT_EQ(result.simulated_s, 0.0);
+    ASSERT_TRUE(result.car_contact);
+    EXPECT_EQ(result.other_cars, 1u);
+  }
+  EXPECT_EQ(results[0].car_contact->with, "other");
+  EXPECT_EQ(results[1].car_contact->with, "own");
 }
 
 TEST(CarBench, ARunThatEndsForOneCarEndsForAll) {
