@@ -48,7 +48,7 @@ bool exchange(const Costs& c, Assignment& a, std::size_t s, std::size_t t) {
 }
 
 // Track s has none, and its detection is held by a track that can take a free one.
-bool give_way(const Costs& c, Assignment& a, std::size_t s, std::size_t t) {
+bool hand_over(const Costs& c, Assignment& a, std::size_t s, std::size_t t) {
   const std::size_t held = a.of_track[t];
   if (a.of_track[s] != kNone || held == kNone || !std::isfinite(c.cost[s][held])) return false;
   std::size_t best = kNone;
@@ -64,7 +64,7 @@ bool give_way(const Costs& c, Assignment& a, std::size_t s, std::size_t t) {
 bool improved(const Costs& c, Assignment& a) {
   for (std::size_t s = 0; s < c.tracks; ++s)
     for (std::size_t t = 0; t < c.tracks; ++t)
-      if (s != t && (exchange(c, a, s, t) || give_way(c, a, s, t))) return true;
+      if (s != t && (exchange(c, a, s, t) || hand_over(c, a, s, t))) return true;
   return false;
 }
 
