@@ -1,0 +1,80 @@
+// Parameters of the two tracking filters with their legal ranges.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+
+#include "vehicle/world/legal_range.hpp"
+
+namespace pitwall::tracking {
+
+// The method "road": noise of the motion and of the sensors, gates.
+struct RoadParams {
+  // Acceleration and turn rate are noise with this sigma that is forgotten in this time.
+  double accel_sigma_mps2 = 3.0, accel_time_s = 2.0;
+  double turn_sigma_rad_per_s = 0.04, turn_time_s = 1.0;
+  // The same without a map, where the turn rate is that of the road too.
+  double plane_turn_sigma_rad_per_s = 0.3, plane_turn_time_s = 5.0;
+  double wander_m_per_sqrt_s = 0.05;  // what the model of the motion leaves out
+  // Of a new track, about our own speed and the direction of the road (of our car on a plane).
+  double start_speed_sigma_mps = 40.0, start_heading_sigma_rad = 0.15;
+  double lidar_sigma_m = 0.1, lidar_sigma_per_m = 0.002;  // grows with the distance
+  double lidar_yaw_sigma_rad = 0.05;
+  double camera_bearing_sigma_rad = 0.003;
+  double camera_inverse_depth_sigma_per_m = 0.0005;  // 1 pixel of height: sigma_h / (f H)
+  double radar_range_sigma_m = 0.4, radar_bearing_sigma_rad = 0.01;
+  double radar_rate_sigma_mps = 0.2;
+  // Chi-square gates by the number of values; these let 0.1 % of the good ones out.
+  double gate_1 = 10.83, gate_2 = 13.82, gate_3 = 16.27;
+  double apart_m = 1.8;      // closer to a confirmed track no track begins
+  double size_share = 0.02;  // of a detection in the size, after the first 1 / size_share
+};
+
+inline constexpr auto kRoadRanges = std::to_array<world::NamedRange<RoadParams>>({
+    {"accel_sigma_mps2", &RoadParams::accel_sigma_mps2, 0.1, 20.0},
+    {"accel_time_s", &RoadParams::accel_time_s, 0.1, 20.0},
+    {"turn_sigma_rad_per_s", &RoadParams::turn_sigma_rad_per_s, 0.001, 1.0},
+    {"turn_time_s", &RoadParams::turn_time_s, 0.1, 20.0},
+    {"plane_turn_sigma_rad_per_s", &RoadParams::plane_turn_sigma_rad_per_s, 0.001, 2.0},
+    {"plane_turn_time_s", &RoadParams::plane_turn_time_s, 0.1, 60.0},
+    {"wander_m_per_sqrt_s", &RoadParams::wander_m_per_sqrt_s, 0.0, 2.0},
+    {"start_speed_sigma_mps", &RoadParams::start_speed_sigma_mps, 1.0, 100.0},
+    {"start_heading_sigma_rad", &RoadParams::start_heading_sigma_rad, 0.01, 1.5},
+    {"lidar_sigma_m", &RoadParams::lidar_sigma_m, 0.01, 2.0},
+    {"lidar_sigma_per_m", &RoadParams::lidar_sigma_per_m, 0.0, 0.05},
+    {"lidar_yaw_sigma_rad", &RoadParams::lidar_yaw_sigma_rad, 0.005, 0.5},
+    {"camera_bearing_sigma_rad", &RoadParams::camera_bearing_sigma_rad, 0.0002, 0.1},
+    {"camera_inverse_depth_sigma_per_m", &RoadParams::camera_inverse_depth_sigma_per_m, 1e-5, 0.02},
+    {"radar_range_sigma_m", &RoadParams::radar_range_sigma_m, 0.02, 5.0},
+    {"radar_bearing_sigma_rad", &RoadParams::radar_bearing_sigma_rad, 0.0005, 0.2},
+    {"radar_rate_sigma_mps", &RoadParams::radar_rate_sigma_mps, 0.02, 5.0},
+    {"gate_1", &RoadParams::gate_1, 3.0, 50.0},
+    {"gate_2", &RoadParams::gate_2, 4.0, 50.0},
+    {"gate_3", &RoadParams::gate_3, 5.0, 50.0},
+    {"apart_m", &RoadParams::apart_m, 0.0, 5.0},
+    {"size_share", &RoadParams::size_share, 0.001, 1.0},
+});
+
+// The method "paper": AB3DMOT's Kalman filter, whose own values are per frame of 0.1 s (KITTI).
+// In seconds its velocities are ten times and their variances a hundred times as large.
+struct PaperParams {
+  double measurement_variance = 1.0;      // R, of every value
+  double start_variance = 10.0;           // P of x, y, yaw, length, width
+  double start_speed_variance = 1e6;      // P of vx, vy: 10 * 1000 (m / 0.1 s)^2
+  double variance_per_frame = 1.0;        // Q of x, y, yaw, length, width
+  double speed_variance_per_frame = 1.0;  // Q of vx, vy: 0.01 (m / 0.1 s)^2
+  double frame_s = 0.1;                   // to which both belong
+  double gate = 11.0;                     // of the squared Mahalanobis distance
+};
+
+inline constexpr auto kPaperRanges = std::to_array<world::NamedRange<PaperParams>>({
+    {"measurement_variance", &PaperParams::measurement_variance, 1e-4, 100.0},
+    {"start_variance", &PaperParams::start_variance, 1e-4, 1e4},
+    {"start_speed_variance", &PaperParams::start_speed_variance, 1e-2, 1e8},
+    {"variance_per_frame", &PaperParams::variance_per_frame, 1e-6, 100.0},
+    {"speed_variance_per_frame", &PaperParams::speed_variance_per_frame, 1e-6, 1e4},
+    {"frame_s", &PaperParams::frame_s, 0.005, 1.0},
+    {"gate", &PaperParams::gate, 1.0, 200.0},
+});
+
+}  // namespace pitwall::tracking
