@@ -3,7 +3,7 @@
 //   invariants
 //          the number is a label: which one a car has may depend on the order of arrival, its
 //          states do not
-//   cost   O(cars^2), at most kOpponentsMax; no allocation
+//   cost   O(tracks^2); no allocation
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -11,7 +11,6 @@
 
 #include "protocol/vocabulary/fixed_vector.hpp"
 #include "vehicle/autonomy/tracking/filter/track.hpp"
-#include "vehicle/world/opponent.hpp"
 
 namespace pitwall::tracking {
 
@@ -21,11 +20,13 @@ struct Name {
 };
 
 struct Names {
-  FixedVector<Name, world::kOpponentsMax> names;
+  FixedVector<Name, kTracksMax> names;
   std::uint32_t given = 0;
 
-  // Numbers for the confirmed tracks, in their order; a track beyond kOpponentsMax has none (0).
-  FixedVector<std::uint32_t, kTracksMax> name(const Tracks& tracks);
+  // Gives every confirmed track its number.
+  void name(const Tracks& tracks);
+  // Number of a confirmed track; 0 for one without.
+  std::uint32_t id_of(const Track& track) const;
 };
 
 }  // namespace pitwall::tracking

@@ -17,16 +17,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <cstdint>
-#include <optional>
 #include <span>
 #include <type_traits>
 
 #include "protocol/vocabulary/time.hpp"
+#include "vehicle/autonomy/tracking/admission.hpp"
 #include "vehicle/autonomy/tracking/filter/track.hpp"
 #include "vehicle/autonomy/tracking/names.hpp"
 #include "vehicle/autonomy/tracking/own_trail.hpp"
 #include "vehicle/autonomy/tracking/params.hpp"
+#include "vehicle/autonomy/tracking/prediction.hpp"
 #include "vehicle/autonomy/tracking/timeline.hpp"
 #include "vehicle/world/detection.hpp"
 #include "vehicle/world/ego_state.hpp"
@@ -40,20 +40,6 @@ struct Inputs {
   const world::EgoState& ego;                     // at `now`
   const world::TrackMap* track = nullptr;         // null: a plane without a map
   Instant now{};
-};
-
-// Since the start. Of frames, then of detections.
-struct Counters {
-  std::uint64_t frames = 0, detections = 0;  // used
-  std::uint64_t frames_in_future = 0, frames_too_old = 0;
-  std::uint64_t frames_repeated = 0;  // same sensor and time as a frame before
-  std::uint64_t frames_too_many = 0;  // beyond the room of the window
-  std::uint64_t frames_unplaced = 0;  // our own pose at their time is not known
-  std::uint64_t frames_unknown = 0;   // of no known source, or one that the method does not use
-  std::uint64_t not_finite = 0;       // or without a value that its source must have
-  std::uint64_t low_confidence = 0, in_own_car = 0, off_track = 0;
-  std::uint64_t too_far = 0;   // beyond reach_m
-  std::uint64_t too_many = 0;  // no room for another track
 };
 
 struct State {
@@ -72,11 +58,5 @@ struct Output {
 };
 
 Output step(const Params& params, State& state, const Inputs& in);
-
-// Where a car will be along its line after a while, if it goes on as it does: acceleration fades,
-// and with a map the direction follows the road. The covariance grows as that of a coasting track.
-// Returns nullopt for a car without finite states, or a time that is negative or beyond coast_s.
-std::optional<world::Opponent> predict(const Params& params, const world::Opponent& car,
-                                       const world::TrackMap* track, Duration ahead);
 
 }  // namespace pitwall::tracking

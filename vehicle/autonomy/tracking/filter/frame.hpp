@@ -28,6 +28,7 @@ struct FrameKey {
 struct OwnMotion {
   double x_m = kUnset, y_m = kUnset, yaw_rad = kUnset;
   double vx_mps = kUnset, vy_mps = kUnset;  // Map, of the centre of gravity
+  double s_m = kUnset;                      // station; unset without a map
 };
 
 // One detection. `value` by source: kLidar x, y, yaw, length, width (the last three may be unset);

@@ -41,7 +41,7 @@ struct Track {
   std::uint32_t sizes = 0;       // detections in length_m and width_m
   std::uint32_t detections = 0;  // that belong to it
   bool confirmed = false;
-  DetectionKey first, newest;
+  DetectionKey first, previous, newest;
   Instant born_at{};  // confirmed
 };
 

@@ -1,0 +1,198 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "vehicle/autonomy/tracking/filter/road_filter.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+#include "tests/support/instants.hpp"
+#include "tests/vehicle/autonomy/tracking/filter/circle.hpp"
+#include "vehicle/autonomy/tracking/filter/motion.hpp"
+
+namespace pitwall::tracking {
+namespace {
+
+using testing::Car;
+using testing::circle;
+using testing::draw_normal;
+using testing::measured;
+using testing::own_motion;
+using testing::seen;
+using testing::TruePose;
+using world::DetectionSource;
+
+const Car kOwnCar{.s_m = 100.0, .n_m = -3.0, .speed_mps = 55.0};
+
+// Frames of one sensor at 20 Hz, without noise but what `change` does to a detection.
+struct Drive {
+  const world::TrackMap map = circle();
+  RoadParams params;
+  bool with_map = true;
+  Tracks tracks;
+
+  const world::TrackMap* ground() const { return with_map ? &map : nullptr; }
+
+  template <class Change>
+  void see(double t_s, DetectionSource source, const std::vector<TruePose>& cars, Change&& change) {
+    const TruePose own = kOwnCar.at(t_s);
+    std::vector<Measurement> list;
+    for (const TruePose& car : cars) {
+      list.push_back(measured(source, seen(source, own, car)));
+      change(list.back());
+    }
+    filter_road(params, ground(), seconds(5),
+                {.key = {at_s(t_s), source, 0}, .own = own_motion(own), .measurements = list},
+                tracks);
+  }
+  void see(double t_s, DetectionSource source, const std::vector<TruePose>& cars) {
+    see(t_s, source, cars, [](Measurement&) {});
+  }
+};
+
+void expect_at(const world::Opponent& o, const TruePose& truth, double within_m,
+               double within_mps) {
+  EXPECT_NEAR(std::hypot(o.x_m - truth.x_m, o.y_m - truth.y_m), 0.0, within_m);
+  EXPECT_NEAR(o.speed_mps, truth.speed_mps, within_mps);
+  EXPECT_NEAR(wrap_pi(o.yaw_rad - truth.yaw_rad), 0.0, 0.02);
+}
+
+// Each sensor alone, with a map and without: two frames confirm, two seconds find place and speed.
+TEST(RoadFilter, EachSensorAloneFindsTheCar) {
+  for (const bool with_map : {true, false})
+    for (const DetectionSource source :
+         {DetectionSource::kLidar, DetectionSource::kRadar, DetectionSource::kCamera}) {
+      SCOPED_TRACE(with_map);
+      SCOPED_TRACE(static_cast<int>(source));
+      const Car car{.s_m = 150.0, .n_m = 4.0, .speed_mps = 58.0};
+      Drive drive;
+      drive.with_map = with_map;
+      drive.see(0.0, source, {car.at(0.0)});
+      ASSERT_EQ(drive.tracks.list.size(), 1U);
+      EXPECT_FALSE(drive.tracks.list[0].confirmed);
+      for (int i = 1; i <= 60; ++i) drive.see(0.05 * i, source, {car.at(0.05 * i)});
+      ASSERT_EQ(drive.tracks.list.size(), 1U);
+      EXPECT_TRUE(drive.tracks.list[0].confirmed);
+      EXPECT_EQ(drive.tracks.list[0].born_at, at_ms(50));
+      expect_at(road_opponent(drive.ground(), drive.tracks.list[0]), car.at(3.0), 0.3, 0.5);
+    }
+}
+
+// Every second box is turned around, from the first on: the direction of motion is right.
+TEST(RoadFilter, TurnedBoxesChangeNothing) {
+  for (const bool with_map : {true, false}) {
+    const Car car{.s_m = 150.0, .n_m = 4.0, .speed_mps = 58.0};
+    Drive plain, turned;
+    plain.with_map = turned.with_map = with_map;
+    for (int i = 0; i < 40; ++i) {
+      plain.see(0.05 * i, DetectionSource::kLidar, {car.at(0.05 * i)});
+      turned.see(0.05 * i, DetectionSource::kLidar, {car.at(0.05 * i)}, [&](Measurement& m) {
+        if (i % 2 == 0) m.value[2] = wrap_pi(m.value[2] + std::numbers::pi);
+      });
+    }
+    ASSERT_EQ(turned.tracks.list.size(), 1U);
+    for (std::size_t i = 0; i < kRoadStates; ++i)
+      EXPECT_NEAR(turned.tracks.list[0].x[i], plain.tracks.list[0].x[i], 1e-9) << i;
+  }
+}
+
+// On a plane a car that comes towards us is first taken for one that drives as we do.
+TEST(RoadFilter, OncomingCarIsTurnedAround) {
+  Drive drive;
+  drive.with_map = false;
+  const auto oncoming = [](double t_s) {
+    return TruePose{250.0 - 20.0 * t_s, 40.0, std::numbers::pi, 20.0};
+  };
+  for (int i = 0; i < 40; ++i) drive.see(0.05 * i, DetectionSource::kLidar, {oncoming(0.05 * i)});
+  ASSERT_EQ(drive.tracks.list.size(), 1U);
+  expect_at(road_opponent(nullptr, drive.tracks.list[0]), oncoming(1.95), 0.1, 0.3);
+}
+
+TEST(RoadFilter, BearingAloneBeginsNoTrackButImprovesOne) {
+  const Car car{.s_m = 190.0, .n_m = 4.0, .speed_mps = 58.0};
+  const auto without_depth = [](Measurement& m) { m.value[1] = kUnset; };
+  Drive drive;
+  drive.see(0.0, DetectionSource::kCamera, {car.at(0.0)}, without_depth);
+  EXPECT_EQ(drive.tracks.list.size(), 0U);
+  drive.see(0.1, DetectionSource::kCamera, {car.at(0.1)});
+  drive.see(0.2, DetectionSource::kCamera, {car.at(0.2)});
+  Drive other = drive;
+  drive.see(0.3, DetectionSource::kCamera, {car.at(0.3)}, without_depth);
+  other.see(0.3, DetectionSource::kCamera, {});
+  ASSERT_EQ(drive.tracks.list.size(), 1U);
+  EXPECT_LT(drive.tracks.list[0].p[kAcross][kAcross], other.tracks.list[0].p[kAcross][kAcross]);
+  EXPECT_EQ(drive.tracks.list[0].detections, 3U);
+}
+
+// Nothing else is at the place of a car, and a detection just outside of its gate is no second one.
+TEST(RoadFilter, StrayDetectionOfAKnownCarBeginsNoTrack) {
+  const Car car{.s_m = 150.0, .n_m = 0.0, .speed_mps = 58.0};
+  Drive drive;
+  for (int i = 0; i < 20; ++i) drive.see(0.05 * i, DetectionSource::kLidar, {car.at(0.05 * i)});
+  Car stray = car;
+  stray.n_m = 1.5;
+  drive.see(1.0, DetectionSource::kLidar, {stray.at(1.0)});
+  EXPECT_EQ(drive.tracks.list.size(), 1U);
+  EXPECT_EQ(drive.tracks.list[0].detections, 20U) << "and it is not used";
+}
+
+TEST(RoadFilter, SecondCarBesideIsASecondTrack) {
+  const Car left{.s_m = 150.0, .n_m = 1.3, .speed_mps = 58.0},
+      right{.s_m = 150.0, .n_m = -1.3, .speed_mps = 58.0};
+  Drive drive;
+  for (int i = 0; i < 20; ++i) drive.see(0.05 * i, DetectionSource::kLidar, {left.at(0.05 * i)});
+  for (int i = 20; i < 22; ++i)
+    drive.see(0.05 * i, DetectionSource::kLidar, {left.at(0.05 * i), right.at(0.05 * i)});
+  ASSERT_EQ(drive.tracks.list.size(), 2U);
+  EXPECT_TRUE(drive.tracks.list[1].confirmed);
+}
+
+TEST(RoadFilter, SizeIsASlowAverage) {
+  const Car car{.s_m = 150.0, .n_m = 4.0, .speed_mps = 58.0};
+  Drive drive;
+  for (int i = 0; i < 400; ++i)
+    drive.see(0.05 * i, DetectionSource::kLidar, {car.at(0.05 * i)}, [&](Measurement& m) {
+      m.value[3] = i % 2 == 0 ? 4.5 : 5.3;
+      if (i == 399) m.value[3] = 12.0;
+    });
+  ASSERT_EQ(drive.tracks.list.size(), 1U);
+  // 4.9, and 2 % of the last one's difference.
+  EXPECT_NEAR(drive.tracks.list[0].length_m, 4.9 + 0.02 * 7.1, 0.02);
+  EXPECT_NEAR(drive.tracks.list[0].width_m, 1.9, 1e-12);
+}
+
+// A radar's first detection knows the speed along the line of sight.
+TEST(RoadFilter, RangeRateBeginsTheSpeed) {
+  const Car car{.s_m = 160.0, .n_m = -3.0, .speed_mps = 75.0};
+  Drive drive;
+  drive.see(0.0, DetectionSource::kRadar, {car.at(0.0)});
+  ASSERT_EQ(drive.tracks.list.size(), 1U);
+  EXPECT_NEAR(drive.tracks.list[0].x[kSpeed], 75.0, 3.0);
+  EXPECT_LT(drive.tracks.list[0].p[kSpeed][kSpeed], 100.0);
+}
+
+// As published: the covariance is that of x, y, yaw and speed, symmetric and positive.
+TEST(RoadFilter, PublishedCovarianceIsOfMap) {
+  const Car car{.s_m = 350.0, .n_m = 4.0, .speed_mps = 58.0};
+  Drive drive;
+  std::mt19937_64 random(3);
+  for (int i = 0; i < 40; ++i)
+    drive.see(0.05 * i, DetectionSource::kCamera, {car.at(0.05 * i)}, [&](Measurement& m) {
+      m.value[0] += 0.003 * draw_normal(random), m.value[1] += 0.0005 * draw_normal(random);
+    });
+  ASSERT_GE(drive.tracks.list.size(), 1U);
+  const Track& track = drive.tracks.list[0];
+  const world::Opponent o = road_opponent(&drive.map, track);
+  for (std::size_t i = 0; i < 4; ++i) {
+    EXPECT_GT(o.covariance[5 * i], 0.0);
+    for (std::size_t j = 0; j < 4; ++j)
+      EXPECT_NEAR(o.covariance[4 * i + j], o.covariance[4 * j + i], 1e-9);
+  }
+  const double left = 1.0 - track.x[kAcross] / testing::kRadius_m;
+  EXPECT_NEAR(o.covariance[0] + o.covariance[5],  // the trace does not depend on the direction
+              left * left * track.p[kAlong][kAlong] + track.p[kAcross][kAcross], 1e-6);
+  EXPECT_NEAR(o.covariance[15], track.p[kSpeed][kSpeed], 1e-12);
+}
+
+}  // namespace
+}  // namespace pitwall::tracking

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "vehicle/autonomy/tracking/filter/life.hpp"
+
+#include <algorithm>
+
+namespace pitwall::tracking {
+namespace {
+
+constexpr Duration kTrialMax = milliseconds(500);  // where the sensor of the first one is silent
+constexpr std::uint32_t kDetectionsToConfirm = 2;
+
+DetectionKey key_of(const Frame& frame, std::size_t index) {
+  return {frame.key, static_cast<std::uint8_t>(index)};
+}
+
+bool has_ended(const Frame& frame, Duration coast, const Track& t) {
+  const FrameKey& newest = t.newest.frame;
+  const Duration unseen = frame.key.at - newest.at;
+  if (t.confirmed) return unseen > coast;
+  const FrameKey& first = t.first.frame;
+  const bool same_sensor = frame.key.source == first.source && frame.key.unit == first.unit;
+  return unseen > kTrialMax || (same_sensor && newest != frame.key);
+}
+
+}  // namespace
+
+void note_first(const Frame& frame, std::size_t index, Track& track) {
+  track.first = track.previous = track.newest = key_of(frame, index);
+  track.detections = 1;
+  track.confidence = frame.measurements[index].confidence;
+}
+
+void note_detection(const Frame& frame, std::size_t index, Track& track) {
+  track.previous = track.newest;
+  track.newest = key_of(frame, index);
+  track.confidence = frame.measurements[index].confidence;
+  ++track.detections;
+  if (track.confirmed || track.detections < kDetectionsToConfirm) return;
+  track.confirmed = true;
+  track.born_at = frame.key.at;
+}
+
+void add_track(const Track& track, Tracks& tracks) {
+  if (!tracks.list.push(track)) ++tracks.crowded;
+}
+
+void end_tracks(const Frame& frame, Duration coast, Tracks& tracks) {
+  const Track* const all = tracks.list.begin();
+  const std::size_t size = tracks.list.size();
+  const auto ended = [&](const Track& t) { return has_ended(frame, coast, t); };
+  if (std::none_of(all, all + size, ended)) return;
+  tracks.list.clear();
+  for (std::size_t i = 0; i < size; ++i)
+    if (!ended(all[i])) (void)tracks.list.push(all[i]);
+}
+
+}  // namespace pitwall::tracking

@@ -1,0 +1,26 @@
+// Birth and death of tracks, the same for both methods.
+//   invariants
+//          a track is confirmed by its second detection; on trial it ends with the first frame of
+//          the sensor that began it without a detection of it. A confirmed track ends when its
+//          newest detection is older than coast_s
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+
+#include "vehicle/autonomy/tracking/filter/frame.hpp"
+#include "vehicle/autonomy/tracking/filter/track.hpp"
+
+namespace pitwall::tracking {
+
+// A detection of the frame belongs to the track: its first one, or another one.
+void note_first(const Frame& frame, std::size_t index, Track& track);
+void note_detection(const Frame& frame, std::size_t index, Track& track);
+
+// Adds a track on trial; counts it in `crowded` where there is no room.
+void add_track(const Track& track, Tracks& tracks);
+
+// After the detections of a frame: removes tracks, the others keep their order.
+void end_tracks(const Frame& frame, Duration coast, Tracks& tracks);
+
+}  // namespace pitwall::tracking

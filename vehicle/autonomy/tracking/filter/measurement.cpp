@@ -1,0 +1,260 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "vehicle/autonomy/tracking/filter/measurement.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace pitwall::tracking {
+namespace {
+
+using world::DetectionSource;
+
+constexpr double kSightMin_m = 0.5;  // closer than a car can be; keeps the models finite
+
+using Square = std::array<Values, kValuesMax>;
+
+// Lower triangle L with L L' = S + R.
+Square factor(const Spread& spread, const Innovation& in) {
+  Square l{};
+  for (std::size_t i = 0; i < in.size; ++i)
+    for (std::size_t j = 0; j <= i; ++j) {
+      double sum = spread.values[i][j] + (i == j ? in.variance[i] : 0.0);
+      for (std::size_t k = 0; k < j; ++k) sum -= l[i][k] * l[j][k];
+      l[i][j] = i == j ? std::sqrt(sum) : sum / l[j][j];
+    }
+  return l;
+}
+
+// L^-1 b.
+Values solved(const Square& l, std::size_t size, const Values& b) {
+  Values y{};
+  for (std::size_t i = 0; i < size; ++i) {
+    double sum = b[i];
+    for (std::size_t k = 0; k < i; ++k) sum -= l[i][k] * y[k];
+    y[i] = sum / l[i][i];
+  }
+  return y;
+}
+
+struct Sight {
+  double dx_m, dy_m, distance_m;
+};
+
+Sight sight_of(const OwnMotion& own, const Place& p) {
+  const double dx_m = p.x_m - own.x_m, dy_m = p.y_m - own.y_m;
+  return {dx_m, dy_m, std::max(std::hypot(dx_m, dy_m), kSightMin_m)};
+}
+
+// Gradients by x, y, yaw and speed in Map.
+using Gradient = std::array<double, 4>;
+
+struct Seen {
+  double value = 0.0;
+  Gradient by{};
+};
+
+Seen bearing_of(const OwnMotion& own, const Sight& s) {
+  const double square_m2 = s.distance_m * s.distance_m;
+  return {wrap_pi(std::atan2(s.dy_m, s.dx_m) - own.yaw_rad),
+          {-s.dy_m / square_m2, s.dx_m / square_m2, 0.0, 0.0}};
+}
+
+Seen range_of(const Sight& s) {
+  return {s.distance_m, {s.dx_m / s.distance_m, s.dy_m / s.distance_m, 0.0, 0.0}};
+}
+
+Seen inverse_depth_of(const Sight& s) {
+  const double cube_m3 = s.distance_m * s.distance_m * s.distance_m;
+  return {1.0 / s.distance_m, {-s.dx_m / cube_m3, -s.dy_m / cube_m3, 0.0, 0.0}};
+}
+
+// d/dt of the distance: the relative velocity along the line of sight.
+Seen range_rate_of(const OwnMotion& own, const Place& p, const Sight& s) {
+  const double cos_yaw = std::cos(p.yaw_rad), sin_yaw = std::sin(p.yaw_rad);
+  const double ux = s.dx_m / s.distance_m, uy = s.dy_m / s.distance_m;
+  const double wx_mps = p.speed_mps * cos_yaw - own.vx_mps;
+  const double wy_mps = p.speed_mps * sin_yaw - own.vy_mps;
+  const double rate_mps = ux * wx_mps + uy * wy_mps;
+  return {rate_mps,
+          {(wx_mps - rate_mps * ux) / s.distance_m, (wy_mps - rate_mps * uy) / s.distance_m,
+           p.speed_mps * (uy * cos_yaw - ux * sin_yaw), ux * cos_yaw + uy * sin_yaw}};
+}
+
+Gradient by_states(const Gradient& g, const Place& p) {
+  Gradient out{};
+  for (std::size_t k = 0; k < g.size(); ++k)
+    for (std::size_t j = 0; j < out.size(); ++j) out[j] += g[k] * p.jacobian[k][j];
+  return out;
+}
+
+void set(Expectation& e, std::size_t i, const Seen& seen, const Place& p) {
+  e.value[i] = seen.value;
+  e.jacobian[i] = by_states(seen.by, p);
+}
+
+double half_turn(double angle_rad) { return std::remainder(angle_rad, std::numbers::pi); }
+
+double square(double v) { return v * v; }
+
+Innovation lidar_innovation(const RoadParams& params, const OwnMotion& own, const Measurement& m,
+                            const Expectation& e) {
+  const Position at = position_of(DetectionSource::kLidar, own, m);
+  const double distance_m = std::hypot(m.value[0], m.value[1]);
+  const double variance = square(sight_sigma(params, DetectionSource::kLidar, distance_m).along_m);
+  Innovation in;
+  in.size = std::isfinite(m.value[2]) ? 3 : 2;
+  in.value = {at.x_m - e.value[0], at.y_m - e.value[1],
+              in.size == 3 ? half_turn(own.yaw_rad + m.value[2] - e.value[2]) : 0.0};
+  in.variance = {variance, variance, square(params.lidar_yaw_sigma_rad)};
+  return in;
+}
+
+}  // namespace
+
+Place place_of(const world::TrackMap* map, const StateVector& x) {
+  Place p{.x_m = x[kAlong], .y_m = x[kAcross], .yaw_rad = x[kHeading], .speed_mps = x[kSpeed]};
+  for (std::size_t i = 0; i < 4; ++i) p.jacobian[i][i] = 1.0;
+  if (map == nullptr) return p;
+  const world::TrackPoint line = map->at(x[kAlong]);
+  const double cos_yaw = std::cos(line.yaw_rad), sin_yaw = std::sin(line.yaw_rad);
+  const double left = 1.0 - line.curvature_per_m * x[kAcross];
+  p.x_m = line.x_m - x[kAcross] * sin_yaw;
+  p.y_m = line.y_m + x[kAcross] * cos_yaw;
+  p.yaw_rad = wrap_pi(line.yaw_rad + x[kHeading]);
+  p.curvature_per_m = line.curvature_per_m;
+  p.jacobian[0] = {left * cos_yaw, -sin_yaw, 0.0, 0.0};
+  p.jacobian[1] = {left * sin_yaw, cos_yaw, 0.0, 0.0};
+  p.jacobian[2] = {line.curvature_per_m, 0.0, 1.0, 0.0};
+  return p;
+}
+
+Expectation expectation_of(DetectionSource source, const OwnMotion& own, const Place& p) {
+  Expectation e;
+  switch (source) {
+    case DetectionSource::kLidar:
+      e.value = {p.x_m, p.y_m, p.yaw_rad};
+      for (std::size_t i = 0; i < kValuesMax; ++i) e.jacobian[i] = p.jacobian[i];
+      break;
+    case DetectionSource::kCamera: {
+      const Sight s = sight_of(own, p);
+      set(e, 0, bearing_of(own, s), p);
+      set(e, 1, inverse_depth_of(s), p);
+      break;
+    }
+    case DetectionSource::kRadar: {
+      const Sight s = sight_of(own, p);
+      set(e, 0, range_of(s), p);
+      set(e, 1, bearing_of(own, s), p);
+      set(e, 2, range_rate_of(own, p, s), p);
+      break;
+    }
+  }
+  return e;
+}
+
+Spread spread_of(const Expectation& e, const StateMatrix& p) {
+  Spread s;
+  for (std::size_t i = 0; i < kRoadStates; ++i)
+    for (std::size_t j = 0; j < kValuesMax; ++j) {
+      double sum = 0.0;
+      for (std::size_t k = 0; k < 4; ++k) sum += p[i][k] * e.jacobian[j][k];
+      s.states[i][j] = sum;
+    }
+  for (std::size_t i = 0; i < kValuesMax; ++i)
+    for (std::size_t j = 0; j < kValuesMax; ++j) {
+      double sum = 0.0;
+      for (std::size_t k = 0; k < 4; ++k) sum += e.jacobian[i][k] * s.states[k][j];
+      s.values[i][j] = sum;
+    }
+  return s;
+}
+
+Innovation innovation_of(const RoadParams& params, DetectionSource source, const OwnMotion& own,
+                         const Measurement& m, const Expectation& e) {
+  Innovation in;
+  switch (source) {
+    case DetectionSource::kLidar:
+      return lidar_innovation(params, own, m, e);
+    case DetectionSource::kCamera:
+      in.size = std::isfinite(m.value[1]) ? 2 : 1;
+      in.value = {wrap_pi(m.value[0] - e.value[0]), m.value[1] - e.value[1], 0.0};
+      in.variance = {square(params.camera_bearing_sigma_rad),
+                     square(params.camera_inverse_depth_sigma_per_m), 0.0};
+      break;
+    case DetectionSource::kRadar:
+      in.size = std::isfinite(m.value[2]) ? 3 : 2;
+      in.value = {m.value[0] - e.value[0], wrap_pi(m.value[1] - e.value[1]),
+                  m.value[2] - e.value[2]};
+      in.variance = {square(params.radar_range_sigma_m), square(params.radar_bearing_sigma_rad),
+                     square(params.radar_rate_sigma_mps)};
+      break;
+  }
+  return in;
+}
+
+Distance distance_of(const Spread& spread, const Innovation& in, double most) {
+  for (std::size_t i = 0; i < in.size; ++i)
+    if (!(square(in.value[i]) <= most * (spread.values[i][i] + in.variance[i])))
+      return {.square = std::numeric_limits<double>::infinity()};
+  const Square l = factor(spread, in);
+  const Values y = solved(l, in.size, in.value);
+  Distance d{.square = 0.0};
+  double det = 1.0;
+  for (std::size_t i = 0; i < in.size; ++i) d.square += y[i] * y[i], det *= l[i][i];
+  d.log_det = 2.0 * std::log(det);
+  return d;
+}
+
+// With G = P H' L'^-1: x += G L^-1 v, P -= G G'.
+void update(const Spread& spread, const Innovation& in, const world::TrackMap* map, Track& track) {
+  const Square l = factor(spread, in);
+  const Values y = solved(l, in.size, in.value);
+  std::array<Values, kRoadStates> g;
+  for (std::size_t i = 0; i < kRoadStates; ++i) g[i] = solved(l, in.size, spread.states[i]);
+  for (std::size_t i = 0; i < kRoadStates; ++i) {
+    for (std::size_t k = 0; k < in.size; ++k) track.x[i] += g[i][k] * y[k];
+    for (std::size_t j = 0; j <= i; ++j) {
+      for (std::size_t k = 0; k < in.size; ++k) track.p[i][j] -= g[i][k] * g[j][k];
+      track.p[j][i] = track.p[i][j];
+    }
+  }
+  track.x[kHeading] = wrap_pi(track.x[kHeading]);
+  if (map != nullptr) track.x[kAlong] = map->wrap_station(track.x[kAlong]);
+}
+
+Position position_of(DetectionSource source, const OwnMotion& own, const Measurement& m) {
+  double x_m = m.value[0], y_m = m.value[1];
+  if (source != DetectionSource::kLidar) {
+    const bool camera = source == DetectionSource::kCamera;
+    const double distance_m = camera ? 1.0 / m.value[1] : m.value[0];
+    const double bearing_rad = camera ? m.value[0] : m.value[1];
+    x_m = distance_m * std::cos(bearing_rad), y_m = distance_m * std::sin(bearing_rad);
+  }
+  const double cos_yaw = std::cos(own.yaw_rad), sin_yaw = std::sin(own.yaw_rad);
+  return {own.x_m + x_m * cos_yaw - y_m * sin_yaw, own.y_m + x_m * sin_yaw + y_m * cos_yaw};
+}
+
+world::Curvilinear station_of(const world::TrackMap& map, const OwnMotion& own,
+                              const Position& at) {
+  const double dx_m = at.x_m - own.x_m, dy_m = at.y_m - own.y_m;
+  const double ahead_m = dx_m * std::cos(own.yaw_rad) + dy_m * std::sin(own.yaw_rad);
+  return map.project(at.x_m, at.y_m, own.s_m + std::copysign(std::hypot(dx_m, dy_m), ahead_m));
+}
+
+SightSigma sight_sigma(const RoadParams& p, DetectionSource source, double distance_m) {
+  switch (source) {
+    case DetectionSource::kCamera:
+      return {distance_m * distance_m * p.camera_inverse_depth_sigma_per_m,
+              distance_m * p.camera_bearing_sigma_rad};
+    case DetectionSource::kRadar:
+      return {p.radar_range_sigma_m, distance_m * p.radar_bearing_sigma_rad};
+    case DetectionSource::kLidar:
+      break;
+  }
+  const double sigma_m = p.lidar_sigma_m + p.lidar_sigma_per_m * distance_m;
+  return {sigma_m, sigma_m};
+}
+
+}  // namespace pitwall::tracking

@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "vehicle/autonomy/tracking/filter/motion.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+
+namespace pitwall::tracking {
+namespace {
+
+constexpr double kStepMax_s = 0.1;
+constexpr double kRadiusLeftMin = 0.2;  // of 1 - kappa n, which is positive between the walls
+
+using Road6 = std::array<std::array<double, kRoadStates>, kRoadStates>;
+
+// F P: rows of the positions are full, the others add one state to another.
+Road6 times_covariance(const MotionStep& step, const Advance& a, const StateMatrix& p) {
+  Road6 fp;
+  for (std::size_t j = 0; j < kRoadStates; ++j) {
+    for (std::size_t i = 0; i < 2; ++i) {
+      double sum = 0.0;
+      for (std::size_t k = 0; k < kRoadStates; ++k) sum += a.jacobian[i][k] * p[k][j];
+      fp[i][j] = sum;
+    }
+    fp[kHeading][j] = p[kHeading][j] + step.turn.gain_s * p[kTurn][j];
+    fp[kSpeed][j] = p[kSpeed][j] + step.accel.gain_s * p[kAccel][j];
+    fp[kAccel][j] = step.accel.kept * p[kAccel][j];
+    fp[kTurn][j] = step.turn.kept * p[kTurn][j];
+  }
+  return fp;
+}
+
+void add_noise(const Fading& f, std::size_t integral, std::size_t value, StateMatrix& p) {
+  p[value][value] += f.value_variance;
+  p[integral][integral] += f.integral_variance;
+  p[integral][value] += f.covariance;
+  p[value][integral] += f.covariance;
+}
+
+void move_covariance(const MotionStep& step, const Advance& a, StateMatrix& p) {
+  const Road6 fp = times_covariance(step, a, p);
+  for (std::size_t i = 0; i < kRoadStates; ++i) {
+    const auto& row = fp[i];
+    for (std::size_t j = 0; j < 2; ++j) {
+      double sum = 0.0;
+      for (std::size_t k = 0; k < kRoadStates; ++k) sum += row[k] * a.jacobian[j][k];
+      p[i][j] = sum;
+    }
+    p[i][kHeading] = row[kHeading] + step.turn.gain_s * row[kTurn];
+    p[i][kSpeed] = row[kSpeed] + step.accel.gain_s * row[kAccel];
+    p[i][kAccel] = step.accel.kept * row[kAccel];
+    p[i][kTurn] = step.turn.kept * row[kTurn];
+  }
+  for (std::size_t i = 0; i < kRoadStates; ++i)
+    for (std::size_t j = 0; j < i; ++j) p[i][j] = p[j][i];
+  add_noise(step.accel, kSpeed, kAccel, p);
+  add_noise(step.turn, kHeading, kTurn, p);
+  p[kAlong][kAlong] += step.wander_variance;
+  p[kAcross][kAcross] += step.wander_variance;
+}
+
+void take_step(const MotionStep& step, const world::TrackMap* map, Track& track) {
+  const double half_way_m = track.x[kAlong] + 0.5 * step.dt_s * track.x[kSpeed];
+  const Advance a = advanced(step, curvature_at(map, half_way_m), track.x);
+  track.x = a.x;
+  if (map != nullptr) track.x[kAlong] = map->wrap_station(track.x[kAlong]);
+  move_covariance(step, a, track.p);
+}
+
+void coast_all(const RoadParams& params, const world::TrackMap* map, Duration time,
+               std::span<Track> tracks) {
+  if (time <= Duration{} || tracks.empty()) return;
+  const double steps = std::ceil(time.seconds() / kStepMax_s);
+  const MotionStep step = motion_step(params, map != nullptr, time.seconds() / steps);
+  for (double k = 0.0; k < steps; k += 1.0)
+    for (Track& track : tracks) take_step(step, map, track);
+}
+
+}  // namespace
+
+Fading fading(double sigma, double time_s, double dt_s) {
+  const double r = dt_s / time_s;
+  const double lost = -std::expm1(-r);  // 1 - kept
+  const double kept = 1.0 - lost;
+  const double variance = sigma * sigma;
+  // 2 r - 3 + 4 e^-r - e^-2r, from its series (2/3 r^3 first) where the terms would cancel.
+  constexpr double kSeries = 0.02;
+  const double shape = r < kSeries
+                           ? r * r * r * (2.0 / 3.0 - r * (0.5 - r * (7.0 / 30.0 - r / 12.0)))
+                           : 2.0 * r - 2.0 * lost - lost * lost;
+  return {.kept = kept,
+          .gain_s = time_s * lost,
+          .half_s = -time_s * std::expm1(-0.5 * r),
+          .value_variance = variance * lost * (1.0 + kept),
+          .integral_variance = variance * time_s * time_s * shape,
+          .covariance = variance * time_s * lost * lost};
+}
+
+MotionStep motion_step(const RoadParams& p, bool with_map, double dt_s) {
+  return {.dt_s = dt_s,
+          .accel = fading(p.accel_sigma_mps2, p.accel_time_s, dt_s),
+          .turn = with_map ? fading(p.turn_sigma_rad_per_s, p.turn_time_s, dt_s)
+                           : fading(p.plane_turn_sigma_rad_per_s, p.plane_turn_time_s, dt_s),
+          .wander_variance = p.wander_m_per_sqrt_s * p.wander_m_per_sqrt_s * dt_s};
+}
+
+double curvature_at(const world::TrackMap* map, double s_m) {
+  if (map == nullptr) return 0.0;
+  const auto count = static_cast<double>(map->size());
+  const double nearest = std::round(map->wrap_station(s_m) / map->length_m() * count);
+  return map->point(static_cast<std::size_t>(nearest) % map->size()).curvature_per_m;
+}
+
+double road_turn_of(double curvature_per_m, const StateVector& x) {
+  const double left = std::max(1.0 - curvature_per_m * x[kAcross], kRadiusLeftMin);
+  return curvature_per_m * x[kSpeed] * std::cos(x[kHeading]) / left;
+}
+
+Advance advanced(const MotionStep& step, double curvature_per_m, const StateVector& x) {
+  const double heading_rad = x[kHeading] + step.turn.half_s * x[kTurn];
+  const double speed_mps = x[kSpeed] + step.accel.half_s * x[kAccel];
+  const double left = std::max(1.0 - curvature_per_m * x[kAcross], kRadiusLeftMin);
+  const double along = step.dt_s * std::cos(heading_rad) / left;
+  const double across = step.dt_s * std::sin(heading_rad);
+  Advance a;
+  a.x = x;
+  a.x[kAlong] += speed_mps * along;
+  a.x[kAcross] += speed_mps * across;
+  a.x[kHeading] = wrap_pi(x[kHeading] + step.turn.gain_s * x[kTurn]);
+  a.x[kSpeed] += step.accel.gain_s * x[kAccel];
+  a.x[kAccel] *= step.accel.kept;
+  a.x[kTurn] *= step.turn.kept;
+  const double along_by_heading = -speed_mps * across / left;
+  const double across_by_heading = speed_mps * along * left;
+  a.jacobian[0] = {1.0,
+                   speed_mps * along * curvature_per_m / left,
+                   along_by_heading,
+                   along,
+                   along * step.accel.half_s,
+                   along_by_heading * step.turn.half_s};
+  a.jacobian[1] = {0.0,
+                   1.0,
+                   across_by_heading,
+                   across,
+                   across * step.accel.half_s,
+                   across_by_heading * step.turn.half_s};
+  return a;
+}
+
+void coast(const RoadParams& params, const world::TrackMap* map, Duration time, Tracks& tracks) {
+  coast_all(params, map, time, std::span<Track>{tracks.list.begin(), tracks.list.size()});
+}
+
+void coast(const RoadParams& params, const world::TrackMap* map, Duration time, Track& track) {
+  coast_all(params, map, time, std::span<Track>{&track, 1});
+}
+
+}  // namespace pitwall::tracking
