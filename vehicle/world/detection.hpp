@@ -38,7 +38,7 @@ struct DetectionFrame {
   std::uint8_t unit = 0;  // which sensor of that kind
   Instant at{};           // of the measurement, on the car's clock
   Instant received{};     // arrival at the car's computer
-  FixedVector<Detection, kDetectionsMax> detections;
+  FixedVector<Detection, kDetectionsMax> detections{};
 };
 
 }  // namespace pitwall::world

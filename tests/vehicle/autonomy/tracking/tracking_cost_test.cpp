@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+// Cost of a step in the thread's own time: the least of several runs, the rest is disturbance by
+// the machine.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "protocol/transport/clock.hpp"
+#include "tests/vehicle/autonomy/tracking/race.hpp"
+
+namespace pitwall::tracking {
+namespace {
+
+using testing::Loop;
+using testing::Race;
+
+Race six_cars() {
+  Race race;
+  for (int i = 0; i < 6; ++i)
+    race.cars.push_back({.s_m = 110.0 + 12.0 * i, .n_m = i % 2 == 0 ? 3.0 : -3.0});
+  return race;
+}
+
+// Least time of the step at `t_s` with the given frames, from the same state every time.
+double least_us(const Race& race, const Loop& loop, double t_s,
+                std::span<const world::DetectionFrame> frames) {
+  double least = 1e9;
+  for (int run = 0; run < 50; ++run) {
+    Loop copy;
+    *copy.state = *loop.state;
+    const Duration before = transport::thread_time();
+    copy.step(race, t_s, frames);
+    least = std::min(least, (transport::thread_time() - before).seconds() * 1e6);
+  }
+  return least;
+}
+
+TEST(TrackingCost, FrameWithSixCars) {
+  const Race race = six_cars();
+  const std::vector<world::DetectionFrame> frames = race.frames(0.0, 2.05, false, 1);
+  Loop loop;
+  loop.drive(race, 0.0, 2.0, {frames.begin(), frames.end() - 1});
+  ASSERT_EQ(loop.last.opponents.cars.size(), 6U);
+  const double took_us = least_us(race, loop, 2.01, {&frames.back(), 1});
+  EXPECT_LE(took_us, 30.0);
+  std::printf("frame with six cars: %.1f us\n", took_us);
+}
+
+// The frame of one second ago comes last: 20 LiDAR frames are filtered again.
+TEST(TrackingCost, FrameThatIsASecondLate) {
+  const Race race = six_cars();
+  for (const bool all : {false, true}) {
+    std::vector<world::DetectionFrame> frames = race.frames(0.0, 2.0, all, 1);
+    const auto late = std::ranges::find_if(
+        frames, [](const world::DetectionFrame& f) { return f.at > at_s(1.03); });
+    const world::DetectionFrame last = *late;
+    frames.erase(late);
+    Loop loop;
+    loop.drive(race, 0.0, 2.0, frames);
+    ASSERT_EQ(loop.last.opponents.cars.size(), 6U);
+    const double took_us = least_us(race, loop, 2.01, {&last, 1});
+    if (!all) {
+      EXPECT_LE(took_us, 150.0);
+    }
+    std::printf("a second late%s: %.1f us\n", all ? ", 120 frames of all sensors" : "", took_us);
+  }
+}
+
+}  // namespace
+}  // namespace pitwall::tracking
