@@ -114,7 +114,7 @@ TEST(Admission, RefusesValuesThatAreNone) {
 
 TEST(Admission, RefusesDetectionsByTheirPlace) {
   Gate gate;
-  EXPECT_EQ(gate.used(DetectionSource::kLidar, ahead(DetectionSource::kLidar, 310.0)), 0U);
+  EXPECT_EQ(gate.used(DetectionSource::kLidar, ahead(DetectionSource::kLidar, 400.0)), 0U);
   EXPECT_EQ(gate.counters.too_far, 1U);
   EXPECT_EQ(gate.used(DetectionSource::kLidar, {.confidence = 0.9, .x_m = 2.0, .y_m = -0.5}), 0U);
   EXPECT_EQ(gate.counters.in_own_car, 1U);

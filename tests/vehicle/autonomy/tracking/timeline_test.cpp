@@ -49,8 +49,8 @@ TEST(Timeline, ForgetsWhatIsBeforeTheWindow) {
     EXPECT_LE(line.timeline->size(), 112U);
   }
   EXPECT_EQ(line.insert(2001), Insertion::kDone);
-  EXPECT_EQ(line.insert(1500), Insertion::kRepeated);
-  EXPECT_EQ(line.insert(1801), Insertion::kTooOld);
+  EXPECT_EQ(line.insert(2000), Insertion::kRepeated);
+  EXPECT_EQ(line.insert(1899), Insertion::kTooOld);
   line.settle();
   EXPECT_EQ(line.tracks.list.size(), 1U);
   EXPECT_EQ(line.tracks.at, at_ms(3000));

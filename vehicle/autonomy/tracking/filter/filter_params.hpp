@@ -11,15 +11,16 @@ namespace pitwall::tracking {
 // The method "road": noise of the motion and of the sensors, gates.
 struct RoadParams {
   // Acceleration and turn rate are noise with this sigma that is forgotten in this time.
-  double accel_sigma_mps2 = 3.0, accel_time_s = 2.0;
-  double turn_sigma_rad_per_s = 0.04, turn_time_s = 1.0;
+  double accel_sigma_mps2 = 2.0, accel_time_s = 2.0;
+  double turn_sigma_rad_per_s = 0.03, turn_time_s = 1.0;
   // The same without a map, where the turn rate is that of the road too.
   double plane_turn_sigma_rad_per_s = 0.3, plane_turn_time_s = 5.0;
   double wander_m_per_sqrt_s = 0.05;  // what the model of the motion leaves out
   // Of a new track, about our own speed and the direction of the road (of our car on a plane).
   double start_speed_sigma_mps = 40.0, start_heading_sigma_rad = 0.15;
-  double lidar_sigma_m = 0.1, lidar_sigma_per_m = 0.002;  // grows with the distance
-  double lidar_yaw_sigma_rad = 0.05;
+  // Grows with the distance: 0.12 m at 60 m, 0.17 m at 100 m.
+  double lidar_sigma_m = 0.05, lidar_sigma_per_m = 0.0012;
+  double lidar_yaw_sigma_rad = 0.035;
   double camera_bearing_sigma_rad = 0.003;
   double camera_inverse_depth_sigma_per_m = 0.0005;  // 1 pixel of height: sigma_h / (f H)
   double radar_range_sigma_m = 0.4, radar_bearing_sigma_rad = 0.01;

@@ -13,13 +13,24 @@ DetectionKey key_of(const Frame& frame, std::size_t index) {
   return {frame.key, static_cast<std::uint8_t>(index)};
 }
 
+bool is_unseen(const Frame& frame, Duration coast, const Track& t) {
+  return frame.key.at - t.newest.frame.at > (t.confirmed ? coast : kTrialMax);
+}
+
 bool has_ended(const Frame& frame, Duration coast, const Track& t) {
-  const FrameKey& newest = t.newest.frame;
-  const Duration unseen = frame.key.at - newest.at;
-  if (t.confirmed) return unseen > coast;
   const FrameKey& first = t.first.frame;
   const bool same_sensor = frame.key.source == first.source && frame.key.unit == first.unit;
-  return unseen > kTrialMax || (same_sensor && newest != frame.key);
+  return is_unseen(frame, coast, t) || (!t.confirmed && same_sensor && t.newest.frame != frame.key);
+}
+
+template <class Ended>
+void remove_tracks(Tracks& tracks, Ended&& ended) {
+  const Track* const all = tracks.list.begin();
+  const std::size_t size = tracks.list.size();
+  if (std::none_of(all, all + size, ended)) return;
+  tracks.list.clear();
+  for (std::size_t i = 0; i < size; ++i)
+    if (!ended(all[i])) (void)tracks.list.push(all[i]);
 }
 
 }  // namespace
@@ -44,14 +55,12 @@ void add_track(const Track& track, Tracks& tracks) {
   if (!tracks.list.push(track)) ++tracks.crowded;
 }
 
+void end_unseen(const Frame& frame, Duration coast, Tracks& tracks) {
+  remove_tracks(tracks, [&](const Track& t) { return is_unseen(frame, coast, t); });
+}
+
 void end_tracks(const Frame& frame, Duration coast, Tracks& tracks) {
-  const Track* const all = tracks.list.begin();
-  const std::size_t size = tracks.list.size();
-  const auto ended = [&](const Track& t) { return has_ended(frame, coast, t); };
-  if (std::none_of(all, all + size, ended)) return;
-  tracks.list.clear();
-  for (std::size_t i = 0; i < size; ++i)
-    if (!ended(all[i])) (void)tracks.list.push(all[i]);
+  remove_tracks(tracks, [&](const Track& t) { return has_ended(frame, coast, t); });
 }
 
 }  // namespace pitwall::tracking

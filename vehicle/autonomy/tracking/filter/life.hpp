@@ -20,7 +20,11 @@ void note_detection(const Frame& frame, std::size_t index, Track& track);
 // Adds a track on trial; counts it in `crowded` where there is no room.
 void add_track(const Track& track, Tracks& tracks);
 
-// After the detections of a frame: removes tracks, the others keep their order.
+// Before the detections of a frame: removes the tracks that nothing was seen of for too long.
+void end_unseen(const Frame& frame, Duration coast, Tracks& tracks);
+
+// After the detections of a frame: removes tracks, also those on trial; the others keep
+// their order.
 void end_tracks(const Frame& frame, Duration coast, Tracks& tracks);
 
 }  // namespace pitwall::tracking

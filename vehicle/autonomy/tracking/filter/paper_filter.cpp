@@ -124,6 +124,7 @@ void predict_paper(const PaperParams& params, double dt_s, Track& track) {
 }
 
 void filter_paper(const PaperParams& params, Duration coast, const Frame& frame, Tracks& tracks) {
+  end_unseen(frame, coast, tracks);
   const bool newer = !tracks.started || frame.key.at > tracks.at;
   if (tracks.started && newer)
     for (Track& track : tracks.list)

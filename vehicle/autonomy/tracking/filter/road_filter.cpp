@@ -160,6 +160,7 @@ void use_range_rate(const RoadParams& params, const TrackMap* map, const Frame& 
 
 void filter_road(const RoadParams& params, const TrackMap* map, Duration coast_for,
                  const Frame& frame, Tracks& tracks) {
+  end_unseen(frame, coast_for, tracks);
   if (tracks.started) coast(params, map, frame.key.at - tracks.at, tracks);
   tracks.started = true;
   tracks.at = frame.key.at;

@@ -66,6 +66,18 @@ TEST(Life, ConfirmedTrackEndsAfterItsTime) {
   EXPECT_EQ(tracks.list.size(), 0U);
 }
 
+// A detection after that time is not of the track, so it ends before them.
+TEST(Life, UnseenTrackEndsBeforeTheDetections) {
+  Tracks tracks = with_one_on_trial();
+  end_unseen(frame_at(500), seconds(5), tracks);
+  EXPECT_EQ(tracks.list.size(), 1U) << "its sensor may still see it";
+  note_detection(frame_at(500), 0, tracks.list[0]);
+  end_unseen(frame_at(5500), seconds(5), tracks);
+  EXPECT_EQ(tracks.list.size(), 1U);
+  end_unseen(frame_at(5501), seconds(5), tracks);
+  EXPECT_EQ(tracks.list.size(), 0U);
+}
+
 TEST(Life, OthersKeepTheirOrder) {
   Tracks tracks;
   for (std::int64_t ms = 0; ms < 6; ++ms) {
