@@ -62,7 +62,7 @@ struct DetectionSensor {
   Cadence cadence{milliseconds(50), milliseconds(90), 0.010};
   Duration phase{};  // of the first epoch
   View view;
-  RangeTable recall;
+  RangeTable hit_rate;      // share of the cars in view that are detected
   double frame_loss = 0.0;  // probability that a frame never arrives
   Bursts outage;            // no frame at all
   Bursts miss;              // of each car by itself

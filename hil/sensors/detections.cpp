@@ -184,6 +184,16 @@ bool is_within(const View& view, const Seen& car) {
 
 using Surroundings = FixedVector<Seen, kTrueCarsMax>;
 
+Surroundings surroundings(const TrueCars& cars) {
+  Surroundings all;
+  for (const TrueCar& car : cars.others) CHECK(all.push(seen_from(cars.ours, car)));
+  return all;
+}
+
+bool is_seen(const View& view, const Surroundings& all, const Seen& car) {
+  return is_within(view, car) && visible_share(all.span(), car) >= view.visible_share;
+}
+
 void add(DetectionFrame& frame, Detection d, double confidence, std::uint32_t& overflows) {
   d.confidence = confidence;
   if (!frame.detections.push(d)) ++overflows;
@@ -198,9 +208,8 @@ DetectionFrame frame_of(const DetectionSensor& sensor, DetectionSensorState& sta
   for (std::size_t i = 0; i < all.size(); ++i) {
     const Seen& car = all[i];
     const bool missed = is_in_burst(sensor.miss, state.miss[i], now, noise);
-    if (missed || !is_within(sensor.view, car)) continue;
-    if (visible_share(all.span(), car) < sensor.view.visible_share) continue;
-    if (noise.uniform() >= at_range(sensor.recall, car.range_m)) continue;
+    if (missed || !is_seen(sensor.view, all, car)) continue;
+    if (noise.uniform() >= at_range(sensor.hit_rate, car.range_m)) continue;
     const Detection d = measured(sensor, car, noise);
     add(frame, d, between(sensor.confidence_least, 1.0, noise), overflows);
   }
@@ -255,6 +264,11 @@ DetectionState make_detections(const DetectionSensors& sensors, std::uint64_t se
   return state;
 }
 
+bool is_in_sight(const DetectionSensor& sensor, const TrueCars& cars, std::size_t other) {
+  const Surroundings all = surroundings(cars);
+  return is_seen(sensor.view, all, all[other]);
+}
+
 void step_detections(const DetectionSensors& sensors, DetectionState& state, const TrueCars& cars,
                      Instant now, Arrivals& out) {
   CHECK(sensors.size() == state.sensor.size());
@@ -262,8 +276,7 @@ void step_detections(const DetectionSensors& sensors, DetectionState& state, con
   for (std::size_t i = 0; i < sensors.size(); ++i) {
     DetectionSensorState& s = state.sensor[i];
     if (!due(now, sensors[i].cadence.period, s.next)) continue;
-    if (all.empty())
-      for (const TrueCar& car : cars.others) CHECK(all.push(seen_from(cars.ours, car)));
+    if (all.empty()) all = surroundings(cars);
     DetectionFrame frame = frame_of(sensors[i], s, all, cars.ours, now, state.overflows);
     frame.received = now + latency(sensors[i].cadence, s.noise);
     const bool lost = s.noise.uniform() < sensors[i].frame_loss;

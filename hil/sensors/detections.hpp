@@ -14,6 +14,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <span>
 
@@ -68,5 +69,8 @@ DetectionState make_detections(const DetectionSensors& sensors, std::uint64_t se
 // first call at or after its epoch.
 void step_detections(const DetectionSensors& sensors, DetectionState& state, const TrueCars& cars,
                      Instant now, Arrivals& out);
+
+// Whether the sensor can detect this one of the others now: in view, not hidden by a nearer one.
+bool is_in_sight(const DetectionSensor& sensor, const TrueCars& cars, std::size_t other);
 
 }  // namespace pitwall::sensors

@@ -27,7 +27,7 @@ DetectionSensor exact(DetectionSource source) {
   s.source = source;
   s.cadence = {milliseconds(50), {}, 0.0};
   s.view.most_m = 1000.0;
-  s.recall = {{{0.0, 1.0}, {1.0, 1.0}, {2.0, 1.0}}};
+  s.hit_rate = {{{0.0, 1.0}, {1.0, 1.0}, {2.0, 1.0}}};
   s.lidar = {.position_sigma_m = {{{0.0, 0.0}, {1.0, 0.0}, {2.0, 0.0}}},
              .yaw_sigma_rad = 0.0,
              .flip = 0.0,
@@ -167,16 +167,16 @@ TEST(Detections, TheRadarScattersInRangeBearingAndRate) {
   expect_white(all, 0.15, [](const Detection& d) { return d.range_rate_mps; });
 }
 
-TEST(Detections, RecallFallsWithTheRange) {
+TEST(Detections, TheHitRateFallsWithTheRange) {
   DetectionSensor lidar = exact(DetectionSource::kLidar);
-  lidar.recall = {{{60.0, 0.98}, {100.0, 0.90}, {120.0, 0.50}}};
+  lidar.hit_rate = {{{60.0, 0.98}, {100.0, 0.90}, {120.0, 0.50}}};
   struct Row {
-    double range_m, recall;
+    double range_m, rate;
   };
-  for (const auto& [range_m, recall] :
+  for (const auto& [range_m, rate] :
        {Row{30.0, 0.98}, Row{80.0, 0.94}, Row{110.0, 0.70}, Row{200.0, 0.50}}) {
     const auto all = detections_of(lidar, {.others = {car_at(range_m, 0.0)}});
-    expect_share(static_cast<double>(all.size()), kFrames, recall);
+    expect_share(static_cast<double>(all.size()), kFrames, rate);
   }
 }
 
@@ -217,6 +217,17 @@ TEST(Detections, ANearerCarHidesTheOneBehindIt) {
   EXPECT_EQ(seen(2.2, 0.5), 2U);
   EXPECT_EQ(seen(2.6, 0.95), 1U);
   EXPECT_EQ(seen(3.2, 0.95), 2U);
+}
+
+TEST(Detections, WhatIsInSightIsWhatIsDetected) {
+  DetectionSensor lidar = exact(DetectionSource::kLidar);
+  lidar.view.visible_share = 0.3, lidar.view.most_m = 100.0;
+  const Sight sight{.others = {car_at(60.0, 0.0), car_at(30.0, 0.0), car_at(0.0, 110.0)}};
+  const sensors::TrueCars cars{sight.ours, sight.others};
+  EXPECT_FALSE(is_in_sight(lidar, cars, 0));
+  EXPECT_TRUE(is_in_sight(lidar, cars, 1));
+  EXPECT_FALSE(is_in_sight(lidar, cars, 2));
+  EXPECT_EQ(detections_of(lidar, sight, 1).size(), 1U);
 }
 
 TEST(Detections, FramesComeAtTheirRateWithTheirLatency) {
