@@ -37,13 +37,21 @@ double difference(const world::Opponent& a, const world::Opponent& b) {
   return worst;
 }
 
+double apart_m(const world::Opponent& a, const world::Opponent& b) {
+  return std::hypot(a.x_m - b.x_m, a.y_m - b.y_m);
+}
+
 double difference(const world::Opponents& a, const world::Opponents& b) {
   if (a.cars.size() != b.cars.size()) return kOtherCars;
   double worst = 0.0;
+  std::vector<bool> is_taken(b.cars.size(), false);
   for (const world::Opponent& one : a.cars) {
-    const auto* const other = std::ranges::find(b.cars, one.id, &world::Opponent::id);
-    if (other == b.cars.end()) return kOtherCars;
-    worst = std::max(worst, difference(one, *other));
+    std::size_t nearest = 0;
+    for (std::size_t i = 1; i < b.cars.size(); ++i)
+      if (apart_m(one, b.cars[i]) < apart_m(one, b.cars[nearest])) nearest = i;
+    if (is_taken[nearest]) return kOtherCars;
+    is_taken[nearest] = true;
+    worst = std::max(worst, difference(one, b.cars[nearest]));
   }
   return worst;
 }

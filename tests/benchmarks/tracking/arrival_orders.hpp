@@ -1,8 +1,9 @@
 // The same frames in other orders of arrival: what the tracker knows in the end must not change.
 //   in     a scene of some seconds, parameters, how many orders
 //   out    the largest difference of any value of any car, its covariance included, against the
-//          arrival in the order of measurement; infinite where another number of cars or another
-//          identity came out
+//          arrival in the order of measurement; infinite where another number of cars came out.
+//          Cars are compared with the nearest: their numbers are given when they are published
+//          first, which depends on what had arrived by then
 //   orders each frame arrives up to kLateMost after its measurement, at random; in the last order
 //          all of the last kLateMost come at the end, the newest first
 // SPDX-License-Identifier: Apache-2.0

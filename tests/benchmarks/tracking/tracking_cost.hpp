@@ -1,8 +1,8 @@
 // Processor time of the tracker with six cars around us.
 //   in     ticks of a scene with one LiDAR, all six cars always in its sight
 //   out    of a step with a frame that is on time, and with one that is kRewind late while all
-//          others are on time: p50 and p99 over the ticks, each the least of kCostBlocks passes; the
-//          same of all nine sensors as they arrive (figures only); allocations of all steps
+//          others are on time: p50 and p99 over the ticks, each the least of kCostBlocks passes;
+//          the same of all nine sensors as they arrive (figures only); allocations of all steps
 //   units  processor time of the calling thread
 // SPDX-License-Identifier: Apache-2.0
 #pragma once

@@ -118,9 +118,13 @@ class Scorer {
       }
       objects.push_back({id, car.x_m, car.y_m, is_required});
     }
-    for (const Opponent& track : known.cars) tracks.push_back({track.id, track.x_m, track.y_m});
+    std::vector<Opponent> claimed;
+    std::ranges::copy_if(known.cars, std::back_inserter(claimed), [now](const Opponent& track) {
+      return (now - track.measured_at).seconds() <= kClaimed_s;
+    });
+    for (const Opponent& track : claimed) tracks.push_back({track.id, track.x_m, track.y_m});
     for (const SpotPair& pair : mot_.add(objects, tracks)) {
-      const Opponent& track = known.cars[pair.track];
+      const Opponent& track = claimed[pair.track];
       const bool is_settled = (now - track.born_at).seconds() >= kSettled_s;
       if (seen_[pair.object].since_s < kInSight_s && is_settled)
         add_error(error_of(track, moment.others[pair.object], ego, moment.ours), track, ego);

@@ -5,6 +5,8 @@
 //   frames position errors: Body of our car, as it knows itself against as it is, so that the error
 //          of our own place does not count; beside them those in Map
 //   rate   the tracker at 100 Hz; scored at 20 Hz, between frames too
+//   MOTA   of tracks with a detection within the last kClaimed_s; one that only coasts says so by
+//          its time and is no claim, as in the published evaluations
 //   scored for errors: cars that some LiDAR or camera could see within the last kInSight_s, whose
 //          track is older than kSettled_s
 // SPDX-License-Identifier: Apache-2.0
@@ -21,6 +23,7 @@
 namespace pitwall::tracking_bench {
 
 inline constexpr double kInSight_s = 0.2, kSettled_s = 1.0, kWarmUp_s = 3.0;
+inline constexpr double kClaimed_s = 0.5;
 inline constexpr double kGate_m = 2.0;        // a track that is further away is not the car's
 inline constexpr double kRequired_m = 100.0;  // cars that are nearer, and in sight, must be known
 // A car that no sensor could see for this time may be another one when it comes back.
