@@ -13,6 +13,7 @@
 #include "hil/cli/demo/demo_verb.hpp"
 #include "hil/cli/exit_code.hpp"
 #include "hil/cli/faults_verb.hpp"
+#include "hil/cli/kitti/track_kitti_verb.hpp"
 #include "hil/cli/recordings/compare_verb.hpp"
 #include "hil/cli/recordings/convert_verb.hpp"
 #include "hil/cli/recordings/info_verb.hpp"
@@ -56,12 +57,13 @@ constexpr std::array kVerbs{
     Verb{"faults", "every fault of the catalogue: who notices it, how fast, and the outcome",
          cli::faults_verb},
     Verb{"track", "tracks: check, import from a CSV, picture", cli::track_verb},
+    Verb{"track-kitti", "the tracker of other cars on a sequence of KITTI", cli::track_kitti_verb},
 };
 
 int usage(std::FILE* out, int code) {
   std::fprintf(out, "pitwall-hil VERB [ARG...]   (VERB --help for its options)\n\n");
   for (const Verb& verb : kVerbs)
-    std::fprintf(out, "  %-8s %s\n", verb.name.data(), verb.help.data());
+    std::fprintf(out, "  %-11s %s\n", verb.name.data(), verb.help.data());
   std::fprintf(
       out, "\nexit codes: 0 pass, 1 an expectation or gate failed, 2 bad input or bench failure\n");
   return code;

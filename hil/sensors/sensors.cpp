@@ -7,6 +7,8 @@
 #include <limits>
 #include <type_traits>
 
+#include "hil/sensors/arrival.hpp"
+
 namespace pitwall::sensors {
 namespace {
 
@@ -14,15 +16,7 @@ static_assert(std::is_trivially_copyable_v<State>);
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr Duration kSkyPeriod = milliseconds(50);
-constexpr double kJitterMax = 6.0;            // means
 constexpr Duration kApart = milliseconds(2);  // of two messages of a stream on the line
-
-// Advances `next` beyond `now`; true if an epoch has come.
-bool due(Instant now, Duration period, Instant& next) {
-  if (now < next) return false;
-  while (next <= now) next += period;
-  return true;
-}
 
 // One epoch of one unit.
 struct Epoch {
@@ -40,9 +34,8 @@ struct Passage {
 };
 
 Passage passage(const Cadence& cadence, const Epoch& e) {
-  const double jitter = std::min(kJitterMax, -std::log(1.0 - e.arrival.uniform()));
-  const bool lost = e.arrival.uniform() < e.fault.stream.gaps;
-  return {cadence.latency + from_seconds(cadence.jitter_mean_s * jitter), lost};
+  const Duration takes = latency(cadence, e.arrival);
+  return {takes, e.arrival.uniform() < e.fault.stream.gaps};
 }
 
 template <class Box, class Sample>

@@ -22,6 +22,7 @@
 #include "tests/benchmarks/replay/bench_replay.hpp"
 #include "tests/benchmarks/step/bench_step.hpp"
 #include "tests/benchmarks/time_trial/bench_time_trial.hpp"
+#include "tests/benchmarks/tracking/bench_tracking.hpp"
 
 namespace pitwall::benchmarks {
 namespace {
@@ -46,6 +47,7 @@ constexpr std::array kBenchmarks{
     Benchmark{"speed", "longitudinal laws side by side, up and down the gears", bench_speed},
     Benchmark{"step", "one step of the car", bench_step},
     Benchmark{"time_trial", "laps of Las Vegas at the limit, 20 seeds", bench_time_trial},
+    Benchmark{"tracking", "trackers of other cars on the same detections", bench_tracking},
 };
 
 int usage(std::FILE* out, int code) {

@@ -190,6 +190,8 @@ const std::vector<Part> kParts{
     {"hil/bench/recorded", bench_and({"vehicle/io"}), rim_and({})},
     {"hil/can_bus", kBench, rim_and({})},
     {"hil/cli", kBench, rim_and({"cli"})},
+    // One module of the car by itself, on a public benchmark.
+    {"hil/cli/kitti", bench_and({"vehicle/autonomy/tracking"}), {}},
     {"hil/sweep", kBench, rim_and({})},
     {"tests", {"protocol", "vehicle", "basestation", "hil"}, {"*"}},
 };

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "hil/sensors/detection_params.hpp"
+
+#include "protocol/vocabulary/check.hpp"
+
+namespace pitwall::sensors {
+namespace {
+
+using world::DetectionSource;
+
+DetectionSensor lidars() {
+  DetectionSensor s;
+  s.view = {.least_m = 1.5, .most_m = 120.0, .visible_share = 0.3};
+  s.hit_rate = {{{60.0, 0.98}, {100.0, 0.95}, {120.0, 0.80}}};
+  s.frame_loss = 0.02, s.outage = {1.0 / 120.0, 0.2}, s.miss = {1.0 / 30.0, 0.3};
+  s.false_per_frame = 0.02;
+  return s;
+}
+
+DetectionSensor camera(std::uint8_t unit, double facing_rad) {
+  DetectionSensor s;
+  s.source = DetectionSource::kCamera, s.unit = unit;
+  s.cadence = {milliseconds(50), milliseconds(60), 0.010};
+  s.phase = milliseconds(10 + 2 * unit);
+  s.view.facing_rad = facing_rad, s.view.visible_share = 0.5;
+  s.frame_loss = 0.02, s.outage = {1.0 / 120.0, 0.2}, s.miss = {1.0 / 30.0, 0.3};
+  s.false_per_frame = 0.02;
+  return s;
+}
+
+DetectionSensor narrow_camera(std::uint8_t unit) {
+  DetectionSensor s = camera(unit, 0.0);
+  s.view.width_rad = from_deg(40.0), s.view.least_m = 8.0, s.view.most_m = 150.0;
+  s.hit_rate = {{{60.0, 0.97}, {100.0, 0.93}, {150.0, 0.60}}};
+  return s;
+}
+
+DetectionSensor wide_camera(std::uint8_t unit, double facing_rad) {
+  DetectionSensor s = camera(unit, facing_rad);
+  s.view.width_rad = from_deg(100.0), s.view.least_m = 4.0, s.view.most_m = 60.0;
+  s.hit_rate = {{{20.0, 0.97}, {40.0, 0.90}, {60.0, 0.70}}};
+  s.camera = {.bearing_sigma_rad = 0.003, .focal_px = 900.0, .height_sigma_px = 1.5};
+  return s;
+}
+
+DetectionSensor radar(std::uint8_t unit, double facing_rad) {
+  DetectionSensor s;
+  s.source = DetectionSource::kRadar, s.unit = unit;
+  s.cadence = {milliseconds(50), milliseconds(50), 0.008};
+  s.phase = milliseconds(30 + 2 * unit);
+  s.view.facing_rad = facing_rad, s.view.width_rad = from_deg(90.0);
+  s.view.least_m = 2.0, s.view.most_m = 160.0;
+  s.hit_rate = {{{60.0, 0.95}, {100.0, 0.90}, {160.0, 0.60}}};
+  s.frame_loss = 0.01, s.miss = {1.0 / 20.0, 0.2};
+  s.false_per_frame = 0.1;
+  return s;
+}
+
+}  // namespace
+
+DetectionSensors av21_detection_sensors() {
+  DetectionSensors all;
+  const double side_rad = from_deg(55.0), back_rad = from_deg(140.0), flank_rad = from_deg(70.0);
+  for (const DetectionSensor& one :
+       {lidars(), narrow_camera(0), wide_camera(1, side_rad), wide_camera(2, -side_rad),
+        wide_camera(3, back_rad), wide_camera(4, -back_rad), radar(0, 0.0), radar(1, flank_rad),
+        radar(2, -flank_rad)})
+    CHECK(all.push(one));
+  return all;
+}
+
+}  // namespace pitwall::sensors

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "hil/sensors/detection_params.hpp"
+
+#include <gtest/gtest.h>
+
+#include <set>
+#include <utility>
+
+namespace pitwall::sensors {
+namespace {
+
+using world::DetectionSource;
+
+// What the benchmark of tracking stands on: no better than these.
+TEST(DetectionParams, TheLidarIsNoBetterThanRealOnes) {
+  const DetectionSensor lidar = av21_detection_sensors()[0];
+  ASSERT_EQ(lidar.source, DetectionSource::kLidar);
+  for (const RangeRow& row : lidar.lidar.position_sigma_m)
+    EXPECT_GE(row.value, row.range_m <= 60.0 ? 0.15 : 0.15 + 0.15 * (row.range_m - 60.0) / 40.0);
+  EXPECT_GE(lidar.lidar.yaw_sigma_rad, from_deg(2.0));
+  EXPECT_LE(lidar.hit_rate[0].value, 0.98);
+  EXPECT_GT(lidar.lidar.flip, 0.0);
+  EXPECT_GT(lidar.false_per_frame, 0.0);
+  EXPECT_GE(lidar.cadence.latency + from_seconds(lidar.cadence.jitter_mean_s), milliseconds(100));
+}
+
+TEST(DetectionParams, EachSensorHasItsOwnNumberOfItsKind) {
+  std::set<std::pair<DetectionSource, int>> seen;
+  for (const DetectionSensor& s : av21_detection_sensors()) {
+    EXPECT_TRUE(seen.insert({s.source, s.unit}).second);
+    EXPECT_LT(s.view.least_m, s.view.most_m);
+    for (std::size_t i = 1; i < s.hit_rate.size(); ++i) {
+      EXPECT_GT(s.hit_rate[i].range_m, s.hit_rate[i - 1].range_m);
+      EXPECT_LE(s.hit_rate[i].value, s.hit_rate[i - 1].value);
+    }
+  }
+  EXPECT_EQ(seen.size(), 9U);
+}
+
+}  // namespace
+}  // namespace pitwall::sensors
