@@ -30,12 +30,8 @@ using testing::TruePose;
 using world::DetectionSource;
 
 constexpr int kCars = 200;
-<<<<<<< HEAD
 // Of the mean over 200 cars of a sum of 6 squares:
 // scipy.stats.chi2.ppf([0.0005, 0.9995], 1200) / 200.
-=======
-// Of the mean over 200 cars of a sum of 6 squares: scipy.stats.chi2.ppf([0.0005, 0.9995], 1200)/200.
->>>>>>> 1f87a3e3d6ef5d671eba6a6490a16b4c14ce1d74
 constexpr double kLeast = 5.227, kMost = 6.839;
 
 // Gauss-Markov acceleration and turn rate, white velocity: Euler-Maruyama at 1 kHz.

@@ -1,11 +1,6 @@
 # The Kalman filter of AB3DMOT in NumPy, for one car and both kinds of measurement.
-<<<<<<< HEAD
 #   in   argv[1]: a line of r, start variance, start speed variance, q, speed q, frame time; then
 #        per line dt, number of values, values. The first line begins the track
-=======
-#   in   argv[1]: a line of r, start variance, start speed variance, q, speed q, frame time; then per
-#        line dt, number of values, values. The first line begins the track
->>>>>>> 1f87a3e3d6ef5d671eba6a6490a16b4c14ce1d74
 #   out  argv[2]: per line the 7 states and the diagonal of P
 import sys
 
