@@ -15,12 +15,29 @@ bool FieldContact::is_caused_by(std::size_t car) const {
   return contact.cause == (car == first ? Cause::kFirst : Cause::kSecond);
 }
 
-Field::Field(const world::TrackMap& track, std::vector<std::uint8_t> numbers)
-    : track_(track),
-      numbers_(std::move(numbers)),
-      cars_(numbers_.size()),
-      traces_(numbers_.size()),
-      least_gap_m_(numbers_.size(), kUnset) {}
+std::optional<Problem> difference(const Runner& first, const Runner& car) {
+  const auto other = [&](const char* what) {
+    return Problem{car.scenario.name,
+                   std::string{"cannot share the run of the first car: "} + what};
+  };
+  if (car.setup.track.name() != first.setup.track.name()) return other("another track");
+  if (car.scenario.duration != first.scenario.duration) return other("another duration");
+  if (car.scenario.race_control != first.scenario.race_control)
+    return other("other flags of race control");
+  if (car.setup.params.rates.tick != first.setup.params.rates.tick) return other("another tick");
+  return std::nullopt;
+}
+
+Field::Field(std::span<const Runner> runners)
+    : track_(runners.front().setup.track),
+      cars_(runners.size()),
+      traces_(runners.size()),
+      least_gap_m_(runners.size(), kUnset) {
+  for (const Runner& runner : runners) {
+    names_.push_back(runner.name);
+    numbers_.push_back(runner.setup.params.outbound.vehicle_number);
+  }
+}
 
 void Field::step(std::span<const FieldCar> cars, Instant now) {
   CHECK(cars.size() == cars_.size());
@@ -47,6 +64,21 @@ void Field::judge_pair(std::size_t first, std::size_t second, Instant now) {
                                                 {other.pose, traces_[second], other.told_to_slow},
                                                 track_.at(one.pose.s_m).yaw_rad, now);
   if (contact) contacts_.push_back({first, second, *contact, one.pose.s_m});
+}
+
+std::optional<CarContact> Field::contact_of(std::size_t car) const {
+  for (const FieldContact& c : contacts_) {
+    if (c.first != car && c.second != car) continue;
+    const std::size_t other = c.first == car ? c.second : c.first;
+    return CarContact{.at = c.contact.at,
+                      .with = names_[other],
+                      .kind = c.contact.kind,
+                      .is_caused = c.is_caused_by(car),
+                      .is_caused_by_other = c.is_caused_by(other),
+                      .closing_mps = c.contact.closing_mps,
+                      .s_m = c.s_m};
+  }
+  return std::nullopt;
 }
 
 double Field::progress_m(std::size_t car) const {

@@ -14,20 +14,37 @@
 #include <string>
 #include <vector>
 
+#include "hil/bench/outcome.hpp"
 #include "hil/bench/rig.hpp"
 #include "hil/nodes/race_control.hpp"
 #include "hil/traffic/car_pose.hpp"
 #include "hil/traffic/contact_cause.hpp"
 #include "hil/traffic/motion_trace.hpp"
+#include "protocol/vocabulary/check.hpp"
+#include "protocol/vocabulary/fixed_vector.hpp"
+#include "vehicle/pipeline/setup.hpp"
 #include "vehicle/world/track_map.hpp"
 
 namespace pitwall::bench {
+
+// A car of the run before its first step.
+struct Runner {
+  const scenario::Scenario& scenario;
+  const pipeline::Setup& setup;
+  std::string name;
+};
+
+// What keeps a car from sharing the run of the first one: another track, duration or tick, other
+// flags of race control.
+std::optional<Problem> difference(const Runner& first, const Runner& car);
 
 struct FieldCar {
   traffic::CarPose pose{};
   std::uint32_t laps = 0;
   bool told_to_slow = false;  // by race control
 };
+
+inline constexpr std::size_t kFieldMax = 16;
 
 struct FieldContact {
   std::size_t first = 0, second = 0;  // cars, first < second
@@ -40,14 +57,15 @@ struct FieldContact {
 
 class Field {
  public:
-  // `numbers` of the cars, as race control has them.
-  Field(const world::TrackMap& track, std::vector<std::uint8_t> numbers);
+  explicit Field(std::span<const Runner> runners);  // at least one
 
   void step(std::span<const FieldCar> cars, Instant now);
 
   const std::vector<FieldContact>& contacts() const { return contacts_; }
   // Unset as long as no other car was within kNear_m.
   double least_gap_m(std::size_t car) const { return least_gap_m_[car]; }
+  // The first contact of a car.
+  std::optional<CarContact> contact_of(std::size_t car) const;
   // The nearest other car along the track; none for a car that is alone.
   std::optional<race::Rival> rival_of(std::size_t car) const;
 
@@ -57,7 +75,8 @@ class Field {
   double progress_m(std::size_t car) const;
 
   const world::TrackMap& track_;
-  std::vector<std::uint8_t> numbers_;
+  std::vector<std::string> names_;
+  std::vector<std::uint8_t> numbers_;  // as race control has them
   std::vector<FieldCar> cars_;
   std::vector<traffic::MotionTrace> traces_;
   std::vector<double> least_gap_m_;
@@ -66,5 +85,15 @@ class Field {
 
 // The true car of a rig.
 FieldCar car_of(const Rig& rig);
+
+// Every car shows itself, and is told of its rival. For cars with rig() and show_rival().
+template <class Cars>
+void step_field(Field& field, const Cars& cars, Instant at) {
+  FixedVector<FieldCar, kFieldMax> places;
+  for (const auto& car : cars) CHECK(places.push(car_of(car->rig())));
+  field.step(places.span(), at);
+  if (cars.size() < 2) return;
+  for (std::size_t i = 0; i < cars.size(); ++i) cars[i]->show_rival(field.rival_of(i));
+}
 
 }  // namespace pitwall::bench

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hil/bench/live/live.hpp"
 
+#include <algorithm>
+#include <array>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -9,6 +11,7 @@
 #include "hil/bench/live/wake_clock.hpp"
 #include "protocol/transport/clock.hpp"
 #include "protocol/transport/realtime.hpp"
+#include "protocol/vocabulary/check.hpp"
 
 namespace pitwall::bench {
 namespace {
@@ -20,25 +23,35 @@ constexpr Duration kWake = LiveCar::kWake;
 constexpr Duration kPollPeriod = milliseconds(10);
 constexpr Duration kCarry = milliseconds(2);  // how often the radio is served
 
+using Cars = std::vector<std::unique_ptr<LiveCar>>;
+
 class Live {
  public:
-  Live(std::unique_ptr<LiveCar> car, Duration duration, std::optional<BenchTime> time)
-      : car_(std::move(car)), duration_(duration), clock_(kWake, duration, std::move(time)) {}
+  Live(Cars cars, std::span<const Runner> runners, std::optional<BenchTime> time)
+      : cars_(std::move(cars)),
+        field_(runners),
+        duration_(runners.front().scenario.duration),
+        clock_(kWake, duration_, std::move(time)) {}
 
-  Result<LiveResult, Problem> run() {
-    if (auto problem = car_->start()) return Unexpected{*problem};
+  Result<std::vector<LiveResult>, Problem> run() {
+    for (const auto& car : cars_)
+      if (auto problem = car->start()) return Unexpected{*problem};
     const Instant begun = transport::wall_now();
     clock_.start();
-    car_->begin(clock_.started());
+    for (const auto& car : cars_) car->begin(clock_.started());
     for (Instant now = Instant{} + kWake; now - Instant{} <= duration_; now += kWake) {
       clock_.sleep_until(now);
-      car_->step(now);
-      if (auto problem = car_->act(now)) return Unexpected{*problem};
-      if ((now - Instant{}).ns % kCarry.ns == 0) car_->serve_radio(now);
+      for (const auto& car : cars_) car->step(now);
+      step_field(field_, cars_, now);
+      for (const auto& car : cars_) {
+        if (auto problem = car->act(now)) return Unexpected{*problem};
+        if ((now - Instant{}).ns % kCarry.ns == 0) car->serve_radio(now);
+      }
       if ((now - Instant{}).ns % kPollPeriod.ns != 0) continue;
-      if (auto problem = car_->look(now)) return Unexpected{*problem};
-      if (!car_->is_over()) continue;
-      car_->end(now);
+      for (const auto& car : cars_)
+        if (auto problem = car->look(now)) return Unexpected{*problem};
+      if (!is_over()) continue;
+      for (const auto& car : cars_) car->end(now);
       break;
     }
     clock_.end();
@@ -46,37 +59,66 @@ class Live {
   }
 
  private:
+  bool is_over() const {
+    return !field_.contacts().empty() ||
+           std::ranges::any_of(cars_, [](const auto& car) { return car->is_over(); });
+  }
+
   void settle(Duration span) {
     const Instant until = transport::monotonic_now() + span;
     while (transport::monotonic_now() < until) {
-      car_->settle();
+      for (const auto& car : cars_) car->settle();
       transport::sleep_until(transport::monotonic_now() + milliseconds(2));
     }
   }
 
-  Result<LiveResult, Problem> finish(double wall_s) {
+  Result<std::vector<LiveResult>, Problem> finish(double wall_s) {
     settle(kSettle);
-    if (auto problem = car_->stop_processes(kStopLimit, [this] { settle(milliseconds(10)); }))
-      return Unexpected{*problem};
+    for (const auto& car : cars_)
+      if (auto problem = car->stop_processes(kStopLimit, [this] { settle(milliseconds(10)); }))
+        return Unexpected{*problem};
     settle(kSettle);
-    return car_->finish(clock_.report(), wall_s);
+    const RealTime time = clock_.report();
+    std::vector<LiveResult> results;
+    for (std::size_t i = 0; i < cars_.size(); ++i) {
+      cars_[i]->note_others(cars_.size() - 1, field_.contact_of(i));
+      results.push_back(cars_[i]->finish(time, wall_s));
+    }
+    return results;
   }
 
-  std::unique_ptr<LiveCar> car_;
+  Cars cars_;
+  Field field_;
   Duration duration_;
   WakeClock clock_;
 };
 
 }  // namespace
 
-Result<LiveResult, Problem> run_live(const scenario::Scenario& scenario,
-                                     const pipeline::Setup& setup, const LivePlan& plan) {
-  auto car = LiveCar::open(scenario, setup, plan);
-  if (!car) return Unexpected{car.error()};
-  auto time = BenchTime::of_run(plan.clock, plan.clock_line);
+Result<std::vector<LiveResult>, Problem> run_live(std::span<const LiveStack> stacks) {
+  CHECK(!stacks.empty());
+  Cars cars;
+  std::vector<Runner> runners;
+  for (const LiveStack& stack : stacks) {
+    runners.push_back(stack.runner());
+    if (auto other = difference(runners.front(), runners.back()))
+      return Unexpected{*std::move(other)};
+    auto car = LiveCar::open(stack.scenario, stack.setup, stack.plan);
+    if (!car) return Unexpected{car.error()};
+    cars.push_back(*std::move(car));
+  }
+  const LivePlan& first = stacks.front().plan;
+  auto time = BenchTime::of_run(first.clock, first.clock_line);
   if (!time) return Unexpected{time.error()};
   transport::request_realtime(kPriority);
-  return Live{*std::move(car), scenario.duration, *std::move(time)}.run();
+  return Live{std::move(cars), runners, *std::move(time)}.run();
+}
+
+Result<LiveResult, Problem> run_live(const scenario::Scenario& scenario,
+                                     const pipeline::Setup& setup, const LivePlan& plan) {
+  auto results = run_live(std::array{LiveStack{scenario, setup, plan}});
+  if (!results) return Unexpected{results.error()};
+  return std::move(results->front());
 }
 
 }  // namespace pitwall::bench

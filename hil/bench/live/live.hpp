@@ -18,7 +18,11 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
 
+#include "hil/bench/field.hpp"
 #include "hil/bench/live/live_plan.hpp"
 #include "hil/bench/result.hpp"
 #include "hil/scenario/scenario.hpp"
@@ -33,6 +37,21 @@ struct LiveResult {
   std::uint64_t reports = 0;  // local reports of the car that were received
 };
 
+// A car with a full stack of its own, in its own bay (live_plan.hpp). The first plan has the clock.
+struct LiveStack {
+  const scenario::Scenario& scenario;
+  const pipeline::Setup& setup;
+  const LivePlan& plan;
+  std::string name = "own";  // for messages
+
+  Runner runner() const { return {scenario, setup, name}; }
+};
+
+// Result of each car, in their order. At least one car. A run ends for all when it ends for one of
+// them, and at a contact of two.
+Result<std::vector<LiveResult>, Problem> run_live(std::span<const LiveStack> cars);
+
+// Of one car.
 Result<LiveResult, Problem> run_live(const scenario::Scenario& scenario,
                                      const pipeline::Setup& setup, const LivePlan& plan);
 

@@ -24,6 +24,7 @@
 #include <string>
 #include <vector>
 
+#include "hil/bench/field.hpp"
 #include "hil/bench/lockstep/guardian_node.hpp"
 #include "hil/bench/progress.hpp"
 #include "hil/bench/result.hpp"
@@ -66,6 +67,8 @@ struct Stack {
   const pipeline::Setup& setup;
   LockstepOptions options = {};
   std::string name = "own";  // for messages
+
+  Runner runner() const { return {scenario, setup, name}; }
 };
 
 // Result of each car, in their order. At least one car.
