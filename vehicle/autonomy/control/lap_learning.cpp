@@ -8,7 +8,7 @@
 namespace pitwall::control {
 namespace {
 
-constexpr double kFrom_mps = 15.0;       // below, a lap is no pattern
+constexpr double kFrom_mps = 12.0;       // below, a lap is no pattern
 constexpr double kNarrowest_bins = 0.8;  // of the weights: a parabola needs three bins
 constexpr std::size_t kPassed = 2 * kLapReach + 1;
 

@@ -11,8 +11,8 @@
 //          Gaussian weights of smooth_s. The k are those of a car of the model under lqr_ff:
 //            k_e = K_e1 / h, k_r = (K_e1' + K_e2 / v) / h, k_a = A / v^2,
 //            h   = 1 + the gains of the wheel angle and of what was sent
-//          gain (...) undoes what the steering did to the error: from lap to lap an error is
-//          multiplied by Q (1 - gain L P), which is less than 1 for each car of the margins
+//          With P from the steering to the error an error is multiplied from lap to lap by
+//          |(1 - forget) Q - gain L P|, which is less than 1 for each car of the margins
 //          |u| <= angle_max_rad, |du/dt| <= slew_rad_per_s
 //          a bin is used in full up to half of speed_share from the speed that taught it, and not
 //          at all from speed_share on; off the line the correction goes to 0

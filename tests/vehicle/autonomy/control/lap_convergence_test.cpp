@@ -1,6 +1,6 @@
 // Convergence of lap learning over the family of linear cars over which the law of a stop and the
 // margins of lqr_ff are judged: an error that repeats is multiplied from lap to lap by
-// |Q (1 - gain L P)|, with P from the steering to the error of the closed loop. Q and L are measured
+// |(1 - forget) Q - gain L P|, with P from the steering to the error of the closed loop. Q and L are measured
 // on the code itself, by an error that is a sine over the lap.
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
@@ -121,7 +121,8 @@ WorstLap over(const std::vector<LoopCase>& cars, const LapParams& lap, double fr
       for (const Filters& f : filters) {
         if (f.rad_per_s < from_rad_per_s || f.rad_per_s > to_rad_per_s) continue;
         const double factor = lap_factor(loop, f);
-        if (!(factor <= worst.factor)) worst = {factor, f.rad_per_s, c};
+        EXPECT_TRUE(std::isfinite(factor)) << c.speed_mps << " m/s teaches nothing";
+        if (factor > worst.factor) worst = {factor, f.rad_per_s, c};
       }
     }
   }

@@ -156,7 +156,7 @@ TEST(LapLearning, WhatIsNoLessonTeachesNothing) {
   EXPECT_EQ(taught_by([](LapInputs& in) { in.s_m = kNone; }), 0.0);
   EXPECT_EQ(taught_by([](LapInputs& in) { in.length_m = kNone; }), 0.0);
   EXPECT_EQ(taught_by([](LapInputs& in) { in.lateral_m = kNone; }), 0.0);
-  EXPECT_EQ(taught_by([](LapInputs& in) { in.speed_mps = 14.0; }), 0.0);
+  EXPECT_EQ(taught_by([](LapInputs& in) { in.speed_mps = 11.0; }), 0.0);
   // A lap of which a part is missing before each bin is whole around.
   EXPECT_EQ(
       taught_by([](LapInputs& in) { in.teaches = std::fmod(in.s_m + kLength_m, 150.0) > 5.0; }),

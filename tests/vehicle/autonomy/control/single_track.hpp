@@ -240,10 +240,10 @@ inline Params recommended() {
   p.lateral.gain_speed_floor_mps = 5.0;
   p.lateral.deviation_max_m = 5.0;
   p.lqr_ff = recommended_lqr_ff();
-  p.lap = {.gain = 0.6,
-           .forget = 0.04,
-           .lead_s = 0.45,
-           .smooth_s = 0.25,
+  p.lap = {.gain = 0.55,
+           .forget = 0.06,
+           .lead_s = 0.36,
+           .smooth_s = 0.2,
            .angle_max_rad = 0.01,
            .slew_rad_per_s = 0.03,
            .speed_share = 0.1};
