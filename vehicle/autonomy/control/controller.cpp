@@ -64,8 +64,8 @@ void drive_forward(const Params& p, State& state, const Inputs& in, Action& acti
   action.speed = out.seen;
 }
 
-// A lap teaches while there is steering to spare, and the gradient of the car is known: the law is
-// then the one whose convergence is judged.
+// A lap teaches once the gradient of the car is known: the law is then the one whose convergence is
+// judged.
 LapInputs lap_inputs(const Params& p, const Inputs& in, const OnPath& path) {
   constexpr double kCornering_mps2 = 10.0, kKnown_rad = 0.003;
   const bool known = steering::doubt_rad(p.steering.learning, p.steering.bicycle, in.learned,
@@ -76,7 +76,7 @@ LapInputs lap_inputs(const Params& p, const Inputs& in, const OnPath& path) {
           .lateral_m = path.in.deviation.lateral_m,
           .drives = in.drives && in.ego.validity == world::Validity::kGood &&
                     path.diagnostics.verdict == LateralVerdict::kGood,
-          .teaches = known && std::abs(path.in.last_angle_rad) < path.in.angle_max_rad};
+          .teaches = known};
 }
 
 }  // namespace

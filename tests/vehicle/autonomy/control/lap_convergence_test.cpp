@@ -1,7 +1,7 @@
 // Convergence of lap learning over the family of linear cars over which the law of a stop and the
 // margins of lqr_ff are judged: an error that repeats is multiplied from lap to lap by
-// |(1 - forget) Q - gain L P|, with P from the steering to the error of the closed loop. Q and L are measured
-// on the code itself, by an error that is a sine over the lap.
+// |(1 - forget) Q - gain L P|, with P from the steering to the error of the closed loop. Q and L are
+// measured on the code itself, by an error that is a sine over the lap.
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
@@ -12,6 +12,7 @@
 #include <numbers>
 #include <vector>
 
+#include "protocol/vocabulary/text.hpp"
 #include "tests/vehicle/autonomy/control/lqr_loop.hpp"
 #include "vehicle/autonomy/control/lap_learning.hpp"
 
@@ -139,6 +140,20 @@ std::string text(const WorstLap& w) {
 TEST(LapConvergence, ARepeatingErrorFallsOnEveryCarOfTheFamily) {
   const WorstLap worst = over(family(), recommended().lap);
   EXPECT_LE(worst.factor, kFalls) << text(worst);
+}
+
+TEST(LapConvergence, IsThatOfThePage) {
+  const auto row_of = [](const char* cars, const WorstLap& worst) {
+    return "| " + std::string(cars) + " | " + formatted("%.2f", worst.factor) + " |";
+  };
+  const LapParams lap = recommended().lap;
+  const auto own = [&](double speed_mps) {
+    return over({{.speed_mps = speed_mps}}, lap, kTurnsFrom_rad_per_s, kTurnsTo_rad_per_s);
+  };
+  steering::testing::expect_on_the_page(
+      {row_of("the worst car, any wave to 12 rad/s", over(family(), lap)),
+       row_of("our own car at 30 m/s, 0.5 to 3 rad/s", own(30.0)),
+       row_of("our own car at 65 m/s, 0.5 to 3 rad/s", own(65.0))});
 }
 
 TEST(LapConvergence, OnOurOwnCarThreeLapsLeaveAFifthOfWhatTurnsCause) {
