@@ -1,7 +1,7 @@
 // Convergence of lap learning over the family of linear cars over which the law of a stop and the
 // margins of lqr_ff are judged: an error that repeats is multiplied from lap to lap by
-// |(1 - forget) Q - gain L P|, with P from the steering to the error of the closed loop. Q and L are
-// measured on the code itself, by an error that is a sine over the lap.
+// |(1 - forget) Q - gain L P|, with P from the steering to the error of the closed loop. Q and L
+// are measured on the code itself, by an error that is a sine over the lap.
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
