@@ -156,6 +156,8 @@ control::Params read_control(yaml::StrictMap map) {
   p.controller = read_controller(map, "controller");
   p.lateral = read_lateral(lateral);
   p.lqr_ff = read_lqr_ff(map.map("lqr_ff"));
+  yaml::StrictMap lap = map.map("lap");
+  read_ranges(lap, control::kLapRanges, p.lap);
   p.longitudinal = read_longitudinal(map.map("longitudinal"));
   yaml::StrictMap speed = map.map("speed");
   read_ranges(speed, control::kSpeedLawRanges, p.speed);

@@ -56,6 +56,7 @@ std::string autonomy_lines() {
          lines_of("planning.stop", planning::kStopPathRanges) +
          lines_of("control.lateral", control::kLateralRanges) +
          lines_of("control.lqr_ff", control::kLqrRanges) +
+         lines_of("control.lap", control::kLapRanges) +
          lines_of("control.longitudinal", control::kLongitudinalRanges) +
          lines_of("control.speed", control::kSpeedLawRanges) +
          lines_of("control.gear", control::kGearRanges);

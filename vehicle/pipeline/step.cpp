@@ -110,6 +110,12 @@ double angle_max_rad(const Setup& setup, const Outputs& out, Instant now) {
   return steering::angle_max_rad(setup.angles, speed_mps) - step_rad;
 }
 
+// A trajectory that merges is beside the line.
+control::LinePlace line_place(const Setup& setup, const Plan& plan) {
+  if (plan.output.next.merge.length_m > 0.0) return {};
+  return {plan.output.line_s_m, setup.line.length_m};
+}
+
 // The stop's own follower drives in a stop. What the car's steering needs is learned while it is
 // driven, and known when it stops.
 void drive(const Setup& setup, Car& car, const Inputs& in, Outputs& out) {
@@ -127,6 +133,7 @@ void drive(const Setup& setup, Car& car, const Inputs& in, Outputs& out) {
                     {.ego = ego,
                      .trajectory = car.plan.output.drive,
                      .learned = car.learned,
+                     .line = line_place(setup, car.plan),
                      .angle_max_rad = angle_max_rad(setup, out, in.now),
                      .gearbox = control::gear_report(signals.powertrain, in.now),
                      .tyre_c = world::coldest_c(signals.tyre_temperature_c, in.now),

@@ -179,6 +179,8 @@ Reported control(const CarParams& p) {
   }
   for (const auto& r : control::kLqrRanges)
     reported["control.lqr_ff." + std::string(r.name)] = p.control.lqr_ff.*r.value;
+  for (const auto& r : control::kLapRanges)
+    reported["control.lap." + std::string(r.name)] = p.control.lap.*r.value;
   for (std::size_t i = 0; i < control::kLqrSpeeds; ++i)
     for (const auto& r : control::kLqrWeightRanges)
       reported["control.lqr_ff.weights[" + std::to_string(i) + "]." + r.name] =

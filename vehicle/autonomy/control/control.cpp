@@ -29,6 +29,7 @@ std::optional<Problem> illegal(const Params& p) {
   if (auto problem = first_illegal(kLateralRanges, p.lateral, "lateral.")) return problem;
   if (auto problem = first_illegal(kLongitudinalRanges, p.longitudinal, "longitudinal."))
     return problem;
+  if (auto problem = first_illegal(kLapRanges, p.lap, "lap.")) return problem;
   if (auto problem = first_illegal(kSpeedLawRanges, p.speed, "speed.")) return problem;
   if (auto problem = first_illegal(steering::kRanges, p.steering, "steering.")) return problem;
   if (auto problem =

@@ -64,6 +64,21 @@ void drive_forward(const Params& p, State& state, const Inputs& in, Action& acti
   action.speed = out.seen;
 }
 
+// A lap teaches once the gradient of the car is known: the law is then the one whose convergence is
+// judged.
+LapInputs lap_inputs(const Params& p, const Inputs& in, const OnPath& path) {
+  constexpr double kCornering_mps2 = 10.0, kKnown_rad = 0.003;
+  const bool known = steering::doubt_rad(p.steering.learning, p.steering.bicycle, in.learned,
+                                         kCornering_mps2) < kKnown_rad;
+  return {.s_m = in.line.from_s_m + path.along_m,
+          .length_m = in.line.length_m,
+          .speed_mps = in.ego.vx_mps,
+          .lateral_m = path.in.deviation.lateral_m,
+          .drives = in.drives && in.ego.validity == world::Validity::kGood &&
+                    path.diagnostics.verdict == LateralVerdict::kGood,
+          .teaches = known};
+}
+
 }  // namespace
 
 Action paper_lqr(const Params& p, const LateralGains& gains, State& state, const Inputs& in,
@@ -89,8 +104,14 @@ Action feed_forward(const Params& p, const LateralGains&, State& state, const In
 Action lqr_ff(const Params& p, const LateralGains& gains, State& state, const Inputs& in,
               Duration dt) {
   Action out;
-  out.lateral = steer_lqr(p.steering, gains.lqr_ff, p.lateral, in.learned, state.lqr_ff,
-                          {state.road_wheel_rad, in.angle_max_rad}, in.ego, in.trajectory, dt);
+  const OnPath path = on_path(p.steering, p.lateral, in.learned,
+                              {state.road_wheel_rad, in.angle_max_rad}, in.ego, in.trajectory);
+  const double lap_rad =
+      learn_lap(p.lap, p.steering, gains.lqr_ff, state.lap, lap_inputs(p, in, path), dt);
+  out.lateral = path.is_usable()
+                    ? steered(path, steer_lqr(p.steering, gains.lqr_ff, in.learned, state.lqr_ff,
+                                              {path.in, in.ego.vy_mps, lap_rad}, dt))
+                    : path.diagnostics;
   drive_forward(p, state, in, out, dt);
   return out;
 }

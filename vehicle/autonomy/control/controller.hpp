@@ -18,6 +18,7 @@
 #include "protocol/vocabulary/time.hpp"
 #include "vehicle/autonomy/control/bicycle_params.hpp"
 #include "vehicle/autonomy/control/gear.hpp"
+#include "vehicle/autonomy/control/lap_learning.hpp"
 #include "vehicle/autonomy/control/lateral.hpp"
 #include "vehicle/autonomy/control/longitudinal.hpp"
 #include "vehicle/autonomy/control/lqr_ff.hpp"
@@ -49,6 +50,7 @@ struct Params {
   BicycleParams bicycle;
   LateralParams lateral;
   LqrParams lqr_ff;
+  LapParams lap;
   steering::Params steering;
   LongitudinalParams longitudinal;  // rates and limits of throttle and brake; the published law
   SpeedLawParams speed;
@@ -62,12 +64,19 @@ struct State {
   steering::State steering;
   SpeedLawState speed;
   LqrState lqr_ff;
+  LapState lap{};
+};
+
+// Where the trajectory begins on the line that is driven lap by lap; unset: it leaves the line.
+struct LinePlace {
+  double from_s_m = kUnset, length_m = kUnset;
 };
 
 struct Inputs {
   const world::EgoState& ego;
   const world::Trajectory& trajectory;
   steering::Learned learned{};
+  LinePlace line{};
   double angle_max_rad = kUnset;  // limit of the frame gate at this speed; unset: none
   GearReport gearbox{};
   double tyre_c = kUnset;  // coldest tyre; unset counts as cold
@@ -82,7 +91,7 @@ Action paper_lqr(const Params& params, const LateralGains& gains, State& state,
 // Steering by feed_forward.hpp, speed by speed_law.hpp.
 Action feed_forward(const Params& params, const LateralGains& gains, State& state,
                     const Inputs& inputs, Duration dt);
-// Steering by lqr_ff.hpp, speed by speed_law.hpp.
+// Steering by lqr_ff.hpp and lap_learning.hpp, speed by speed_law.hpp.
 Action lqr_ff(const Params& params, const LateralGains& gains, State& state, const Inputs& inputs,
               Duration dt);
 

@@ -38,6 +38,7 @@ OnPath on_path(const steering::Params& params, const LateralParams& lateral,
   if (!is_usable(ego)) return out.verdict = LateralVerdict::kNoEgo, path;
   const auto on_path_m = project(trajectory, ego.x_m, ego.y_m);
   if (!on_path_m) return out.verdict = LateralVerdict::kNoTrajectory, path;
+  path.along_m = *on_path_m;
   const double v_mps = std::max(ego.vx_mps, 0.0);
   const TrajectoryPoint here = at(trajectory, *on_path_m);
   const auto road_at = [&](double ahead_m) -> steering::RoadPoint {

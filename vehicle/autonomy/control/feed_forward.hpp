@@ -19,6 +19,7 @@ namespace pitwall::control {
 struct OnPath {
   LateralDiagnostics diagnostics;
   steering::SteeringInputs in;
+  double along_m = kUnset;  // station on the trajectory
 
   bool is_usable() const {
     return diagnostics.verdict == LateralVerdict::kGood ||

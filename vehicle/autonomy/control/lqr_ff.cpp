@@ -69,6 +69,7 @@ double steer_lqr(const steering::Params& p, const LqrGains& gains, const steerin
   const steering::Steered steered =
       steering::steer(p, learned, next.path, in.path,
                       {.angle_rad = scale * u_rad,
+                       .unknown_rad = in.lap_rad,
                        .trim_rad_per_s = -gains.trim_per_s * scale * gain.error[0] * at.lateral_m},
                       dt);
   if (steered.following)
@@ -77,16 +78,6 @@ double steer_lqr(const steering::Params& p, const LqrGains& gains, const steerin
     next = {.path = next.path};
   state = next;
   return steered.angle_rad;
-}
-
-LateralDiagnostics steer_lqr(const steering::Params& params, const LqrGains& gains,
-                             const LateralParams& lateral, const steering::Learned& learned,
-                             LqrState& state, const Angles& angles, const world::EgoState& ego,
-                             const world::Trajectory& trajectory, Duration dt) {
-  const OnPath path = on_path(params, lateral, learned, angles, ego, trajectory);
-  if (!path.is_usable()) return path.diagnostics;
-  return steered(path, steer_lqr(params, gains, learned, state,
-                                 {.path = path.in, .slip_mps = ego.vy_mps}, dt));
 }
 
 }  // namespace pitwall::control

@@ -4,8 +4,8 @@
 //   out    road-wheel angle [rad], left positive
 //   rate   100 Hz, the tick of the gains
 //   invariants
-//          angle = L k + K a + d' + A / A0 u + trim + bump, see path_steering.hpp; A0 is A with
-//          nothing learned
+//          angle = L k + K a + d' + A / A0 u + lap + trim + bump, see path_steering.hpp; A0 is A
+//          with nothing learned, lap the correction of lap_learning.hpp
 //          u     = -(gains of e1, e1', e2, e2', angle of the road wheels, u within the delay):
 //                  e1' = v chi, e2' = r / cos(bank) - v k_yaw, e2 = chi - s
 //          s     = what the car slips beyond the steady slip angle of its path, high-pass of the
@@ -40,16 +40,11 @@ static_assert(std::is_trivially_copyable_v<LqrState>);
 struct LqrInputs {
   steering::SteeringInputs path;
   double slip_mps = kUnset;  // of the centre of gravity, to the left, in the plane of the road
+  double lap_rad = 0.0;      // of lap_learning.hpp
 };
 
 double steer_lqr(const steering::Params& params, const LqrGains& gains,
                  const steering::Learned& learned, LqrState& state, const LqrInputs& in,
                  Duration dt);
-
-// Along the drive trajectory; as steer_forward().
-LateralDiagnostics steer_lqr(const steering::Params& params, const LqrGains& gains,
-                             const LateralParams& lateral, const steering::Learned& learned,
-                             LqrState& state, const Angles& angles, const world::EgoState& ego,
-                             const world::Trajectory& trajectory, Duration dt);
 
 }  // namespace pitwall::control

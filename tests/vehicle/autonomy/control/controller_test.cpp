@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <set>
 #include <string>
 #include <type_traits>
@@ -96,6 +97,38 @@ TEST(Controller, OursGoesByTheGearboxAndByWhatWasApplied) {
   EXPECT_EQ(throttle({.known = true, .gear = 3, .shifting = true}), 0.35);
   EXPECT_LT(throttle({.known = true, .gear = 0, .shifting = false}), 0.35) << "neutral";
   EXPECT_EQ(throttle({.known = false, .gear = 0, .shifting = true}), engaged) << "stale";
+}
+
+TEST(Controller, ALapTeachesAKnownCarThatDrivesItsLine) {
+  const Params p = recommended();
+  const LateralGains gains = prepare(p).value();
+  Scene scene;
+  steering::Learned known;
+  known.covariance = {};
+  const Inputs good{
+      .ego = scene.ego, .trajectory = scene.trajectory, .learned = known, .line = {100.0, 2400.0}};
+  const auto after = [&](const Inputs& in) {
+    State state;
+    state.road_wheel_rad = 0.02;
+    lqr_ff(p, gains, state, in, milliseconds(10));
+    return state.lap;
+  };
+  const LapState taught = after(good);
+  EXPECT_EQ(taught.ticks, 1U);
+  EXPECT_EQ(taught.bin,
+            static_cast<std::size_t>((100.0 + scene.trajectory.points[4].s_m) / 2400.0 * kLapBins));
+  EXPECT_NEAR(taught.sums.error_m, 0.4 * std::cos(scene.ego.yaw_rad), 0.01);
+  const auto teaches_with = [&](const auto& change) {
+    Inputs in = good;
+    change(in);
+    return after(in).ticks > 0;
+  };
+  EXPECT_TRUE(teaches_with([](Inputs&) {}));
+  EXPECT_FALSE(teaches_with([](Inputs& in) { in.line = {}; }));
+  EXPECT_FALSE(teaches_with([](Inputs& in) { in.drives = false; }));
+  EXPECT_FALSE(teaches_with([](Inputs& in) { in.learned = {}; }));
+  scene.ego.validity = world::Validity::kDeadReckoning;
+  EXPECT_FALSE(teaches_with([](Inputs&) {}));
 }
 
 // A controller that can fail: without a yaw rate it hands over to the paper's.

@@ -195,16 +195,19 @@ TEST(LqrFf, BeginsWithTheLastAngleWhoeverSteeredBeforeAndHoldsItWithoutAPlace) {
   testing::Car car;
   car.vx_mps = 60.0;
   car.x_m = t.points[0].x_m, car.y_m = t.points[0].y_m + 0.7, car.yaw_rad = t.points[0].yaw_rad;
-  LqrState state;
-  const Params& p = law.params;
-  const auto first =
-      steer_lqr(p.steering, law.gains, p.lateral, {}, state, {0.021}, car.ego(Instant{}), t, kTick);
+  State state;
+  state.road_wheel_rad = 0.021;
+  const LateralGains gains = prepare(law.params).value();
+  const auto steered = [&](const world::EgoState& ego) {
+    return lqr_ff(law.params, gains, state, {.ego = ego, .trajectory = t}, kTick).lateral;
+  };
+  const LateralDiagnostics first = steered(car.ego(Instant{}));
   EXPECT_EQ(first.verdict, LateralVerdict::kGood);
   EXPECT_NEAR(first.angle_rad, 0.021, 1e-12);
   EXPECT_NEAR(first.cross_track_m, 0.7 * std::cos(t.points[0].yaw_rad), 0.05);
   world::EgoState lost = car.ego(Instant{});
   lost.validity = world::Validity::kLost;
-  const auto held = steer_lqr(p.steering, law.gains, p.lateral, {}, state, {0.021}, lost, t, kTick);
+  const LateralDiagnostics held = steered(lost);
   EXPECT_EQ(held.verdict, LateralVerdict::kNoEgo);
   EXPECT_EQ(held.angle_rad, 0.021);
 }

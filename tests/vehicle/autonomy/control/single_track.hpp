@@ -217,6 +217,16 @@ inline LqrParams recommended_lqr_ff() {
           .trim_per_s = 0.05};
 }
 
+inline LapParams recommended_lap() {
+  return {.gain = 0.55,
+          .forget = 0.06,
+          .lead_s = 0.36,
+          .smooth_s = 0.2,
+          .angle_max_rad = 0.01,
+          .slew_rad_per_s = 0.03,
+          .speed_share = 0.1};
+}
+
 // Recommended parameters of the AV-21.
 inline Params recommended() {
   Params p;
@@ -240,6 +250,7 @@ inline Params recommended() {
   p.lateral.gain_speed_floor_mps = 5.0;
   p.lateral.deviation_max_m = 5.0;
   p.lqr_ff = recommended_lqr_ff();
+  p.lap = recommended_lap();
   p.longitudinal = {.kp_per_mps = 0.2,
                     .feedforward_per_mps = 0.008,
                     .brake_kpa_per_command = 7000.0,
