@@ -1,4 +1,4 @@
-// Telemetry mapper for the other cars: the four that are nearest along the track, the nearest first.
+// Telemetry mapper for the other cars: the four that are nearest along the track, nearest first.
 //   in     as telemetry_mapper.hpp
 //   out    values and sampling times of the groups kOpponent1 to kOpponent4; a group without a car
 //          has no time

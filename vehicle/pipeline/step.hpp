@@ -1,5 +1,5 @@
-// Tick of the whole car: decode -> localize -> track -> plan -> control -> supervise -> encode -> gate. One
-// function for the car, the live bench, lockstep and the tests.
+// Tick of the whole car: decode -> localize -> track -> plan -> control -> supervise -> encode ->
+// gate. One function for the car, the live bench, lockstep and the tests.
 //   in     Setup (read-only), what arrived since the last tick, the operator's requests, the time
 //   out    frames for the bus, and all values for telemetry and logs; Car is updated in place
 //   rate   100 Hz (Setup::params.rates.tick); planning inside at its own rate
