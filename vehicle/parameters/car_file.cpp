@@ -49,6 +49,7 @@ CarFile read_root(yaml::StrictMap& map) {
   car.params.rates = read_rates(map.map("rates"));
   read_gateway(map.map("gateway"), car.params);
   car.params.localization = read_localization(map.map("localization"), car.params.receivers);
+  if (map.has("tracking")) car.params.tracking = read_tracking(map.map("tracking"));
   car.params.planning = read_planning(map.map("planning"));
   car.params.control = read_control(map.map("control"));
   read_safety(map.map("safety"), car.params);

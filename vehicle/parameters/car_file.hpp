@@ -26,6 +26,7 @@ Result<CarFile, Problem> read_car(const std::string& text, const std::string& na
 
 // Sections of the file, each in its own source file.
 localization::Params read_localization(yaml::StrictMap map, world::Receivers& receivers);
+tracking::Params read_tracking(yaml::StrictMap map);
 planning::Params read_planning(yaml::StrictMap map);
 control::Params read_control(yaml::StrictMap map);
 void read_gateway(yaml::StrictMap map, pipeline::CarParams& params);

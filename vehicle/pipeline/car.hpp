@@ -11,6 +11,7 @@
 #include "vehicle/autonomy/control/control.hpp"
 #include "vehicle/autonomy/localization/localization.hpp"
 #include "vehicle/autonomy/planning/planning.hpp"
+#include "vehicle/autonomy/tracking/tracking.hpp"
 #include "vehicle/gateway/bus_identity.hpp"
 #include "vehicle/gateway/handshake.hpp"
 #include "vehicle/gateway/inbound.hpp"
@@ -41,6 +42,7 @@ struct Car {
   gateway::HandshakeState handshake;
   gateway::OutboundState outbound;
   localization::State localization;
+  tracking::State tracking;  // of the other cars
   Plan plan;
   control::State control;
   steering::Learned learned;  // learned steering correction

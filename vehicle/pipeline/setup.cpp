@@ -92,6 +92,8 @@ Result<Setup, Problem> prepare(const CarParams& params, const world::TrackDescri
   if (!datum) return Unexpected{datum.error()};
   auto localization = localization::checked(params.localization);
   if (!localization) return Unexpected{localization.error()};
+  auto tracking = tracking::checked(params.tracking);
+  if (!tracking) return Unexpected{tracking.error()};
   auto line = planning::prepare(params.planning, *map, bank, steering_of(params));
   if (!line) return Unexpected{line.error()};
   auto gains = control::prepare(params.control);

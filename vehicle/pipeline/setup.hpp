@@ -19,6 +19,7 @@
 #include "vehicle/autonomy/control/control.hpp"
 #include "vehicle/autonomy/localization/localization.hpp"
 #include "vehicle/autonomy/planning/planning.hpp"
+#include "vehicle/autonomy/tracking/params.hpp"
 #include "vehicle/gateway/bus_identity.hpp"
 #include "vehicle/gateway/handshake.hpp"
 #include "vehicle/gateway/inbound.hpp"
@@ -64,6 +65,7 @@ struct CarParams {
   gateway::OutboundParams outbound;
   world::Receivers receivers;  // not used by step(), but by the receivers' ports
   localization::Params localization;
+  tracking::Params tracking;
   planning::Params planning;
   control::Params control;
   safety::WatchdogParams watchdog;

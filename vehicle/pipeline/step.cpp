@@ -31,6 +31,13 @@ world::Curvilinear place_of(const Setup& setup, Car& car, const world::EgoState&
   return place;
 }
 
+world::Opponents track_opponents(const Setup& setup, Car& car, const world::EgoState& ego,
+                                 const Inputs& in) {
+  return tracking::step(setup.params.tracking, car.tracking,
+                        {.frames = in.detections, .ego = ego, .track = &setup.track, .now = in.now})
+      .opponents;
+}
+
 planning::Followed followed(const Car& car) {
   switch (car.follow) {
     case Follow::kNone:
@@ -243,6 +250,7 @@ Outputs step(const Setup& setup, Car& car, const Inputs& in) {
   out.estimate = located.estimate;
   out.in_use = located.in_use;
   out.place = place_of(setup, car, out.ego);
+  out.opponents = track_opponents(setup, car, out.ego, in);
 
   plan_when_due(setup, car, out, in);
   drive(setup, car, in, out);

@@ -1,5 +1,5 @@
-// Tick of the whole car: decode -> localize -> plan -> control -> supervise -> encode -> gate. One
-// function for the car, the live bench, lockstep and the tests.
+// Tick of the whole car: decode -> localize -> track -> plan -> control -> supervise -> encode ->
+// gate. One function for the car, the live bench, lockstep and the tests.
 //   in     Setup (read-only), what arrived since the last tick, the operator's requests, the time
 //   out    frames for the bus, and all values for telemetry and logs; Car is updated in place
 //   rate   100 Hz (Setup::params.rates.tick); planning inside at its own rate
@@ -20,9 +20,11 @@
 #include "vehicle/pipeline/operator_orders.hpp"
 #include "vehicle/pipeline/setup.hpp"
 #include "vehicle/safety/link_loss_policy.hpp"
+#include "vehicle/world/detection.hpp"
 #include "vehicle/world/health.hpp"
 #include "vehicle/world/monitor.hpp"
 #include "vehicle/world/operator_inputs.hpp"
+#include "vehicle/world/opponent.hpp"
 #include "vehicle/world/sensor_input.hpp"
 
 namespace pitwall::pipeline {
@@ -42,11 +44,12 @@ struct Inputs {
   Duration dt{};  // since the last tick
   std::span<const can::ReceivedFrame> can;
   const world::SensorInput& sensors;
-  safety::OperatorRequests requests;                   // switches at the car
-  double operator_speed_limit_mps = kUnset;            // unset: none
-  world::OperatorInputs operator_inputs{};             // by radio
-  std::span<const world::OperatorCommand> commands{};  // at most kOperatorCommandsMax
-  bool may_arm = true;                                 // false: listen-only bus or wrong schema
+  std::span<const world::DetectionFrame> detections{};  // of other cars, in order of arrival
+  safety::OperatorRequests requests;                    // switches at the car
+  double operator_speed_limit_mps = kUnset;             // unset: none
+  world::OperatorInputs operator_inputs{};              // by radio
+  std::span<const world::OperatorCommand> commands{};   // at most kOperatorCommandsMax
+  bool may_arm = true;                                  // false: listen-only bus or wrong schema
   // Newest byte of each receiver; nullopt: any sample of the unit counts.
   std::array<std::optional<Instant>, world::kGnssUnits> gnss_byte_at{};
   world::LinkObservation link{};      // of the CAN interface
@@ -68,8 +71,9 @@ struct Outputs {
   FixedVector<localization::Verdict, localization::kVerdictsMax> located;
   localization::Estimate estimate;                                     // source of `ego`
   std::array<localization::UnitSet, localization::kSources> in_use{};  // channels and units
-  world::Curvilinear place;  // on the track; unset before the first position
-  control::Output steered;   // empty in a stop: control is not used
+  world::Curvilinear place;    // on the track; unset before the first position
+  world::Opponents opponents;  // other cars
+  control::Output steered;     // empty in a stop: control is not used
   Tracking tracking;
   safety::WatchdogOutput watchdog;
   safety::BusGuardOutput bus_guard;

@@ -5,6 +5,7 @@
 
 #include "protocol/telemetry/registry/labels.hpp"
 #include "vehicle/pipeline/health_mapper.hpp"
+#include "vehicle/pipeline/opponent_mapper.hpp"
 #include "vehicle/safety/fault_log.hpp"
 
 namespace pitwall::pipeline {
@@ -270,6 +271,7 @@ telemetry::Snapshot map_telemetry(const TelemetryInputs& in) {
   if (s.wheel_speed_mps.received)
     v[field("wheels.standstill")] = in.out.chosen.standstill ? 1.0 : 0.0;
   put_times(snapshot, in);
+  map_opponents(in, snapshot);
   map_health(in, snapshot);
   return snapshot;
 }

@@ -6,8 +6,8 @@
 //          a field with an unknown value is NaN; a group that was never sampled has no time, and
 //          the radio never sends it
 //   unset  fields that no part of this car provides yet: suspension, tread, fuel, steering_unit and
-//          brakes (the gateway does not decode those messages); opponents; torque, oil and traction
-//          of powertrain; line, target_gap and cost of planner
+//          brakes (the gateway does not decode those messages); torque, oil and traction of
+//          powertrain; line, target_gap and cost of planner
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

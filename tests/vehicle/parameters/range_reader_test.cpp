@@ -49,5 +49,21 @@ TEST(RangeReader, WhatIsMissingOrOutsideIsNamedWithItsLine) {
   EXPECT_NE(read("share: 0.5\nwait_s: 2\n", params).find("speed_mps"), std::string::npos);
 }
 
+TEST(RangeReader, WhatMayBeLeftOutStaysAsItIs) {
+  Params params{.share = 0.25, .speed_mps = 1.0};
+  const auto given = [&](const std::string& text) {
+    const auto document = yaml::load_text(text, "p.yaml");
+    const auto done = yaml::read(*document, [&](yaml::StrictMap& map) {
+      read_given_ranges(map, kNumbers, params);
+      return true;
+    });
+    return done ? "" : to_string(done.error());
+  };
+  EXPECT_EQ(given("speed_mps: 3\n"), "");
+  EXPECT_EQ(params.share, 0.25);
+  EXPECT_EQ(params.speed_mps, 3.0);
+  EXPECT_NE(given("share: 1.5\n").find("p.yaml:1:"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace pitwall::parameters

@@ -92,6 +92,18 @@ inline void set_position(Outputs& out) {
   out.place = {.s_m = 1500.5, .n_m = -1.25};
 }
 
+// In the order of their numbers: the last one is the nearest along the track.
+inline void set_opponents(world::Opponents& opponents) {
+  for (const double k : {4.0, 3.0, 2.0, 1.0}) {
+    world::Opponent car{.id = static_cast<std::uint32_t>(10.0 * k)};
+    car.s_m = 1500.5 + 20.0 * k, car.n_m = 0.25 * k;
+    car.speed_mps = 50.0 + k;
+    car.measured_at = kNow - milliseconds(100) * static_cast<std::int64_t>(k);
+    car.covariance[0] = car.covariance[5] = 0.25 * k * k;
+    (void)opponents.cars.push(car);
+  }
+}
+
 inline Outputs full() {
   Outputs out;
   set_received_signals(out.received.signals);
@@ -113,6 +125,7 @@ inline Outputs full() {
   out.received.bus.link.lost_in_socket = 4;
   out.received.bus.link.lost_in_interface = 5;
   set_position(out);
+  set_opponents(out.opponents);
   out.tracking.target_speed_mps = 64.5;
   out.chosen.mode = world::Mode::kControlledStop;
   out.chosen.cause = safety::Cause::kImuLost;

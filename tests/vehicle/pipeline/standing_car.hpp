@@ -70,6 +70,7 @@ inline double any_number(Random& random) {
 struct Received {
   std::vector<can::ReceivedFrame> frames;
   world::SensorInput sensors;
+  std::vector<world::DetectionFrame> detections;
   safety::OperatorRequests requests;
 
   Inputs inputs(Instant now, Duration dt = kTick) const {
@@ -77,6 +78,7 @@ struct Received {
             .dt = dt,
             .can = frames,
             .sensors = sensors,
+            .detections = detections,
             .requests = requests,
             .radio_at = now};
   }

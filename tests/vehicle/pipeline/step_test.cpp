@@ -334,6 +334,31 @@ TEST(Step, ReportsThePlaceOnTheTrack) {
   EXPECT_NEAR(place.n_m, 0.0, 0.2);
 }
 
+// LiDAR frames at 20 Hz, 20 ms old, of a car 20 m ahead and 3 m to the left.
+TEST(Step, TracksAnotherCar) {
+  const auto car = new_car();
+  StandingCar source;
+  source.station_m = 30.0;  // on a straight
+  world::Opponents opponents;
+  run(
+      *car, seconds(4),
+      [&](Instant now) {
+        Received received = source.receive(now);
+        const bool due = now - kStart > seconds(2) && (now - kStart) / kTick % 5 == 0;
+        if (!due) return received;
+        world::DetectionFrame frame{.at = now - milliseconds(20), .received = now};
+        (void)frame.detections.push({.confidence = 0.9, .x_m = 20.0, .y_m = 3.0, .yaw_rad = 0.0});
+        received.detections = {frame};
+        return received;
+      },
+      [&](const Outputs& out) { opponents = out.opponents; });
+  ASSERT_EQ(opponents.cars.size(), 1U);
+  EXPECT_NEAR(opponents.cars[0].s_m, 50.0, 1.0);
+  EXPECT_NEAR(opponents.cars[0].n_m, 3.0, 0.5);
+  EXPECT_NEAR(opponents.cars[0].speed_mps, 0.0, 1.0);
+  EXPECT_GT(car->tracking.counters.frames, 30U);
+}
+
 // ---- The state is a value
 
 // Everything that a tick shows, as bits.

@@ -26,8 +26,7 @@ using telemetry::Group;
 // What no part of the car tells yet, as the header of the tap says.
 bool is_nobodys(std::size_t i) {
   using enum Group;
-  static const std::set<Group> kNobodys{kSuspension, kTread,     kFuel,      kSteeringUnit, kBrakes,
-                                        kOpponent1,  kOpponent2, kOpponent3, kOpponent4};
+  static const std::set<Group> kNobodys{kSuspension, kTread, kFuel, kSteeringUnit, kBrakes};
   static const std::set<std::string> kUnknown{
       "dynamics.roll",           "dynamics.pitch",
       "powertrain.torque",       "powertrain.oil",
@@ -170,11 +169,12 @@ TEST(TelemetryTap, TimesAreThoseOfTheSamples) {
   using enum Group;
   const auto snapshot = mapped(full());
   const std::map<Group, int> ages_ms{
-      {kMode, 0},    {kFlags, 0},       {kUplink, 0},    {kEgo, 21},      {kTrack, 21},
-      {kCommand, 0}, {kFeedback, 14},   {kWheels, 11},   {kDynamics, 21}, {kTyres, 19},
-      {kEngine, 16}, {kPowertrain, 16}, {kElectric, 15}, {kPlanner, 22},  {kLocalization, 0},
-      {kStreams, 0}, {kSensors, 0},     {kGnss1, 0},     {kReceivers, 0}, {kComputer, 0},
-      {kFaults, 0},  {kBus, 0},         {kRadio, 0},     {kRival, 21}};
+      {kMode, 0},      {kFlags, 0},       {kUplink, 0},    {kEgo, 21},      {kTrack, 21},
+      {kCommand, 0},   {kFeedback, 14},   {kWheels, 11},   {kDynamics, 21}, {kTyres, 19},
+      {kEngine, 16},   {kPowertrain, 16}, {kElectric, 15}, {kPlanner, 22},  {kLocalization, 0},
+      {kStreams, 0},   {kSensors, 0},     {kGnss1, 0},     {kReceivers, 0}, {kComputer, 0},
+      {kFaults, 0},    {kBus, 0},         {kRadio, 0},     {kRival, 21},    {kOpponent1, 0},
+      {kOpponent2, 0}, {kOpponent3, 0},   {kOpponent4, 0}};
   for (const telemetry::GroupRow& row : telemetry::kGroupTable) {
     const auto expected = ages_ms.find(row.group);
     ASSERT_EQ(snapshot.ever(row.group), expected != ages_ms.end()) << row.name;

@@ -69,8 +69,10 @@ TEST(OwnTrail, IgnoresWhatItCannotUse) {
   EXPECT_TRUE(refuses(bad));
   bad = ego, bad.vy_mps = kUnset;
   EXPECT_TRUE(refuses(bad));
-  bad = ego, bad.at = at_ms(90);
-  EXPECT_TRUE(refuses(bad));
+  bad = ego, bad.at = at_ms(90), bad.x_m += 1.0;
+  OwnTrail copy = trail;
+  copy.note(bad, nullptr);
+  EXPECT_EQ(copy.newest()->own.x_m, trail.newest()->own.x_m);
   EXPECT_FALSE(refuses(ego));
 }
 
