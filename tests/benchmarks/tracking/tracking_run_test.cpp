@@ -5,6 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include <numbers>
+
 #include "tests/benchmarks/tracking/arrival_orders.hpp"
 #include "tests/benchmarks/tracking/tracking_cost.hpp"
 #include "tests/benchmarks/tracking/tracking_table.hpp"
@@ -30,7 +32,8 @@ TEST(TrackingRun, TwoCarsSideBySideStayTwo) {
   EXPECT_EQ(row.switches, 0U);
   EXPECT_EQ(row.objects, 2U * 17U * 20U);  // at 20 Hz, after 3 s
   EXPECT_LT(row.misses, row.objects / 50);
-  EXPECT_LE(row.by_distance[kNear].position.value(), kNearRms_m);
+  // Better than one LiDAR box, whose distance from the truth is 0.15 m in each axis.
+  EXPECT_LT(row.by_distance[kNear].position.value(), 0.15 * std::numbers::sqrt2);
   EXPECT_LE(row.speed.value(), kSpeedRms_mps);
 }
 
@@ -42,7 +45,7 @@ TEST(TrackingRun, TheRaceHasWhatItIsToHave) {
   EXPECT_LT(row.frames_refused, 10U);
   EXPECT_GT(row.passes, 5U);
   EXPECT_GT(row.objects, 5000U);
-  EXPECT_GT(row.by_distance[kFar].position.count, 100U);
+  EXPECT_GT(row.by_distance[kFar].position.count, 20U);
   const TrackingRow paper = run_tracking(shortened(race_scene(), seconds(60)), kPaper);
   EXPECT_EQ(paper.frames, row.frames);
   EXPECT_EQ(paper.objects, row.objects);

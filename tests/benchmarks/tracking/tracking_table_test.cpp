@@ -33,7 +33,9 @@ Figures good() {
   blind.scene = "blind", blind.blind_times = 10, blind.blind_worst_m = 1.4;
   TrackingRow paper = race;
   paper.method = "paper", paper.switches = 50, paper.speed = rms(9.0);
-  return {{paper, race, pair, blind}, {}};
+  Figures f;
+  f.rows = {paper, race, pair, blind};
+  return f;
 }
 
 bool all_held(const Figures& f) {
@@ -41,7 +43,7 @@ bool all_held(const Figures& f) {
 }
 
 TEST(TrackingTable, AGateForEachFigureOfOurs) {
-  ASSERT_TRUE(all_held(good()));
+  ASSERT_TRUE(all_held(good())) << to_text(gates_of(good().rows, good().orders));
   const std::vector<std::function<void(Figures&)>> spoils{
       [](Figures& f) { f.rows[1].by_distance[kNear].position = rms(0.11); },
       [](Figures& f) { f.rows[1].by_distance[kFar].position = rms(0.26); },
