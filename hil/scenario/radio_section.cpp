@@ -10,7 +10,7 @@ namespace {
 constexpr double kSlowest_ms = 10'000.0, kFastest_kbit = 1e6;
 constexpr double kMaxFadeLoss = 0.95;
 constexpr double kBitsPerByte = 8.0, kKilo = 1e3;
-constexpr std::int64_t kMaxQueue = 1 << 24, kMaxSeed = 1'000'000'000;
+constexpr std::int64_t kMaxQueue = 1 << 24;
 constexpr std::size_t kMaxWords = 100'000;
 constexpr std::size_t kMaxBlackouts = 64;
 

@@ -22,6 +22,7 @@
 namespace pitwall::scenario {
 
 inline constexpr double kLongest_s = 36'000.0;  // ten hours: the longest soak
+inline constexpr std::int64_t kMaxSeed = 1'000'000'000;
 
 inline constexpr std::size_t kMaxPaths = 2;
 

@@ -237,7 +237,7 @@ Scenario read_root(yaml::StrictMap& map) {
   Scenario scenario;
   if (map.integer("schema", 0, 1000) != 1) map.fail("schema", "this bench reads schema 1");
   scenario.name = map.text("name");
-  scenario.seed = static_cast<std::uint64_t>(map.integer("seed", 0, 1'000'000'000));
+  scenario.seed = static_cast<std::uint64_t>(map.integer("seed", 0, kMaxSeed));
   scenario.duration = from_seconds(map.number("duration_s", 0.1, kLongest_s));
   scenario.track_file = map.text("track");
   scenario.car_file = map.text("car");
@@ -248,6 +248,7 @@ Scenario read_root(yaml::StrictMap& map) {
   if (map.has("plant")) scenario.plant_file = map.text("plant");
   if (map.has("plant") && scenario.plant_file.empty()) map.fail("plant", "names no file");
   if (auto perturb = map.optional_map("perturb")) scenario.perturb = read_perturbations(*perturb);
+  scenario.cars = read_cars(map, scenario.seed);
   read_list(map, "race_control", scenario.race_control, read_flag_change);
   scenario.radio = read_radio(map);
   scenario.operator_texts = read_operator(map);

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "hil/plant/params.hpp"
+#include "hil/scenario/cars_section.hpp"
 #include "hil/scenario/radio_section.hpp"
 #include "protocol/vocabulary/result.hpp"
 #include "protocol/vocabulary/time.hpp"
@@ -104,6 +105,7 @@ struct Scenario {
   std::string plant_file;  // of the modelled car; empty: the AV-21 of hil/plant/params.hpp
   plant::Params plant;     // content of that file; the code that opens the files fills it in
   Perturbations perturb;
+  std::vector<OtherCar> cars;
   std::vector<FlagChange> race_control;
   std::vector<RadioPath> radio;  // empty: no delay, no loss
   std::vector<OperatorText> operator_texts;
