@@ -84,8 +84,10 @@ TEST(LapLearning, SteersAgainstTheErrorOfTheLapBefore) {
 
 TEST(LapLearning, IsOffWithoutAGain) {
   Learner learner;
+  drive(learner, -kRunIn_m, kTaught_m);
   learner.params.lap.gain = 0.0;
-  EXPECT_EQ(largest(drive(learner, 0.0, 3.0 * kLength_m)), 0.0);
+  drive(learner, kTaught_m, kTaught_m + 100.0);
+  EXPECT_EQ(largest(drive(learner, kTaught_m + 100.0, 2.0 * kLength_m)), 0.0);
 }
 
 TEST(LapLearning, StaysWithinItsAngleAndItsSlewWhateverHappens) {
