@@ -11,8 +11,8 @@
 //   size       length_m, width_m
 //   seed       of the drift; without it derived from the seed of the scenario and the number
 //   script     entries that fire in their order, each with one of at_s, at_station_m, gap_above_m,
-//              gap_below_m, and do: speed (speed), line (line, offset_m, over_s), brake (decel_mps2,
-//              to_mps), stand, spin (decel_mps2, turn_deg)
+//              gap_below_m, and do: speed (speed), line (line, offset_m, over_s), brake
+//              (decel_mps2, to_mps), stand, spin (decel_mps2, turn_deg)
 //   errors     thrown as yaml::InputError with the place, for read_scenario(); what needs track and
 //              bank, build_ghost() refuses
 // SPDX-License-Identifier: Apache-2.0

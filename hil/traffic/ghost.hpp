@@ -7,8 +7,8 @@
 //          time above a walking pace and stop with the car, so that a standing car does not move
 //   spin   the car slides along its line to a stop and turns, by a minimum-jerk turn over the speed
 //          that it loses: without a jump of the yaw rate when it begins or when the car stands
-//   script the entries fire one after another: each waits for its own condition and for those before
-//          it, and a change of line also for the end of the one before
+//   script the entries fire one after another: each waits for its own condition and for those
+//          before it, and a change of line also for the end of the one before
 //   invariants
 //          position is C1 in time and yaw continuous; dv/dt is within [-brake, accel]. The offset
 //          accelerates against the line by at most lateral_mps2 for a change of line between
