@@ -28,23 +28,51 @@ std::optional<Problem> difference(const Runner& first, const Runner& car) {
   return std::nullopt;
 }
 
-Field::Field(std::span<const Runner> runners)
+Field::Field(std::span<const Runner> runners, std::span<const FieldGhost> ghosts)
     : track_(runners.front().setup.track),
-      cars_(runners.size()),
-      traces_(runners.size()),
-      least_gap_m_(runners.size(), kUnset) {
+      cars_(runners.size() + ghosts.size()),
+      traces_(cars_.size()),
+      least_gap_m_(cars_.size(), kUnset),
+      ghosts_(ghosts) {
+  CHECK(cars_.size() <= kFieldMax);
   for (const Runner& runner : runners) {
     names_.push_back(runner.name);
     numbers_.push_back(runner.setup.params.outbound.vehicle_number);
   }
+  for (const FieldGhost& ghost : ghosts) {
+    names_.push_back(ghost.name);
+    numbers_.push_back(ghost.number);
+    ghost_states_.push_back(traffic::begin(ghost.ghost, track_, Instant{}));
+  }
 }
 
-void Field::step(std::span<const FieldCar> cars, Instant now) {
-  CHECK(cars.size() == cars_.size());
-  std::ranges::copy(cars, cars_.begin());
+void Field::step(std::span<const FieldCar> stacks, Instant now) {
+  CHECK(stacks.size() + ghosts_.size() == cars_.size());
+  std::ranges::copy(stacks, cars_.begin());
+  move_ghosts(now);
   for (std::size_t i = 0; i < cars_.size(); ++i) traces_[i].record(cars_[i].pose, now);
   for (std::size_t second = 1; second < cars_.size(); ++second)
-    for (std::size_t first = 0; first < second; ++first) judge_pair(first, second, now);
+    for (std::size_t first = 0; first < std::min(second, stacks.size()); ++first)
+      judge_pair(first, second, now);
+}
+
+// A ghost starts with the run and has no laps to count before it has passed the start line.
+void Field::move_ghosts(Instant now) {
+  const std::size_t first = cars_.size() - ghosts_.size();
+  for (std::size_t i = 0; i < ghosts_.size(); ++i) {
+    traffic::GhostState& state = ghost_states_[i];
+    state = traffic::step(ghosts_[i].ghost, track_, state, {cars_.front().pose.s_m}, now);
+    cars_[first + i] = {.pose = state.pose,
+                        .laps = static_cast<std::uint32_t>(state.travelled_m / track_.length_m()),
+                        .told_to_slow = cars_.front().told_to_slow};
+  }
+}
+
+std::span<const sensors::TrueCar> Field::others_of(std::size_t car) {
+  others_.clear();
+  for (std::size_t other = 0; other < cars_.size(); ++other)
+    if (other != car) CHECK(others_.push(seen(cars_[other].pose)));
+  return others_.span();
 }
 
 void Field::judge_pair(std::size_t first, std::size_t second, Instant now) {
@@ -104,6 +132,17 @@ std::optional<race::Rival> Field::rival_of(std::size_t car) const {
                      .laps = static_cast<std::uint8_t>(rival.laps & 0xFF),
                      .distance_m = rival.pose.s_m,
                      .speed_mps = traffic::speed_mps(rival.pose)};
+}
+
+sensors::TrueCar seen(const traffic::CarPose& car) {
+  const double c = std::cos(car.yaw_rad), s = std::sin(car.yaw_rad);
+  return {.x_m = car.x_m,
+          .y_m = car.y_m,
+          .yaw_rad = car.yaw_rad,
+          .vx_mps = c * car.vx_mps - s * car.vy_mps,
+          .vy_mps = s * car.vx_mps + c * car.vy_mps,
+          .length_m = car.length_m,
+          .width_m = car.width_m};
 }
 
 FieldCar car_of(const Rig& rig) {

@@ -1,7 +1,10 @@
-// Field of a run: every car on the track in truth, ours and the others.
-//   in     all cars at every step of the rig, in the same order
+// Field of a run: every car on the track in truth, those with a stack and the ghosts.
+//   in     the cars with a stack at every step of the rig, in the same order; the field moves the
+//          ghosts itself, by the station of the first car
 //   out    the first contact of each pair of cars with its cause; the smallest gap of each car to
 //          another; the rival of each car as race control's timing has it
+//   invariants
+//          ghosts pass through each other: only a car with a stack has contacts and gaps
 //   units  in the names; gaps are those of the rectangles around the cars
 //   cost   O(cars^2); after the first step it allocates for a contact only
 // SPDX-License-Identifier: Apache-2.0
@@ -17,8 +20,10 @@
 #include "hil/bench/outcome.hpp"
 #include "hil/bench/rig.hpp"
 #include "hil/nodes/race_control.hpp"
+#include "hil/sensors/detections.hpp"
 #include "hil/traffic/car_pose.hpp"
 #include "hil/traffic/contact_cause.hpp"
+#include "hil/traffic/ghost.hpp"
 #include "hil/traffic/motion_trace.hpp"
 #include "protocol/vocabulary/check.hpp"
 #include "protocol/vocabulary/fixed_vector.hpp"
@@ -38,13 +43,20 @@ struct Runner {
 // flags of race control.
 std::optional<Problem> difference(const Runner& first, const Runner& car);
 
+// A car of the run without a stack.
+struct FieldGhost {
+  std::string name;
+  std::uint8_t number = 0;
+  traffic::Ghost ghost{};
+};
+
 struct FieldCar {
   traffic::CarPose pose{};
   std::uint32_t laps = 0;
   bool told_to_slow = false;  // by race control
 };
 
-inline constexpr std::size_t kFieldMax = 16;
+inline constexpr std::size_t kFieldMax = sensors::kTrueCarsMax;
 
 struct FieldContact {
   std::size_t first = 0, second = 0;  // cars, first < second
@@ -57,9 +69,16 @@ struct FieldContact {
 
 class Field {
  public:
-  explicit Field(std::span<const Runner> runners);  // at least one
+  // At least one runner. Ghosts come after them in the order of the cars.
+  Field(std::span<const Runner> runners, std::span<const FieldGhost> ghosts);
 
-  void step(std::span<const FieldCar> cars, Instant now);
+  void step(std::span<const FieldCar> stacks, Instant now);
+
+  std::size_t size() const { return cars_.size(); }
+  const FieldCar& car(std::size_t i) const { return cars_[i]; }
+  std::uint8_t number(std::size_t i) const { return numbers_[i]; }
+  // All cars but this one, as its sensors may see them; valid until the next call.
+  std::span<const sensors::TrueCar> others_of(std::size_t car);
 
   const std::vector<FieldContact>& contacts() const { return contacts_; }
   // Unset as long as no other car was within kNear_m.
@@ -73,6 +92,7 @@ class Field {
   static constexpr double kNear_m = 20.0;  // between the centres: two cars are shorter
   void judge_pair(std::size_t first, std::size_t second, Instant now);
   double progress_m(std::size_t car) const;
+  void move_ghosts(Instant now);
 
   const world::TrackMap& track_;
   std::vector<std::string> names_;
@@ -81,19 +101,25 @@ class Field {
   std::vector<traffic::MotionTrace> traces_;
   std::vector<double> least_gap_m_;
   std::vector<FieldContact> contacts_;
+  std::span<const FieldGhost> ghosts_;
+  std::vector<traffic::GhostState> ghost_states_;
+  FixedVector<sensors::TrueCar, sensors::kTrueCarsMax> others_;
 };
 
 // The true car of a rig.
 FieldCar car_of(const Rig& rig);
 
-// Every car shows itself, and is told of its rival. For cars with rig() and show_rival().
+// The true car as a sensor sees it.
+sensors::TrueCar seen(const traffic::CarPose& car);
+
+// Every car shows itself, and then sees the others. For cars with rig() and show_others().
 template <class Cars>
 void step_field(Field& field, const Cars& cars, Instant at) {
   FixedVector<FieldCar, kFieldMax> places;
   for (const auto& car : cars) CHECK(places.push(car_of(car->rig())));
   field.step(places.span(), at);
-  if (cars.size() < 2) return;
-  for (std::size_t i = 0; i < cars.size(); ++i) cars[i]->show_rival(field.rival_of(i));
+  if (field.size() < 2) return;
+  for (std::size_t i = 0; i < cars.size(); ++i) cars[i]->show_others(field, i, at);
 }
 
 }  // namespace pitwall::bench

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hil/bench/loading.hpp"
 
+#include <cstdint>
 #include <utility>
 
 #include "hil/nodes/protected_messages.hpp"
 #include "hil/plant/plant_file.hpp"
+#include "hil/traffic/ghost_builder.hpp"
 #include "protocol/transport/file.hpp"
 #include "protocol/vocabulary/text.hpp"
 #include "vehicle/parameters/car_file.hpp"
@@ -16,6 +18,23 @@ namespace {
 
 std::string below(const std::string& folder, const std::string& path) {
   return path.starts_with('/') || folder.empty() ? path : folder + "/" + path;
+}
+
+Result<std::vector<FieldGhost>, Problem> ghosts_of(const scenario::Scenario& scenario,
+                                                   const parameters::CarFile& car,
+                                                   const world::TrackDescription& track,
+                                                   const world::TrackMap& map,
+                                                   const parameters::ReadFile& read_file) {
+  std::vector<FieldGhost> ghosts;
+  if (scenario.cars.empty()) return ghosts;
+  const auto bank = parameters::bank_of(car, track, read_file);
+  if (!bank) return Unexpected{bank.error()};
+  for (const scenario::OtherCar& other : scenario.cars) {
+    auto ghost = traffic::build_ghost(other.ghost, map, *bank ? &**bank : nullptr);
+    if (!ghost) return Unexpected{ghost.error()};
+    ghosts.push_back({other.name, static_cast<std::uint8_t>(other.number), *std::move(ghost)});
+  }
+  return ghosts;
 }
 
 }  // namespace
@@ -47,16 +66,20 @@ Result<Loaded, Problem> load(const std::string& scenario_file, const std::string
   if (width_m != modelled_m)
     return refuse(car_file, formatted("width_m is %.3f, but the modelled car is %.3f m wide",
                                       width_m, modelled_m));
-  auto setup = parameters::set_up(
-      *car, *track, [](const std::string& path) { return transport::read_file(path); });
+  const parameters::ReadFile read_file = [](const std::string& path) {
+    return transport::read_file(path);
+  };
+  auto setup = parameters::set_up(*car, *track, read_file);
   if (!setup) return Unexpected{setup.error()};
+  auto ghosts = ghosts_of(*scenario, *car, *track, setup->track, read_file);
+  if (!ghosts) return Unexpected{ghosts.error()};
   for (std::size_t unit = 0; scenario->receivers && unit < scenario->receivers->size(); ++unit)
     setup->params.receivers[unit].kind = (*scenario->receivers)[unit];
   if (scenario->bus == scenario::BusRevision::kProtected) {
     setup->params.inbound.also = can_variant::judged_rows();
     setup->params.identity.also = can_variant::protected_rows();
   }
-  return Loaded{*std::move(scenario), *std::move(setup)};
+  return Loaded{*std::move(scenario), *std::move(setup), *std::move(ghosts)};
 }
 
 }  // namespace pitwall::bench

@@ -4,7 +4,9 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
+#include "hil/bench/field.hpp"
 #include "hil/scenario/scenario.hpp"
 #include "protocol/vocabulary/result.hpp"
 #include "vehicle/pipeline/setup.hpp"
@@ -14,6 +16,7 @@ namespace pitwall::bench {
 struct Loaded {
   scenario::Scenario scenario;
   pipeline::Setup setup;
+  std::vector<FieldGhost> ghosts{};  // the other cars of the scenario
 };
 
 // Track, car and plant files are named relative to `folder` unless they are absolute.

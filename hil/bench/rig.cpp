@@ -41,9 +41,6 @@ Result<Rig, Problem> Rig::build(const scenario::Scenario& scenario, const world:
         scenario.name, "start.speed_mps: expected 0, because the bench starts at standstill"}};
   if (scenario.start.s_m >= track.length_m())
     return Unexpected{Problem{scenario.name, "start.s_m lies beyond the end of the track"}};
-  if (!scenario.cars.empty())
-    return Unexpected{
-        Problem{scenario.cars.front().ghost.place, "cars: this bench does not drive others yet"}};
   auto plan = plan_faults(scenario.faults, scenario.seed);
   if (!plan) return Unexpected{plan.error()};
 

@@ -37,7 +37,7 @@ std::string faults_text(const std::vector<scenario::Fault>& faults) {
 }  // namespace
 
 RunRecord::RunRecord(const scenario::Scenario& scenario, std::string_view mode,
-                     recording::Sink sink)
+                     recording::Sink sink, bool has_others)
     : log_({{"scenario", scenario.name},
             {"seed", std::to_string(scenario.seed)},
             {"mode", std::string(mode)},
@@ -54,6 +54,10 @@ RunRecord::RunRecord(const scenario::Scenario& scenario, std::string_view mode,
       truth_(log_.channel<TruthSample>("/truth")),
       car_(log_.channel<CarSample>("/car")),
       losses_(log_.channel<LossSample>("/bus_losses")) {
+  if (has_others) {
+    others_ = log_.channel<OtherSample>("/others");
+    opponents_ = log_.channel<OpponentSample>("/opponents");
+  }
   log_.start();
 }
 
@@ -122,6 +126,31 @@ CarSample car_sample(const pipeline::Outputs& out) {
 void RunRecord::car(const pipeline::Outputs& out, Instant at) {
   log_.sample(car_, at, car_sample(out));
   for (const world::LossReport& noticed : out.received.bus.losses) loss(noticed);
+  if (!opponents_) return;
+  for (const world::Opponent& car : out.opponents.cars)
+    log_.sample(*opponents_, at,
+                OpponentSample{.id = car.id,
+                               .x_m = car.x_m,
+                               .y_m = car.y_m,
+                               .yaw_rad = car.yaw_rad,
+                               .speed_mps = car.speed_mps,
+                               .s_m = car.s_m,
+                               .n_m = car.n_m,
+                               .position_sigma_m = position_sigma_m(car),
+                               .age_s = (out.opponents.at - car.measured_at).seconds()});
+}
+
+void RunRecord::other(std::uint8_t number, const traffic::CarPose& pose, Instant at) {
+  if (!others_) return;
+  log_.sample(*others_, at,
+              OtherSample{.number = number,
+                          .x_m = pose.x_m,
+                          .y_m = pose.y_m,
+                          .yaw_rad = pose.yaw_rad,
+                          .vx_mps = pose.vx_mps,
+                          .vy_mps = pose.vy_mps,
+                          .s_m = pose.s_m,
+                          .n_m = pose.n_m});
 }
 
 void RunRecord::loss(const world::LossReport& loss) {

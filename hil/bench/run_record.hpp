@@ -4,6 +4,8 @@
 //            /truth        the plant at 100 Hz
 //            /car          the car at 100 Hz: ego state, mode, command
 //            /bus_losses   missing frames that the car detected
+//            /others       only with other cars: each of them in truth, at 100 Hz
+//            /opponents    likewise: those that the car tracks, as it has them
 //            /events       flags, modes, laps, verdicts ("pass", "fail": to_json(Verdict))
 //   metadata run: scenario, seed, mode, duration, database, bus, track file, faults (JSON list)
 //   invariants
@@ -12,12 +14,14 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string_view>
 #include <type_traits>
 
 #include "hil/bench/rig.hpp"
 #include "hil/grading/grader.hpp"
 #include "hil/scenario/scenario.hpp"
+#include "hil/traffic/car_pose.hpp"
 #include "protocol/recording/event_log.hpp"
 #include "vehicle/pipeline/step.hpp"
 
@@ -122,17 +126,52 @@ constexpr auto cdr_fields(std::type_identity<LossSample>) {
                     CdrField{"frames", &T::frames}, CdrField{"due_s", &T::due_s}};
 }
 
+struct OtherSample {
+  std::uint8_t number;  // as race control has it
+  double x_m, y_m, yaw_rad, vx_mps, vy_mps, s_m, n_m;
+};
+constexpr recording::CdrName cdr_name(std::type_identity<OtherSample>) { return "OtherCar"; }
+constexpr auto cdr_fields(std::type_identity<OtherSample>) {
+  using recording::CdrField;
+  using T = OtherSample;
+  return std::tuple{CdrField{"number", &T::number}, CdrField{"x_m", &T::x_m},
+                    CdrField{"y_m", &T::y_m},       CdrField{"yaw_rad", &T::yaw_rad},
+                    CdrField{"vx_mps", &T::vx_mps}, CdrField{"vy_mps", &T::vy_mps},
+                    CdrField{"s_m", &T::s_m},       CdrField{"n_m", &T::n_m}};
+}
+
+struct OpponentSample {
+  std::uint32_t id;
+  double x_m, y_m, yaw_rad, speed_mps, s_m, n_m, position_sigma_m, age_s;
+};
+constexpr recording::CdrName cdr_name(std::type_identity<OpponentSample>) { return "Opponent"; }
+constexpr auto cdr_fields(std::type_identity<OpponentSample>) {
+  using recording::CdrField;
+  using T = OpponentSample;
+  return std::tuple{CdrField{"id", &T::id},
+                    CdrField{"x_m", &T::x_m},
+                    CdrField{"y_m", &T::y_m},
+                    CdrField{"yaw_rad", &T::yaw_rad},
+                    CdrField{"speed_mps", &T::speed_mps},
+                    CdrField{"s_m", &T::s_m},
+                    CdrField{"n_m", &T::n_m},
+                    CdrField{"position_sigma_m", &T::position_sigma_m},
+                    CdrField{"age_s", &T::age_s}};
+}
+
 class RunRecord {
  public:
   // `mode`: "lockstep" or "live". The metadata states that this is a simulation, the CAN database
   // that the car was built with (file, revision, fingerprint) and the revision of its bus.
-  RunRecord(const scenario::Scenario& scenario, std::string_view mode, recording::Sink sink);
+  RunRecord(const scenario::Scenario& scenario, std::string_view mode, recording::Sink sink,
+            bool has_others = false);
 
   void can(Node from, const can::Frame& frame, Instant at);
   void truth(const Rig& rig, Instant at, double cross_track_m = kUnset);
   // Includes the losses that the car detected in this tick.
   void car(const pipeline::Outputs& out, Instant at);
   void loss(const world::LossReport& loss);
+  void other(std::uint8_t number, const traffic::CarPose& pose, Instant at);
   void event(Instant at, std::string_view name, std::string_view text);
   void verdict(Instant at, const grading::Verdict& verdict);
   // Writes the summary; after it digest() is that of the whole file.
@@ -146,6 +185,8 @@ class RunRecord {
   recording::SampleChannel<TruthSample> truth_;
   recording::SampleChannel<CarSample> car_;
   recording::SampleChannel<LossSample> losses_;
+  std::optional<recording::SampleChannel<OtherSample>> others_;
+  std::optional<recording::SampleChannel<OpponentSample>> opponents_;
 };
 
 }  // namespace pitwall::bench

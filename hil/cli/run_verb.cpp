@@ -55,7 +55,7 @@ Result<bench::RunResult, Problem> lockstep(const RunOptions& options, const benc
   // Without a file the log is still made: its digest names the run.
   const recording::Sink sink =
       *log ? *log : recording::Sink{[](std::span<const std::uint8_t>) { return true; }};
-  auto result = bench::run_lockstep(loaded.scenario, loaded.setup, {.log = sink, .follow = follow});
+  auto result = bench::run_lockstep(loaded, {.log = sink, .follow = follow});
   if (result) result->wall_s = (transport::monotonic_now() - begun).seconds();
   return result;
 }
@@ -135,7 +135,7 @@ Result<bench::RunResult, Problem> live(const RunOptions& options, const bench::L
   if (!clock.file.empty()) {
     if (const auto used = transport::use_clock(clock.file); !used) return Unexpected{used.error()};
   }
-  auto result = bench::run_live(loaded.scenario, loaded.setup, plan);
+  auto result = bench::run_live(loaded, plan);
   if (clock.is_own) fs::remove(clock.file, error);
   if (!result) return Unexpected{result.error()};
   if (!plan.disk.empty() && !options.log_file.empty())

@@ -52,21 +52,30 @@ raceline::CarLimits limits_of(const pipeline::CarParams& car,
           .envelope = &table};
 }
 
-Result<pipeline::Setup, Problem> set_up(const CarFile& car, const world::TrackDescription& track,
-                                        const ReadFile& read_file) {
+Result<std::optional<world::RacelineBank>, Problem> bank_of(const CarFile& car,
+                                                            const world::TrackDescription& track,
+                                                            const ReadFile& read_file) {
   const std::string path = bank_path(car, track);
-  if (path.empty()) return pipeline::prepare(car.params, track);
+  if (path.empty()) return std::optional<world::RacelineBank>{};
   const auto map = world::TrackMap::build(track);
   if (!map) return Unexpected{map.error()};
   const auto text = read_file(path);
   if (!text) return Unexpected{text.error()};
   if (text->size() > raceline::kMaxBankBytes) return refuse(path, "is too large for a bank");
   const envelope::EnvelopeTable table{envelope_of(car.params, *map)};
-  const auto bank = raceline::read_bank(*text, path, track, *map, limits_of(car.params, table));
+  auto bank = raceline::read_bank(*text, path, track, *map, limits_of(car.params, table));
   if (!bank) return Unexpected{bank.error()};
+  return std::optional{*std::move(bank)};
+}
+
+Result<pipeline::Setup, Problem> set_up(const CarFile& car, const world::TrackDescription& track,
+                                        const ReadFile& read_file) {
+  const auto bank = bank_of(car, track, read_file);
+  if (!bank) return Unexpected{bank.error()};
+  if (!*bank) return pipeline::prepare(car.params, track);
   pipeline::CarParams params = car.params;
-  params.planning.line.bank = path;  // as it was found, for messages and recordings
-  return pipeline::prepare(params, track, &*bank);
+  params.planning.line.bank = bank_path(car, track);  // as found, for messages and recordings
+  return pipeline::prepare(params, track, &**bank);
 }
 
 }  // namespace pitwall::parameters

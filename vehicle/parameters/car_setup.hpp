@@ -18,6 +18,7 @@
 #include "vehicle/pipeline/setup.hpp"
 #include "vehicle/raceline/bank_builder.hpp"
 #include "vehicle/raceline/line_check.hpp"
+#include "vehicle/world/raceline.hpp"
 #include "vehicle/world/track_map.hpp"
 
 namespace pitwall::parameters {
@@ -26,6 +27,11 @@ using ReadFile = std::function<Result<std::string, Problem>(const std::string& p
 
 Result<pipeline::Setup, Problem> set_up(const CarFile& car, const world::TrackDescription& track,
                                         const ReadFile& read_file);
+
+// The bank that the car file names, checked for this track and car; nullopt if it names none.
+Result<std::optional<world::RacelineBank>, Problem> bank_of(const CarFile& car,
+                                                            const world::TrackDescription& track,
+                                                            const ReadFile& read_file);
 
 // Relative to the folder of the car file; <track> is the name of the track file without its ending.
 // Empty: the car file names no bank.

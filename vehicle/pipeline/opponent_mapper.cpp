@@ -38,12 +38,6 @@ struct Ranked {
   const world::Opponent* car = nullptr;
 };
 
-// Larger semi-axis of the error ellipse, as EgoState has it.
-double position_sigma_m(const world::Opponent& car) {
-  const double xx = car.covariance[0], xy = car.covariance[1], yy = car.covariance[5];
-  return std::sqrt(0.5 * (xx + yy) + std::hypot(0.5 * (xx - yy), xy));
-}
-
 void put_opponent(const OpponentFields& f, const world::Opponent& car, Instant now,
                   telemetry::Snapshot& snapshot) {
   constexpr std::uint32_t kNumbers = 254;

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 
@@ -26,6 +27,12 @@ struct Opponent {
   Instant measured_at{};  // newest detection that belongs to it; later it only coasts
   double confidence = kUnset;
 };
+
+// Larger semi-axis of the error ellipse, as EgoState has it.
+inline double position_sigma_m(const Opponent& car) {
+  const double xx = car.covariance[0], xy = car.covariance[1], yy = car.covariance[5];
+  return std::sqrt(0.5 * (xx + yy) + std::hypot(0.5 * (xx - yy), xy));
+}
 
 inline constexpr std::size_t kOpponentsMax = 16;
 

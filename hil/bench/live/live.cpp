@@ -27,9 +27,10 @@ using Cars = std::vector<std::unique_ptr<LiveCar>>;
 
 class Live {
  public:
-  Live(Cars cars, std::span<const Runner> runners, std::optional<BenchTime> time)
+  Live(Cars cars, std::span<const Runner> runners, std::span<const FieldGhost> ghosts,
+       std::optional<BenchTime> time)
       : cars_(std::move(cars)),
-        field_(runners),
+        field_(runners, ghosts),
         duration_(runners.front().scenario.duration),
         clock_(kWake, duration_, std::move(time)) {}
 
@@ -81,7 +82,7 @@ class Live {
     const RealTime time = clock_.report();
     std::vector<LiveResult> results;
     for (std::size_t i = 0; i < cars_.size(); ++i) {
-      cars_[i]->note_others(cars_.size() - 1, field_.contact_of(i));
+      cars_[i]->note_others(field_.size() - 1, field_.contact_of(i));
       results.push_back(cars_[i]->finish(time, wall_s));
     }
     return results;
@@ -95,15 +96,17 @@ class Live {
 
 }  // namespace
 
-Result<std::vector<LiveResult>, Problem> run_live(std::span<const LiveStack> stacks) {
+Result<std::vector<LiveResult>, Problem> run_live(std::span<const LiveStack> stacks,
+                                                  std::span<const FieldGhost> ghosts) {
   CHECK(!stacks.empty());
+  const bool has_others = stacks.size() + ghosts.size() > 1;
   Cars cars;
   std::vector<Runner> runners;
   for (const LiveStack& stack : stacks) {
     runners.push_back(stack.runner());
     if (auto other = difference(runners.front(), runners.back()))
       return Unexpected{*std::move(other)};
-    auto car = LiveCar::open(stack.scenario, stack.setup, stack.plan);
+    auto car = LiveCar::open(stack.scenario, stack.setup, stack.plan, has_others);
     if (!car) return Unexpected{car.error()};
     cars.push_back(*std::move(car));
   }
@@ -111,12 +114,12 @@ Result<std::vector<LiveResult>, Problem> run_live(std::span<const LiveStack> sta
   auto time = BenchTime::of_run(first.clock, first.clock_line);
   if (!time) return Unexpected{time.error()};
   transport::request_realtime(kPriority);
-  return Live{std::move(cars), runners, *std::move(time)}.run();
+  return Live{std::move(cars), runners, ghosts, *std::move(time)}.run();
 }
 
-Result<LiveResult, Problem> run_live(const scenario::Scenario& scenario,
-                                     const pipeline::Setup& setup, const LivePlan& plan) {
-  auto results = run_live(std::array{LiveStack{scenario, setup, plan}});
+Result<LiveResult, Problem> run_live(const Loaded& loaded, const LivePlan& plan) {
+  auto results =
+      run_live(std::array{LiveStack{loaded.scenario, loaded.setup, plan}}, loaded.ghosts);
   if (!results) return Unexpected{results.error()};
   return std::move(results->front());
 }

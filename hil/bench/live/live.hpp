@@ -24,6 +24,7 @@
 
 #include "hil/bench/field.hpp"
 #include "hil/bench/live/live_plan.hpp"
+#include "hil/bench/loading.hpp"
 #include "hil/bench/result.hpp"
 #include "hil/scenario/scenario.hpp"
 #include "protocol/vocabulary/result.hpp"
@@ -49,10 +50,10 @@ struct LiveStack {
 
 // Result of each car, in their order. At least one car. A run ends for all when it ends for one of
 // them, and at a contact of two.
-Result<std::vector<LiveResult>, Problem> run_live(std::span<const LiveStack> cars);
+Result<std::vector<LiveResult>, Problem> run_live(std::span<const LiveStack> cars,
+                                                  std::span<const FieldGhost> ghosts = {});
 
-// Of one car.
-Result<LiveResult, Problem> run_live(const scenario::Scenario& scenario,
-                                     const pipeline::Setup& setup, const LivePlan& plan);
+// Of a scenario with the other cars that it names.
+Result<LiveResult, Problem> run_live(const Loaded& loaded, const LivePlan& plan);
 
 }  // namespace pitwall::bench

@@ -23,7 +23,7 @@ constexpr std::size_t kReadBatch = 256;
 
 Result<std::unique_ptr<LiveCar>, Problem> LiveCar::open(const scenario::Scenario& scenario,
                                                         const pipeline::Setup& setup,
-                                                        const LivePlan& plan) {
+                                                        const LivePlan& plan, bool has_others) {
   if (auto problem = refused_by(BenchMode::kLive, scenario.faults))
     return Unexpected{*std::move(problem)};
   if (scenario.receivers)
@@ -60,7 +60,7 @@ Result<std::unique_ptr<LiveCar>, Problem> LiveCar::open(const scenario::Scenario
                                       ReceiverEncoder{setup.params.receivers, faults->bytes});
   if (!receivers) return Unexpected{receivers.error()};
   return std::unique_ptr<LiveCar>{new LiveCar(
-      scenario, setup, plan,
+      scenario, setup, plan, has_others,
       {*std::move(rig), *std::move(grader), *std::move(bus), *std::move(radio), *std::move(monitor),
        *std::move(receivers), *std::move(machine),
        ProcessSupervisor{members_of(plan),
@@ -68,14 +68,14 @@ Result<std::unique_ptr<LiveCar>, Problem> LiveCar::open(const scenario::Scenario
 }
 
 LiveCar::LiveCar(const scenario::Scenario& scenario, const pipeline::Setup& setup,
-                 const LivePlan& plan, Parts parts)
+                 const LivePlan& plan, bool has_others, Parts parts)
     : scenario_(scenario),
       setup_(setup),
       plan_(plan),
       parts_(std::move(parts)),
       inbox_(kReadBatch) {
   received_.reserve(kReadBatch);
-  if (plan.log) record_.emplace(scenario, "live", plan.log);
+  if (plan.log) record_.emplace(scenario, "live", plan.log, has_others);
 }
 
 std::optional<Problem> LiveCar::start() {
@@ -205,6 +205,13 @@ void LiveCar::judge(Instant now) {
 std::optional<Problem> LiveCar::act(Instant now) { return parts_.processes.advance(now); }
 
 void LiveCar::serve_radio(Instant now) { parts_.radio.serve(now); }
+
+void LiveCar::show_others(Field& field, std::size_t own, Instant at) {
+  parts_.rig.show_rival(field.rival_of(own));
+  if (!record_ || (at - Instant{}).ns % setup_.params.rates.tick.ns != 0) return;
+  for (std::size_t i = 0; i < field.size(); ++i)
+    if (i != own) record_->other(field.number(i), field.car(i).pose, at);
+}
 
 void LiveCar::note_others(std::size_t cars, const std::optional<CarContact>& contact) {
   result_.other_cars = cars;

@@ -37,7 +37,7 @@ class LiveCar {
   // Keeps references to its arguments.
   static Result<std::unique_ptr<LiveCar>, Problem> open(const scenario::Scenario& scenario,
                                                         const pipeline::Setup& setup,
-                                                        const LivePlan& plan);
+                                                        const LivePlan& plan, bool has_others);
   LiveCar(const LiveCar&) = delete;
   LiveCar& operator=(const LiveCar&) = delete;
 
@@ -55,7 +55,8 @@ class LiveCar {
   std::optional<Problem> stop_processes(Duration limit, const std::function<void()>& idle);
   LiveResult finish(const RealTime& time, double wall_s);
 
-  void show_rival(const std::optional<race::Rival>& rival) { parts_.rig.show_rival(rival); }
+  // What race control's timing says of the nearest other car.
+  void show_others(Field& field, std::size_t own, Instant at);
   void note_others(std::size_t cars, const std::optional<CarContact>& contact);
   const Rig& rig() const { return parts_.rig; }
 
@@ -73,7 +74,7 @@ class LiveCar {
   };
 
   LiveCar(const scenario::Scenario& scenario, const pipeline::Setup& setup, const LivePlan& plan,
-          Parts parts);
+          bool has_others, Parts parts);
   std::optional<Problem> wait_for_car();
   void send_operator_texts(Instant now);
   void publish_done();

@@ -13,7 +13,8 @@
 namespace pitwall::bench {
 namespace {
 
-constexpr std::size_t kInboxFrames = 4096;  // a second of a full bus, and one tick is 10 ms
+constexpr std::size_t kDetectionFrames = 64;  // of a tick; the sensors send ten at most
+constexpr std::size_t kInboxFrames = 4096;    // a second of a full bus, and one tick is 10 ms
 
 // "driving", "controlled stop, IMU: both units lost".
 std::string mode_text(const safety::SupervisorOutput& chosen) {
@@ -27,7 +28,8 @@ std::string mode_text(const safety::SupervisorOutput& chosen) {
 
 Result<std::unique_ptr<CarBench>, Problem> CarBench::build(const scenario::Scenario& scenario,
                                                            const pipeline::Setup& setup,
-                                                           const LockstepOptions& options) {
+                                                           const LockstepOptions& options,
+                                                           bool has_others) {
   if (auto problem = refused_by(BenchMode::kLockstep, scenario.faults))
     return Unexpected{*std::move(problem)};
   auto rig = Rig::build(scenario, setup.track);
@@ -43,13 +45,14 @@ Result<std::unique_ptr<CarBench>, Problem> CarBench::build(const scenario::Scena
     if (const auto fit = inputs::parse_text_command(word.text); !fit)
       return Unexpected{fit.error()};
   GuardianNode guardian{setup.params, faults->processes, options.guardian};
-  return std::unique_ptr<CarBench>{new CarBench(
-      scenario, setup, *std::move(rig), *std::move(grader), std::move(guardian), *faults, options)};
+  return std::unique_ptr<CarBench>{new CarBench(scenario, setup, *std::move(rig),
+                                                *std::move(grader), std::move(guardian), *faults,
+                                                options, has_others)};
 }
 
 CarBench::CarBench(const scenario::Scenario& scenario, const pipeline::Setup& setup, Rig rig,
                    grading::Grader grader, GuardianNode guardian, const FaultPlan& faults,
-                   const LockstepOptions& options)
+                   const LockstepOptions& options, bool has_others)
     : scenario_(scenario),
       setup_(setup),
       rig_(std::move(rig)),
@@ -68,7 +71,11 @@ CarBench::CarBench(const scenario::Scenario& scenario, const pipeline::Setup& se
       stepped_at_(Instant{} - setup.params.rates.tick) {
   inbox_.reserve(kInboxFrames);
   received_.reserve(kInboxFrames);
-  if (options.log) record_.emplace(scenario, "lockstep", options.log);
+  if (options.log) record_.emplace(scenario, "lockstep", options.log, has_others);
+  if (!has_others) return;
+  eyes_ = sensors::av21_detection_sensors();
+  detection_ = sensors::make_detections(eyes_, scenario_.seed, Instant{});
+  detections_.reserve(kDetectionFrames);
 }
 
 bool CarBench::is_over(Instant now) {
@@ -77,6 +84,19 @@ bool CarBench::is_over(Instant now) {
   if (record_ && has_contact(result_.outcome))
     record_->event(now, "contact", to_text(result_.outcome));
   return true;
+}
+
+void CarBench::show_others(Field& field, std::size_t own, Instant at) {
+  rig_.show_rival(field.rival_of(own));
+  arrivals_.clear();
+  sensors::step_detections(eyes_, detection_,
+                           {.ours = seen(field.car(own).pose), .others = field.others_of(own)}, at,
+                           arrivals_);
+  for (const world::DetectionFrame& frame : arrivals_)
+    if (detections_.size() < kDetectionFrames) detections_.push_back(frame);
+  if (!record_ || (at - Instant{}).ns % setup_.params.rates.tick.ns != 0) return;
+  for (std::size_t i = 0; i < field.size(); ++i)
+    if (i != own) record_->other(field.number(i), field.car(i).pose, at);
 }
 
 void CarBench::note_others(std::size_t cars, const std::optional<CarContact>& contact) {
@@ -119,6 +139,7 @@ void CarBench::step_car(Instant now) {
                       .dt = now - stepped_at_,
                       .can = inbox_,
                       .sensors = decoder_.samples(),
+                      .detections = detections_,
                       .requests = {.arm = guardian_.armed_from_the_start()},
                       .gnss_byte_at = decoder_.byte_at(),
                       .link = link_of_car(bus_),
@@ -131,6 +152,7 @@ void CarBench::step_car(Instant now) {
   stepped_at_ = now;
   if (out_->bus_guard.restart_now) restart_controller(now);
   decoder_.clear();
+  detections_.clear();
   result_.traffic.car_received += inbox_.size();
   inbox_.clear();
   guardian_.publish(setup_, *car_, *out_, now);

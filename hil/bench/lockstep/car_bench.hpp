@@ -29,7 +29,8 @@ class CarBench {
   // Keeps references to its arguments.
   static Result<std::unique_ptr<CarBench>, Problem> build(const scenario::Scenario& scenario,
                                                           const pipeline::Setup& setup,
-                                                          const LockstepOptions& options);
+                                                          const LockstepOptions& options,
+                                                          bool has_others);
   // Not copyable: its parts hold references to each other.
   CarBench(const CarBench&) = delete;
   CarBench& operator=(const CarBench&) = delete;
@@ -43,8 +44,9 @@ class CarBench {
   // The run ends before the time of the scenario.
   void end(Instant now) { length_ = now - Instant{}; }
 
-  // What race control's timing says of another car.
-  void show_rival(const std::optional<race::Rival>& rival) { rig_.show_rival(rival); }
+  // What its sensors see of the others and what race control's timing says of the nearest one;
+  // after every step of the field.
+  void show_others(Field& field, std::size_t own, Instant at);
   // Of the field of the run, before its end.
   void note_others(std::size_t cars, const std::optional<CarContact>& contact);
 
@@ -54,7 +56,7 @@ class CarBench {
  private:
   CarBench(const scenario::Scenario& scenario, const pipeline::Setup& setup, Rig rig,
            grading::Grader grader, GuardianNode guardian, const FaultPlan& faults,
-           const LockstepOptions& options);
+           const LockstepOptions& options, bool has_others);
   RunView view(Instant now) const;
   void step_car(Instant now);
   void hang_planner(Instant now);
@@ -92,6 +94,10 @@ class CarBench {
   std::uint32_t laps_ = 0;
   world::BusIdentity identity_;  // as the car saw it last
   bool identity_changed_ = false;
+  sensors::DetectionSensors eyes_;  // none for a car that is alone
+  sensors::DetectionState detection_;
+  sensors::Arrivals arrivals_;
+  std::vector<world::DetectionFrame> detections_;  // since the last tick
 };
 
 }  // namespace pitwall::bench

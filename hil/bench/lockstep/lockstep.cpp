@@ -16,12 +16,12 @@ namespace {
 
 using Cars = std::vector<std::unique_ptr<CarBench>>;
 
-Result<Cars, Problem> build(std::span<const Stack> stacks) {
+Result<Cars, Problem> build(std::span<const Stack> stacks, bool has_others) {
   Cars cars;
   for (const Stack& stack : stacks) {
     if (auto other = difference(stacks.front().runner(), stack.runner()))
       return Unexpected{*std::move(other)};
-    auto car = CarBench::build(stack.scenario, stack.setup, stack.options);
+    auto car = CarBench::build(stack.scenario, stack.setup, stack.options, has_others);
     if (!car) return Unexpected{car.error()};
     cars.push_back(*std::move(car));
   }
@@ -36,15 +36,16 @@ bool is_over(const Cars& cars, Instant now) {
 
 }  // namespace
 
-Result<std::vector<RunResult>, Problem> run_lockstep(std::span<const Stack> stacks) {
+Result<std::vector<RunResult>, Problem> run_lockstep(std::span<const Stack> stacks,
+                                                     std::span<const FieldGhost> ghosts) {
   CHECK(!stacks.empty());
-  auto built = build(stacks);
+  auto built = build(stacks, stacks.size() + ghosts.size() > 1);
   if (!built) return Unexpected{built.error()};
   const Cars& cars = *built;
   const Duration tick = stacks.front().setup.params.rates.tick;
   std::vector<Runner> runners;
   for (const Stack& stack : stacks) runners.push_back(stack.runner());
-  Field field{runners};
+  Field field{runners, ghosts};
   Instant now{};
   for (; now - Instant{} <= stacks.front().scenario.duration; now += tick) {
     for (const auto& car : cars) car->step_computer(now);
@@ -58,15 +59,24 @@ Result<std::vector<RunResult>, Problem> run_lockstep(std::span<const Stack> stac
   }
   std::vector<RunResult> results;
   for (std::size_t i = 0; i < cars.size(); ++i) {
-    cars[i]->note_others(cars.size() - 1, field.contact_of(i));
+    cars[i]->note_others(field.size() - 1, field.contact_of(i));
     results.push_back(cars[i]->finish());
   }
   return results;
 }
 
+Result<RunResult, Problem> run_lockstep(const Loaded& loaded, const LockstepOptions& options) {
+  auto results =
+      run_lockstep(std::array{Stack{loaded.scenario, loaded.setup, options}}, loaded.ghosts);
+  if (!results) return Unexpected{results.error()};
+  return std::move(results->front());
+}
+
 Result<RunResult, Problem> run_lockstep(const scenario::Scenario& scenario,
                                         const pipeline::Setup& setup,
                                         const LockstepOptions& options) {
+  if (!scenario.cars.empty())
+    return refuse(scenario.cars.front().ghost.place, "cars: this run has no other cars");
   auto results = run_lockstep(std::array{Stack{scenario, setup, options}});
   if (!results) return Unexpected{results.error()};
   return std::move(results->front());

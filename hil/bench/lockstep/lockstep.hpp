@@ -25,6 +25,7 @@
 #include <vector>
 
 #include "hil/bench/field.hpp"
+#include "hil/bench/loading.hpp"
 #include "hil/bench/lockstep/guardian_node.hpp"
 #include "hil/bench/progress.hpp"
 #include "hil/bench/result.hpp"
@@ -71,10 +72,14 @@ struct Stack {
   Runner runner() const { return {scenario, setup, name}; }
 };
 
-// Result of each car, in their order. At least one car.
-Result<std::vector<RunResult>, Problem> run_lockstep(std::span<const Stack> cars);
+// Result of each car with a stack, in their order. At least one.
+Result<std::vector<RunResult>, Problem> run_lockstep(std::span<const Stack> cars,
+                                                     std::span<const FieldGhost> ghosts = {});
 
-// Of one car.
+// Of a scenario with the other cars that it names.
+Result<RunResult, Problem> run_lockstep(const Loaded& loaded, const LockstepOptions& options);
+
+// Of one car that is alone: a scenario that names others is refused.
 Result<RunResult, Problem> run_lockstep(const scenario::Scenario& scenario,
                                         const pipeline::Setup& setup,
                                         const LockstepOptions& options);

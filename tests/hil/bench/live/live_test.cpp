@@ -34,7 +34,7 @@ struct Trap {
 
 TEST(Live, AnInterfaceThatDoesNotExistIsAProblemThatNamesIt) {
   Trap trap;
-  const auto run = run_live(lap().scenario, lap().setup, trap.plan());
+  const auto run = run_live(lap(), trap.plan());
   ASSERT_FALSE(run);
   EXPECT_NE(to_string(run.error()).find("no_such_can"), std::string::npos)
       << to_string(run.error());
@@ -45,19 +45,19 @@ TEST(Live, WhatTheBenchDoesNotKnowIsRefusedBeforeTheBusIsOpened) {
   Trap trap;
   scenario::Scenario wrong = lap().scenario;
   wrong.expect[0].signal = "speed_of_light";
-  const auto signal = run_live(wrong, lap().setup, trap.plan());
+  const auto signal = run_live(Loaded{wrong, lap().setup}, trap.plan());
   ASSERT_FALSE(signal);
   EXPECT_NE(to_string(signal.error()).find("speed_of_light"), std::string::npos);
 
   wrong = lap().scenario;
   wrong.faults.push_back({.kind = "earthquake", .place = "x.yaml:3:1"});
-  const auto fault = run_live(wrong, lap().setup, trap.plan());
+  const auto fault = run_live(Loaded{wrong, lap().setup}, trap.plan());
   ASSERT_FALSE(fault);
   EXPECT_EQ(fault.error().place, "x.yaml:3:1");
 
   wrong = lap().scenario;
   wrong.receivers.emplace();
-  const auto receivers = run_live(wrong, lap().setup, trap.plan());
+  const auto receivers = run_live(Loaded{wrong, lap().setup}, trap.plan());
   ASSERT_FALSE(receivers);
   EXPECT_EQ(receivers.error().place, "receivers");
   EXPECT_TRUE(trap.untouched());
