@@ -3,8 +3,8 @@
 //          verdicts, one for each expectation of the scenario, its outcome, its contact with a car
 //   out    a verdict `contact` if there was one with a wall, or if the scenario names one: it fails
 //          unless the contact is named and not harder than the scenario allows. A verdict
-//          `car_contact` if there are other cars: it fails if this car caused one. Expectations that
-//          the run could not show before the contact become remarks instead of verdicts
+//          `car_contact` if there are other cars: it fails if this car caused one. Expectations
+//          that the run could not show before the contact become remarks instead of verdicts
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

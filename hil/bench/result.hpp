@@ -10,13 +10,18 @@
 #include <vector>
 
 #include "hil/bench/outcome.hpp"
-#include "hil/bench/process_script.hpp"
 #include "hil/bench/rig.hpp"
 #include "hil/grading/cross_track.hpp"
 #include "hil/grading/grader.hpp"
 #include "protocol/transport/bench_clock/clock_waits.hpp"
 
 namespace pitwall::bench {
+
+// An action that was carried out, with its time, for the event log and the result.
+struct CompletedAction {
+  Instant at{};
+  std::string what;
+};
 
 struct Traffic {
   std::uint64_t to_car = 0, from_car = 0;  // frames put on the bus

@@ -1,5 +1,5 @@
-// Inputs of the operator by radio: levels (stop, joystick, excluded sensors), commands to be executed
-// once, and the car's answer to each command.
+// Inputs of the operator by radio: levels (stop, joystick, excluded sensors), commands to be
+// executed once, and the car's answer to each command.
 //   in     from the radio, a switch or a test. A withdrawn input is absent
 //   invariants
 //          a joystick can only slow the car and never steers it. A command is applied only before

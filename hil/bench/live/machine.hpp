@@ -15,7 +15,8 @@
 #include <string>
 #include <vector>
 
-#include "hil/bench/process_script.hpp"
+#include "hil/bench/live/process_script.hpp"
+#include "hil/bench/result.hpp"
 #include "hil/faults/bench_fault.hpp"
 #include "protocol/vocabulary/result.hpp"
 #include "protocol/vocabulary/time.hpp"

@@ -20,7 +20,8 @@
 #include <string>
 #include <vector>
 
-#include "hil/bench/process_script.hpp"
+#include "hil/bench/live/process_script.hpp"
+#include "hil/bench/result.hpp"
 #include "protocol/transport/process.hpp"
 #include "protocol/vocabulary/result.hpp"
 

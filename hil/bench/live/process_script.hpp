@@ -37,12 +37,6 @@ struct ProcessAction {
   bool first_of_many = false, one_of_many = false;  // pauses of a slowed process: reported once
 };
 
-// An action that was carried out, with its time, for the event log and the result.
-struct CompletedAction {
-  Instant at{};
-  std::string what;
-};
-
 std::vector<ProcessAction> script_of(std::span<const faults::BenchFault> faults, Instant end);
 
 // True if one of the faults acts on the process of this role.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "hil/bench/process_script.hpp"
+#include "hil/bench/live/process_script.hpp"
 
 #include <algorithm>
 #include <optional>
