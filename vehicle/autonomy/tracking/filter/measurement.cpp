@@ -94,21 +94,26 @@ void set(Expectation& e, std::size_t i, const Seen& seen, const Place& p) {
   e.jacobian[i] = by_states(seen.by, p);
 }
 
-double half_turn(double angle_rad) { return std::remainder(angle_rad, std::numbers::pi); }
-
 double square(double v) { return v * v; }
 
-Innovation lidar_innovation(const RoadParams& params, const OwnMotion& own, const Measurement& m,
-                            const Expectation& e) {
+// Most differences are small, and the remainder is slow.
+double full_turn(double angle_rad) {
+  return std::abs(angle_rad) <= std::numbers::pi ? angle_rad : wrap_pi(angle_rad);
+}
+
+double half_turn(double angle_rad) {
+  constexpr double kHalf_rad = 0.5 * std::numbers::pi;
+  return std::abs(angle_rad) <= kHalf_rad ? angle_rad : std::remainder(angle_rad, std::numbers::pi);
+}
+
+Innovation lidar_reading(const RoadParams& params, const OwnMotion& own, const Measurement& m) {
   const Position at = position_of(DetectionSource::kLidar, own, m);
   const double distance_m = std::hypot(m.value[0], m.value[1]);
   const double variance = square(sight_sigma(params, DetectionSource::kLidar, distance_m).along_m);
-  Innovation in;
-  in.size = std::isfinite(m.value[2]) ? 3 : 2;
-  in.value = {at.x_m - e.value[0], at.y_m - e.value[1],
-              in.size == 3 ? half_turn(own.yaw_rad + m.value[2] - e.value[2]) : 0.0};
-  in.variance = {variance, variance, square(params.lidar_yaw_sigma_rad)};
-  return in;
+  const bool yaw = std::isfinite(m.value[2]);
+  return {.size = yaw ? 3U : 2U,
+          .value = {at.x_m, at.y_m, yaw ? own.yaw_rad + m.value[2] : 0.0},
+          .variance = {variance, variance, square(params.lidar_yaw_sigma_rad)}};
 }
 
 }  // namespace
@@ -171,24 +176,42 @@ Spread spread_of(const Expectation& e, const StateMatrix& p) {
   return s;
 }
 
-Innovation innovation_of(const RoadParams& params, DetectionSource source, const OwnMotion& own,
-                         const Measurement& m, const Expectation& e) {
-  Innovation in;
+Innovation reading_of(const RoadParams& params, DetectionSource source, const OwnMotion& own,
+                      const Measurement& m) {
   switch (source) {
+    case DetectionSource::kCamera: {
+      const bool depth = std::isfinite(m.value[1]);
+      return {.size = depth ? 2U : 1U,
+              .value = {m.value[0], depth ? m.value[1] : 0.0, 0.0},
+              .variance = {square(params.camera_bearing_sigma_rad),
+                           square(params.camera_inverse_depth_sigma_per_m), 0.0}};
+    }
+    case DetectionSource::kRadar: {
+      const bool rate = std::isfinite(m.value[2]);
+      return {
+          .size = rate ? 3U : 2U,
+          .value = {m.value[0], m.value[1], rate ? m.value[2] : 0.0},
+          .variance = {square(params.radar_range_sigma_m), square(params.radar_bearing_sigma_rad),
+                       square(params.radar_rate_sigma_mps)}};
+    }
     case DetectionSource::kLidar:
-      return lidar_innovation(params, own, m, e);
+      break;
+  }
+  return lidar_reading(params, own, m);
+}
+
+Innovation innovation_of(DetectionSource source, const Innovation& reading, const Expectation& e) {
+  Innovation in = reading;
+  for (std::size_t i = 0; i < in.size; ++i) in.value[i] -= e.value[i];
+  switch (source) {
     case DetectionSource::kCamera:
-      in.size = std::isfinite(m.value[1]) ? 2 : 1;
-      in.value = {wrap_pi(m.value[0] - e.value[0]), m.value[1] - e.value[1], 0.0};
-      in.variance = {square(params.camera_bearing_sigma_rad),
-                     square(params.camera_inverse_depth_sigma_per_m), 0.0};
+      in.value[0] = full_turn(in.value[0]);
       break;
     case DetectionSource::kRadar:
-      in.size = std::isfinite(m.value[2]) ? 3 : 2;
-      in.value = {m.value[0] - e.value[0], wrap_pi(m.value[1] - e.value[1]),
-                  m.value[2] - e.value[2]};
-      in.variance = {square(params.radar_range_sigma_m), square(params.radar_bearing_sigma_rad),
-                     square(params.radar_rate_sigma_mps)};
+      in.value[1] = full_turn(in.value[1]);
+      break;
+    case DetectionSource::kLidar:
+      in.value[2] = half_turn(in.value[2]);
       break;
   }
   return in;

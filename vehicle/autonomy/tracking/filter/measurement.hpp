@@ -46,13 +46,17 @@ struct Spread {
 };
 Spread spread_of(const Expectation& expectation, const StateMatrix& p);
 
-// Measured minus expected; the sensor's variances. `size` values of the detection are set.
+// Values of a detection in the order and the frame of an Expectation, or their difference from one;
+// the sensor's variances. The first `size` are set.
 struct Innovation {
   std::size_t size = 0;
   Values value{}, variance{};
 };
-Innovation innovation_of(const RoadParams& params, world::DetectionSource source,
-                         const OwnMotion& own, const Measurement& m, const Expectation& e);
+Innovation reading_of(const RoadParams& params, world::DetectionSource source, const OwnMotion& own,
+                      const Measurement& m);
+// Read minus expected.
+Innovation innovation_of(world::DetectionSource source, const Innovation& reading,
+                         const Expectation& e);
 
 struct Distance {
   double square = kUnset;  // Mahalanobis

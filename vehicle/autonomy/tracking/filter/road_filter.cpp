@@ -28,7 +28,8 @@ struct Gates {
   std::array<Expectation, kTracksMax> expected;
   std::array<Spread, kTracksMax> spread;
   std::array<Place, kTracksMax> place;
-  std::array<std::array<bool, kMeasurementsMax>, kTracksMax> near{};
+  std::array<Innovation, kMeasurementsMax> reading;
+  std::array<std::array<bool, kMeasurementsMax>, kTracksMax> near;
   Costs costs;
 };
 
@@ -38,8 +39,7 @@ double gate_of(const RoadParams& p, std::size_t values) {
 
 void judge_pair(const RoadParams& params, const Frame& frame, const Track& track, std::size_t t,
                 std::size_t d, Gates& g) {
-  const Innovation in =
-      innovation_of(params, frame.key.source, frame.own, frame.measurements[d], g.expected[t]);
+  const Innovation in = innovation_of(frame.key.source, g.reading[d], g.expected[t]);
   const double gate = gate_of(params, in.size);
   const Distance distance = distance_of(g.spread[t], in, kNearGates * gate);
   g.near[t][d] = distance.square <= kNearGates * gate;
@@ -51,6 +51,8 @@ void judge_pair(const RoadParams& params, const Frame& frame, const Track& track
 void judge_pairs(const RoadParams& params, const TrackMap* map, const Frame& frame,
                  const Tracks& tracks, Gates& g) {
   g.costs.tracks = tracks.list.size(), g.costs.detections = frame.measurements.size();
+  for (std::size_t d = 0; d < frame.measurements.size(); ++d)
+    g.reading[d] = reading_of(params, frame.key.source, frame.own, frame.measurements[d]);
   for (std::size_t t = 0; t < tracks.list.size(); ++t) {
     const Track& track = tracks.list[t];
     g.place[t] = place_of(map, track.x);
@@ -89,12 +91,12 @@ void update_tracks(const RoadParams& params, const TrackMap* map, const Frame& f
   for (std::size_t t = 0; t < g.costs.tracks; ++t) {
     if (a.of_track[t] == kNone) continue;
     Track& track = tracks.list[t];
-    const Measurement& m = frame.measurements[a.of_track[t]];
-    update(g.spread[t], innovation_of(params, frame.key.source, frame.own, m, g.expected[t]), map,
-           track);
+    const std::size_t d = a.of_track[t];
+    update(g.spread[t], innovation_of(frame.key.source, g.reading[d], g.expected[t]), map, track);
     if (map == nullptr) turn_around(track);
-    if (frame.key.source == DetectionSource::kLidar) average_size(params, m, track);
-    note_detection(frame, a.of_track[t], track);
+    if (frame.key.source == DetectionSource::kLidar)
+      average_size(params, frame.measurements[d], track);
+    note_detection(frame, d, track);
   }
 }
 
@@ -147,7 +149,8 @@ void set_heading(const RoadParams& params, const TrackMap* map, const Frame& fra
 void use_range_rate(const RoadParams& params, const TrackMap* map, const Frame& frame,
                     const Measurement& m, Track& track) {
   const Expectation e = expectation_of(DetectionSource::kRadar, frame.own, place_of(map, track.x));
-  const Innovation all = innovation_of(params, DetectionSource::kRadar, frame.own, m, e);
+  const Innovation all = innovation_of(
+      DetectionSource::kRadar, reading_of(params, DetectionSource::kRadar, frame.own, m), e);
   if (all.size < kValuesMax) return;
   Expectation rate;
   rate.jacobian[0] = e.jacobian[2];

@@ -56,7 +56,7 @@ TEST(TrackMeasurement, ExpectsWhatIsMeasured) {
   for (const DetectionSource source : kAll) {
     const Measurement m = measured(source, seen(source, kOwn, car));
     const Expectation e = expectation_of(source, own, place_of(&map, x));
-    const Innovation in = innovation_of(RoadParams{}, source, own, m, e);
+    const Innovation in = innovation_of(source, reading_of(RoadParams{}, source, own, m), e);
     ASSERT_EQ(in.size, values_of(source));
     for (std::size_t i = 0; i < in.size; ++i) EXPECT_NEAR(in.value[i], 0.0, 1e-6) << i;
     const Position at = position_of(source, own, m);
@@ -73,22 +73,19 @@ TEST(TrackMeasurement, TurnedBoxIsTheSameBox) {
   Measurement m = measured(DetectionSource::kLidar, seen(DetectionSource::kLidar, kOwn, car));
   const Expectation e{.value = {car.x_m, car.y_m, car.yaw_rad}};
   m.value[2] += std::numbers::pi;
-  const Innovation in = innovation_of(RoadParams{}, DetectionSource::kLidar, own, m, e);
+  const Innovation in = innovation_of(DetectionSource::kLidar,
+                                      reading_of(RoadParams{}, DetectionSource::kLidar, own, m), e);
   EXPECT_NEAR(in.value[2], 0.0, 1e-12);
 }
 
 TEST(TrackMeasurement, MissingValuesLeaveFewer) {
   const OwnMotion own = own_motion(kOwn);
-  const Expectation e{.value = {0.01, 0.02, 0.0}};
-  const Innovation bearing = innovation_of(RoadParams{}, DetectionSource::kCamera, own,
-                                           {{0.1, kUnset, kUnset, kUnset, kUnset}, 1.0}, e);
-  EXPECT_EQ(bearing.size, 1U);
-  const Innovation range = innovation_of(RoadParams{}, DetectionSource::kRadar, own,
-                                         {{40.0, 0.1, kUnset, kUnset, kUnset}, 1.0}, e);
-  EXPECT_EQ(range.size, 2U);
-  const Innovation place = innovation_of(RoadParams{}, DetectionSource::kLidar, own,
-                                         {{40.0, 0.1, kUnset, kUnset, kUnset}, 1.0}, e);
-  EXPECT_EQ(place.size, 2U);
+  const auto size = [&](DetectionSource source, std::array<double, 5> values) {
+    return reading_of(RoadParams{}, source, own, {values, 1.0}).size;
+  };
+  EXPECT_EQ(size(DetectionSource::kCamera, {0.1, kUnset, kUnset, kUnset, kUnset}), 1U);
+  EXPECT_EQ(size(DetectionSource::kRadar, {40.0, 0.1, kUnset, kUnset, kUnset}), 2U);
+  EXPECT_EQ(size(DetectionSource::kLidar, {40.0, 0.1, kUnset, kUnset, kUnset}), 2U);
 }
 
 // Against the two-dimensional formulas written out: inverse and determinant by hand.
