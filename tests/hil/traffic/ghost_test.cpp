@@ -321,6 +321,8 @@ TEST(Ghost, AChangeOfLineWaitsForTheOneBefore) {
                           return a.pose.n_m < b.pose.n_m;
                         })->pose.n_m;
   EXPECT_NEAR(most_m, 3.0, 1e-3);
+  EXPECT_LT(states[110].pose.n_m, 0.05);         // 0.1 s after the beginning
+  EXPECT_NEAR(states[400].pose.n_m, 3.0, 0.01);  // 3 s after it
   EXPECT_EQ(states.back().pose.n_m, -3.0);
 }
 
