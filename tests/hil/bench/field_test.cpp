@@ -19,8 +19,11 @@ namespace {
 const world::TrackMap& track() { return lap().setup.track; }
 
 FieldGhost ghost_at(double s_m, double start_mps, double speed_mps, std::uint8_t number = 9) {
-  auto ghost = traffic::build_ghost(
-      {.start_s_m = s_m, .start_mps = start_mps, .speed = {.mps = speed_mps}}, track(), nullptr);
+  traffic::GhostPlan plan;
+  plan.start_s_m = s_m;
+  plan.start_mps = start_mps;
+  plan.speed.mps = speed_mps;
+  auto ghost = traffic::build_ghost(plan, track(), nullptr);
   if (!ghost) ADD_FAILURE() << to_string(ghost.error());
   return {"ghost " + std::to_string(number), number, *std::move(ghost)};
 }
@@ -143,8 +146,8 @@ TEST(Field, ARunIntoAStandingCarIsAContactThatOurCarCaused) {
       << to_text(*result);
 }
 
-// Every ghost within 50 m of a car that sees all around is tracked, for nearly all of the time, where
-// it is: 1 m is three sigmas of the worst sensor there.
+// Every ghost within 50 m of a car that sees all around is tracked, for nearly all of the time,
+// where it is: 1 m is three sigmas of the worst sensor there.
 TEST(Field, TheCarTracksTheGhostsAroundIt) {
   auto loaded = load(kRoot + "/hil/scenarios/five_ghosts.yaml", kRoot);
   ASSERT_TRUE(loaded) << to_string(loaded.error());

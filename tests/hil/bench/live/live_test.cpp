@@ -25,7 +25,7 @@ TEST(Live, CarsThatCannotShareARunAreRefusedBeforeAnythingStarts) {
   Trap trap;
   scenario::Scenario longer = lap().scenario;
   longer.name = "longer";
-  longer.duration += seconds(1);
+  longer.duration = longer.duration + seconds(1);
   const LivePlan plan = trap.plan();
   const auto run = run_live(std::array{LiveStack{lap().scenario, lap().setup, plan},
                                        LiveStack{longer, lap().setup, plan}});
