@@ -41,6 +41,9 @@ TEST(ClearMot, AnotherNumberIsASwitchAndASwapIsTwo) {
   swapped.add(Spots{{1, 0.0, 0.0}, {2, 0.0, 3.0}}, Spots{{7, 0.0, 0.0}, {8, 0.0, 3.0}});
   swapped.add(Spots{{1, 0.0, 0.0}, {2, 0.0, 3.0}}, Spots{{8, 0.0, 0.0}, {7, 0.0, 3.0}});
   EXPECT_EQ(swapped.switches(), 2U);
+  EXPECT_EQ(swapped.switched(), (std::vector<std::uint32_t>{1, 2}));
+  swapped.add(Spots{{1, 0.0, 0.0}}, Spots{{8, 0.0, 0.0}});
+  EXPECT_TRUE(swapped.switched().empty());
 }
 
 // A pair of the frame before stays although another track is nearer now.
