@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <vector>
+
 namespace pitwall::tracking_bench {
 namespace {
 
@@ -36,6 +39,7 @@ TEST(ClearMot, AnotherNumberIsASwitchAndASwapIsTwo) {
   renamed.add(Spots{{1, 0.0, 0.0}}, Spots{{9, 0.0, 0.0}});
   EXPECT_EQ(renamed.switches(), 1U);
   EXPECT_EQ(renamed.misses(), 1U);
+  EXPECT_DOUBLE_EQ(renamed.mota(), 1.0 - 2.0 / 3.0);
   // Two cars 3 m apart whose tracks exchange their places.
   ClearMot swapped(2.0);
   swapped.add(Spots{{1, 0.0, 0.0}, {2, 0.0, 3.0}}, Spots{{7, 0.0, 0.0}, {8, 0.0, 3.0}});
