@@ -9,6 +9,7 @@
 #include "hil/cli/command_line.hpp"
 #include "hil/cli/kitti/kitti_tracking.hpp"
 #include "protocol/transport/file.hpp"
+#include "protocol/vocabulary/quantile.hpp"
 
 namespace pitwall::cli {
 namespace {
@@ -31,7 +32,7 @@ void print_summary(const KittiOptions& options, const KittiDetections& in, Kitti
       "tracker %s, us of processor time a frame: mean %.1f, p99 %.1f, worst %.1f\n",
       options.out.c_str(), frames, in.boxes.size(), ids.size(), run.tracks.size(),
       options.tracker.c_str(), sum_us / static_cast<double>(frames),
-      run.took_us[(frames - 1) * 99 / 100], run.took_us.back());
+      run.took_us[nearest_rank(0.99, frames)], run.took_us.back());
   if (run.left_out > 0)
     std::fprintf(stderr, "%zu detections left out: a frame has room for %zu\n", run.left_out,
                  world::kDetectionsMax);

@@ -34,6 +34,7 @@ const std::vector<SpotPair>& ClearMot::add(std::span<const Spot> objects,
   });
   std::vector<bool> has_track(objects.size(), false), is_taken(tracks.size(), false);
   pairs_.clear();
+  switched_.clear();
   for (const Candidate& c : candidates) {
     if (has_track[c.pair.object] || is_taken[c.pair.track]) continue;
     has_track[c.pair.object] = is_taken[c.pair.track] = true;
@@ -43,10 +44,11 @@ const std::vector<SpotPair>& ClearMot::add(std::span<const Spot> objects,
     const auto owner = object_of_.find(track);
     const bool has_changed = known != track_of_.end() && known->second != track;
     const bool is_anothers = owner != object_of_.end() && owner->second != object;
-    if (has_changed || is_anothers) ++switches_;
+    if (has_changed || is_anothers) switched_.push_back(object);
     track_of_[object] = track;
     object_of_[track] = object;
   }
+  switches_ += switched_.size();
   for (std::size_t o = 0; o < objects.size(); ++o) {
     if (!objects[o].is_required) continue;
     ++objects_;

@@ -40,13 +40,15 @@ class ClearMot {
   std::size_t misses() const { return misses_; }
   std::size_t false_tracks() const { return false_; }
   std::size_t switches() const { return switches_; }
-  double mota() const;  // NaN without an object
+  const std::vector<std::uint32_t>& switched() const { return switched_; }  // objects, newest frame
+  double mota() const;                                                      // NaN without an object
 
  private:
   double gate_m_;
   std::map<std::uint32_t, std::uint32_t> track_of_;   // newest track of an object
   std::map<std::uint32_t, std::uint32_t> object_of_;  // newest object of a track
   std::vector<SpotPair> pairs_;
+  std::vector<std::uint32_t> switched_;
   std::size_t objects_ = 0, misses_ = 0, false_ = 0, switches_ = 0;
 };
 

@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <vector>
+
 namespace pitwall::tracking_bench {
 namespace {
 
@@ -36,11 +39,15 @@ TEST(ClearMot, AnotherNumberIsASwitchAndASwapIsTwo) {
   renamed.add(Spots{{1, 0.0, 0.0}}, Spots{{9, 0.0, 0.0}});
   EXPECT_EQ(renamed.switches(), 1U);
   EXPECT_EQ(renamed.misses(), 1U);
+  EXPECT_DOUBLE_EQ(renamed.mota(), 1.0 - 2.0 / 3.0);
   // Two cars 3 m apart whose tracks exchange their places.
   ClearMot swapped(2.0);
   swapped.add(Spots{{1, 0.0, 0.0}, {2, 0.0, 3.0}}, Spots{{7, 0.0, 0.0}, {8, 0.0, 3.0}});
   swapped.add(Spots{{1, 0.0, 0.0}, {2, 0.0, 3.0}}, Spots{{8, 0.0, 0.0}, {7, 0.0, 3.0}});
   EXPECT_EQ(swapped.switches(), 2U);
+  EXPECT_EQ(swapped.switched(), (std::vector<std::uint32_t>{1, 2}));
+  swapped.add(Spots{{1, 0.0, 0.0}}, Spots{{8, 0.0, 0.0}});
+  EXPECT_TRUE(swapped.switched().empty());
 }
 
 // A pair of the frame before stays although another track is nearer now.

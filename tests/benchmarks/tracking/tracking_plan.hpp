@@ -6,6 +6,10 @@
 //   blind  one car; every 10 s all sensors see nothing for 1.5 s while its speed changes with
 //          up to 1 m/s^2
 //
+// All cars keep to lanes at a distance from the middle between the walls. The reference line of the
+// map is not the middle: it swings by 8 m across the road, so a prediction along it alone is some
+// metres wrong after 1.5 s.
+//
 //   our own car  as localization has it: errors that wander with 10 s, one sigma: 0.03 m along each
 //                axis, 0.1 degrees, 0.05 m/s
 // SPDX-License-Identifier: Apache-2.0

@@ -129,6 +129,7 @@ class Scorer {
       if (seen_[pair.object].since_s < kInSight_s && is_settled)
         add_error(error_of(track, moment.others[pair.object], ego, moment.ours), track, ego);
     }
+    for (const std::uint32_t car : mot_.switched()) row_->switches_hidden += was_hidden(car);
     row_->objects = mot_.objects(), row_->misses = mot_.misses();
     row_->false_tracks = mot_.false_tracks(), row_->switches = mot_.switches();
     row_->mota = mot_.mota();
@@ -150,19 +151,28 @@ class Scorer {
 
  private:
   struct Sight {
-    double since_s = kForgotten_s;  // some sensor could see it
-    double side = 0.0;              // ahead of us or behind
+    double since_s = kForgotten_s;  // some LiDAR or camera could see it
+    double unseen_s = kForgotten_s, hidden_s = 0.0,
+           back_s = 0.0;  // by radars too: now, last, since
+    double side = 0.0;    // ahead of us or behind
     bool is_forgotten = false;
   };
+
+  bool was_hidden(std::uint32_t car) const {
+    const Sight& sight = seen_[car];
+    return sight.unseen_s > kHidden_s || (sight.hidden_s > kHidden_s && sight.back_s < kBack_s);
+  }
 
   void note_sight(const Moment& moment, Instant now) {
     const double dt_s = kScoredEvery * kTick.seconds();
     for (std::size_t i = 0; i < moment.others.size(); ++i) {
       Sight& sight = seen_[i];
-      sight.since_s += dt_s;
+      sight.since_s += dt_s, sight.unseen_s += dt_s, sight.back_s += dt_s;
       for (const sensors::DetectionSensor& sensor : scene_->sensors) {
-        if (sensor.source == world::DetectionSource::kRadar) continue;
         if (!sensors::is_in_sight(sensor, moment.cars(), i)) continue;
+        if (sight.unseen_s > kHidden_s) sight.hidden_s = sight.unseen_s, sight.back_s = 0.0;
+        sight.unseen_s = 0.0;
+        if (sensor.source == world::DetectionSource::kRadar) continue;
         sight.since_s = 0.0, sight.is_forgotten = false;
         break;
       }

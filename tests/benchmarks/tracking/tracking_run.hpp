@@ -28,6 +28,8 @@ inline constexpr double kGate_m = 2.0;        // a track that is further away is
 inline constexpr double kRequired_m = 100.0;  // cars that are nearer, and in sight, must be known
 // A car that no sensor could see for this time may be another one when it comes back.
 inline constexpr double kForgotten_s = 4.0;
+// A switch within kBack_s after at least kHidden_s out of sight of every sensor is counted apart.
+inline constexpr double kHidden_s = 1.5, kBack_s = 1.0;
 inline constexpr double kNees95 = 9.488;  // chi-square of 4
 
 struct Rms {
@@ -55,6 +57,7 @@ struct TrackingRow {
   double nees_sum = 0.0;
   std::size_t nees_count = 0, nees_within_95 = 0;
   std::size_t objects = 0, misses = 0, false_tracks = 0, switches = 0, reborn = 0, passes = 0;
+  std::size_t switches_hidden = 0;  // of the switches: of cars that had been hidden for long
   double mota = kUnset;
   std::size_t blind_times = 0, blind_lost = 0;  // lost: no track at the end
   double blind_worst_m = 0.0;

@@ -131,8 +131,9 @@ TEST_P(KittiTracking, ATrackHasTheScoreAndTheImageOfItsDetection) {
 
 TEST_P(KittiTracking, MoreThanAFrameHoldsAreLeftOutByScore) {
   Made sequence;
-  for (std::uint32_t i = 0; i < 30; ++i) {
-    KittiBox box{.frame = 0,
+  for (std::uint32_t k = 0; k < 60; ++k) {
+    const std::uint32_t i = k % 30;
+    KittiBox box{.frame = k / 30,
                  .score = 0.1 * i,
                  .height_m = 1.5,
                  .width_m = 1.7,
@@ -145,8 +146,11 @@ TEST_P(KittiTracking, MoreThanAFrameHoldsAreLeftOutByScore) {
     sequence.detections.boxes.push_back(box);
   }
   const KittiRun result = run(sequence);
-  EXPECT_EQ(result.left_out, 30U - world::kDetectionsMax);
-  EXPECT_EQ(result.took_us.size(), 1U);
+  constexpr std::size_t kLeftOut = 30 - world::kDetectionsMax;
+  EXPECT_EQ(result.left_out, 2 * kLeftOut);
+  EXPECT_EQ(result.took_us.size(), 2U);
+  ASSERT_FALSE(result.tracks.empty());
+  for (const KittiTrack& t : result.tracks) EXPECT_GE(t.box.score, 0.1 * kLeftOut);
 }
 
 // rot_y = 0 is a car that points to the right: in Body, yaw of -90 degrees.
