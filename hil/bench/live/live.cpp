@@ -106,6 +106,8 @@ Result<std::vector<LiveResult>, Problem> run_live(std::span<const LiveStack> sta
     runners.push_back(stack.runner());
     if (auto other = difference(runners.front(), runners.back()))
       return Unexpected{*std::move(other)};
+  }
+  for (const LiveStack& stack : stacks) {
     auto car = LiveCar::open(stack.scenario, stack.setup, stack.plan, has_others);
     if (!car) return Unexpected{car.error()};
     cars.push_back(*std::move(car));
