@@ -108,6 +108,9 @@ TEST(LqrGains, AProblemNamesTheSpeedOrTheParameter) {
   EXPECT_EQ(place([](Params& p) { p.lqr_ff.lag_s = kUnset; }), "lqr_ff.lag_s");
   EXPECT_EQ(place([](Params& p) { p.lqr_ff.weights[3].angle = 0.0; }), "lqr_ff.weights[3].angle");
   EXPECT_EQ(place([](Params& p) { p.lqr_ff.weights[8].turn = -1.0; }), "lqr_ff.weights[8].turn");
+  // Front tyres without any force: the steering moves nothing, and no regulator exists.
+  EXPECT_EQ(place([](Params& p) { p.bicycle.cornering_front_n_per_rad = 0.0; }),
+            "lqr_ff.weights[0].");
 }
 
 }  // namespace

@@ -12,19 +12,20 @@ namespace pitwall::tracking {
 struct RoadParams {
   // Acceleration and turn rate are noise with this sigma that is forgotten in this time.
   double accel_sigma_mps2 = 2.0, accel_time_s = 2.0;
-  double turn_sigma_rad_per_s = 0.03, turn_time_s = 1.0;
+  double turn_sigma_rad_per_s = 0.02, turn_time_s = 1.0;
   // The same without a map, where the turn rate is that of the road too.
   double plane_turn_sigma_rad_per_s = 0.3, plane_turn_time_s = 5.0;
   double wander_m_per_sqrt_s = 0.05;  // what the model of the motion leaves out
   // Of a new track, about our own speed and the direction of the road (of our car on a plane).
   double start_speed_sigma_mps = 40.0, start_heading_sigma_rad = 0.15;
-  // Grows with the distance: 0.12 m at 60 m, 0.17 m at 100 m.
-  double lidar_sigma_m = 0.05, lidar_sigma_per_m = 0.0012;
+  // Grows with the distance: 0.21 m at 60 m, 0.27 m at 100 m.
+  double lidar_sigma_m = 0.13, lidar_sigma_per_m = 0.0014;
   double lidar_yaw_sigma_rad = 0.035;
   double camera_bearing_sigma_rad = 0.003;
-  double camera_inverse_depth_sigma_per_m = 0.0005;  // 1 pixel of height: sigma_h / (f H)
-  double radar_range_sigma_m = 0.4, radar_bearing_sigma_rad = 0.01;
-  double radar_rate_sigma_mps = 0.2;
+  // 1 pixel of height of the wide cameras: sigma_h / (f H).
+  double camera_inverse_depth_sigma_per_m = 0.0014;
+  double radar_range_sigma_m = 0.5, radar_bearing_sigma_rad = 0.0175;
+  double radar_rate_sigma_mps = 0.17;
   // Chi-square gates by the number of values; these let 0.1 % of the good ones out.
   double gate_1 = 10.83, gate_2 = 13.82, gate_3 = 16.27;
   double apart_m = 1.8;      // closer to a confirmed track no track begins

@@ -59,10 +59,27 @@ void move_covariance(const MotionStep& step, const Advance& a, StateMatrix& p) {
   p[kAcross][kAcross] += step.wander_variance;
 }
 
+// Second derivative of the middle between the walls against the reference line, over the lap. A
+// reference line may swing from wall to wall, as a racing line does; other cars keep to the road.
+double middle_bend_per_m(const world::TrackMap* map, double s_m) {
+  if (map == nullptr) return 0.0;
+  constexpr double kSpan_m = 75.0;  // to both sides: what is shorter is the survey of the walls
+  const auto count = static_cast<double>(map->size());
+  const auto middle_m = [&](double at_s_m) {
+    const double place = std::round(map->wrap_station(at_s_m) / map->length_m() * count);
+    const world::TrackPoint& point = map->point(static_cast<std::size_t>(place) % map->size());
+    return 0.5 * (point.width_left_m - point.width_right_m);
+  };
+  return (middle_m(s_m + kSpan_m) - 2.0 * middle_m(s_m) + middle_m(s_m - kSpan_m)) /
+         (kSpan_m * kSpan_m);
+}
+
 void take_step(const MotionStep& step, const world::TrackMap* map, Track& track) {
   const double half_way_m = track.x[kAlong] + 0.5 * step.dt_s * track.x[kSpeed];
   const Advance a = advanced(step, curvature_at(map, half_way_m), track.x);
   track.x = a.x;
+  track.x[kHeading] =
+      wrap_pi(track.x[kHeading] + step.dt_s * track.x[kSpeed] * middle_bend_per_m(map, half_way_m));
   if (map != nullptr) track.x[kAlong] = map->wrap_station(track.x[kAlong]);
   move_covariance(step, a, track.p);
 }

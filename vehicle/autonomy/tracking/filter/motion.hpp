@@ -1,6 +1,6 @@
 // Motion of a car between two frames: constant turn rate and acceleration, both of which are
 // forgotten with time (first-order Gauss-Markov). With a map the turn rate adds to that of the
-// road, so a car of which nothing is seen follows the road.
+// road, so a car of which nothing is seen follows the road: the middle between its walls.
 //   in     a track and a step in time
 //   out    its states and covariance after it
 //   source Bar-Shalom, Li and Kirubarajan (2001), section 8.2.3 (Singer model)
