@@ -13,10 +13,18 @@
 
 namespace pitwall::bench {
 
+// Another car with a full stack: the flags, track and duration of the run, a start of its own.
+struct LoadedStack {
+  std::string name;
+  scenario::Scenario scenario;
+  pipeline::Setup setup;
+};
+
 struct Loaded {
   scenario::Scenario scenario;
   pipeline::Setup setup;
   std::vector<FieldGhost> ghosts{};  // the other cars of the scenario
+  std::vector<LoadedStack> stacks{};
 };
 
 // Track, car and plant files are named relative to `folder` unless they are absolute.

@@ -162,6 +162,27 @@ void read_script(yaml::StrictMap& map, traffic::GhostPlan& plan) {
   }
 }
 
+std::uint64_t read_seed(yaml::StrictMap& map, std::uint64_t scenario_seed, int number) {
+  if (map.has("seed")) return static_cast<std::uint64_t>(map.integer("seed", 0, kMaxSeed));
+  return mix_bits(scenario_seed + static_cast<std::uint64_t>(number));
+}
+
+StackPlan read_stack(yaml::StrictMap& map, std::uint64_t scenario_seed, int number) {
+  StackPlan plan;
+  plan.place = map.place();
+  plan.car_file = map.text("car");
+  if (plan.car_file.empty()) map.fail("car", "names no file");
+  if (map.has("plant")) plan.plant_file = map.text("plant");
+  if (map.has("plant") && plan.plant_file.empty()) map.fail("plant", "names no file");
+  yaml::StrictMap start = map.map("start");
+  plan.start_s_m = start.number("s_m", 0.0, 100'000.0);
+  plan.start_n_m = start.number_or("n_m", 0.0, -50.0, 50.0);
+  start.finish();
+  plan.seed = read_seed(map, scenario_seed, number);
+  map.finish();
+  return plan;
+}
+
 OtherCar read_car(yaml::StrictMap& map, std::uint64_t scenario_seed) {
   OtherCar car;
   car.name = map.text("name");
@@ -169,8 +190,8 @@ OtherCar read_car(yaml::StrictMap& map, std::uint64_t scenario_seed) {
   car.number = static_cast<int>(map.integer("number", 2, 99));
   const std::string kind = map.text("kind");
   if (kind == "stack") {
-    if (map.text("car").empty()) map.fail("car", "names no file");
-    map.fail("kind", "a car with a stack is not yet in this bench");
+    car.stack = read_stack(map, scenario_seed, car.number);
+    return car;
   }
   if (kind != "ghost") map.fail("kind", "\"" + kind + "\" is not one of: ghost, stack");
   traffic::GhostPlan& plan = car.ghost;
@@ -181,8 +202,7 @@ OtherCar read_car(yaml::StrictMap& map, std::uint64_t scenario_seed) {
   if (auto limits = map.optional_map("limits")) plan.limits = read_limits(*limits);
   if (auto drift = map.optional_map("drift")) plan.drift = read_drift(*drift);
   if (auto size = map.optional_map("size")) read_size(*size, plan);
-  plan.seed = map.has("seed") ? static_cast<std::uint64_t>(map.integer("seed", 0, kMaxSeed))
-                              : mix_bits(scenario_seed + static_cast<std::uint64_t>(car.number));
+  plan.seed = read_seed(map, scenario_seed, car.number);
   read_script(map, plan);
   map.finish();
   return car;

@@ -1,7 +1,8 @@
 // Section `cars` of a scenario file: the other cars, at most eight.
 //   name, number   of the car; number 2 to 99, each once; our car is number 1
-//   kind       ghost, a car without a stack. `stack`, with the `car` file that it drives by, is
-//              read and refused
+//   kind       ghost, a car without a stack, with all keys below; or stack, a car with a computer,
+//              bus and radio of its own, with car (file), plant (file, optional), start (s_m, n_m)
+//              and seed. It hears the same flags, and nothing of the faults and operators
 //   start      s_m, speed_mps, and n_m where the car begins beside its line and joins it
 //   line, offset_m   a line of the bank that the car file names, or else the reference line, and a
 //              distance beside it
@@ -20,6 +21,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -30,10 +32,18 @@ namespace pitwall::scenario {
 
 inline constexpr std::size_t kMaxCars = 8;
 
+struct StackPlan {
+  std::string car_file, plant_file;  // as written; no plant file: the AV-21
+  double start_s_m = 0.0, start_n_m = 0.0;
+  std::uint64_t seed = 0;
+  std::string place{};  // for messages
+};
+
 struct OtherCar {
   std::string name;
   int number = 0;
-  traffic::GhostPlan ghost;
+  traffic::GhostPlan ghost;        // of a car without a stack
+  std::optional<StackPlan> stack;  // of a car with one
 };
 
 std::vector<OtherCar> read_cars(yaml::StrictMap& map, std::uint64_t scenario_seed);

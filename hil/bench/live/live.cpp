@@ -120,6 +120,9 @@ Result<std::vector<LiveResult>, Problem> run_live(std::span<const LiveStack> sta
 }
 
 Result<LiveResult, Problem> run_live(const Loaded& loaded, const LivePlan& plan) {
+  if (!loaded.stacks.empty())
+    return refuse(loaded.stacks.front().name,
+                  "a car with a stack runs in lockstep only: run without --live");
   auto results =
       run_live(std::array{LiveStack{loaded.scenario, loaded.setup, plan}}, loaded.ghosts);
   if (!results) return Unexpected{results.error()};

@@ -10,6 +10,7 @@
 #include "hil/bench/field.hpp"
 #include "hil/bench/lockstep/car_bench.hpp"
 #include "protocol/vocabulary/check.hpp"
+#include "protocol/vocabulary/text.hpp"
 
 namespace pitwall::bench {
 namespace {
@@ -66,10 +67,19 @@ Result<std::vector<RunResult>, Problem> run_lockstep(std::span<const Stack> stac
 }
 
 Result<RunResult, Problem> run_lockstep(const Loaded& loaded, const LockstepOptions& options) {
-  auto results =
-      run_lockstep(std::array{Stack{loaded.scenario, loaded.setup, options}}, loaded.ghosts);
+  std::vector<Stack> stacks{{loaded.scenario, loaded.setup, options}};
+  for (const LoadedStack& other : loaded.stacks)
+    stacks.push_back({other.scenario, other.setup, {}, other.name});
+  auto results = run_lockstep(stacks, loaded.ghosts);
   if (!results) return Unexpected{results.error()};
-  return std::move(results->front());
+  RunResult own = std::move(results->front());
+  for (std::size_t i = 1; i < stacks.size(); ++i) {
+    const RunResult& other = (*results)[i];
+    own.remarks.push_back(formatted("%s: %u laps, top speed %.2f m/s; ", stacks[i].name.c_str(),
+                                    other.laps.finished, other.speed_max_mps) +
+                          to_text(other.outcome));
+  }
+  return own;
 }
 
 Result<RunResult, Problem> run_lockstep(const scenario::Scenario& scenario,

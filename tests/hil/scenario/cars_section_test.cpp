@@ -100,6 +100,21 @@ TEST(CarsSection, MayBeLeftOutAndHasDefaults) {
   EXPECT_NE(plan.seed, with_cars("cars: [{" + kShort + "}]\n", 4)->cars[0].ghost.seed);
 }
 
+TEST(CarsSection, ACarWithAStackHasFilesAndAStart) {
+  const auto read = with_cars(
+      "cars: [{name: b, number: 2, kind: stack, car: c.yaml, plant: p.yaml, "
+      "start: {s_m: 70, n_m: -2}}]\n",
+      3);
+  ASSERT_TRUE(read) << to_string(read.error());
+  ASSERT_TRUE(read->cars[0].stack);
+  const StackPlan& plan = *read->cars[0].stack;
+  EXPECT_EQ(plan.car_file, "c.yaml");
+  EXPECT_EQ(plan.plant_file, "p.yaml");
+  EXPECT_EQ(plan.start_s_m, 70.0);
+  EXPECT_EQ(plan.start_n_m, -2.0);
+  EXPECT_NE(plan.seed, 3u) << "of its own";
+}
+
 struct Refusal {
   std::string section, what;
 };
@@ -125,7 +140,13 @@ TEST(CarsSection, EveryMistakeIsRefusedWithItsPlaceAndReason) {
       {"cars: [{name: b, number: 2, kind: human}]\n", "not one of: ghost, stack"},
       {"cars: [{name: b, number: 2, kind: stack}]\n", "car"},
       {"cars: [{name: b, number: 2, kind: stack, car: \"\"}]\n", "names no file"},
-      {"cars: [{name: b, number: 2, kind: stack, car: c.yaml}]\n", "not yet in this bench"},
+      {"cars: [{name: b, number: 2, kind: stack, car: c.yaml}]\n", "start"},
+      {"cars: [{name: b, number: 2, kind: stack, car: c.yaml, start: {n_m: 1}}]\n", "s_m"},
+      {"cars: [{name: b, number: 2, kind: stack, car: c.yaml, start: {s_m: 1}, plant: \"\"}]\n",
+       "names no file"},
+      {"cars: [{name: b, number: 2, kind: stack, car: c.yaml, start: {s_m: 1}, "
+       "speed: {mps: 4}}]\n",
+       "speed"},
       {"cars: [{name: b, number: 2, kind: ghost, speed: {mps: 4}}]\n", "start"},
       {"cars: [{name: b, number: 2, kind: ghost, start: {s_m: 1}}]\n", "speed"},
       {"cars: [{name: b, number: 2, kind: ghost, start: {n_m: 1}, speed: {mps: 4}}]\n", "s_m"},

@@ -48,7 +48,7 @@ TEST_P(ScenarioFile, Holds) {
   ASSERT_TRUE(loaded) << to_string(loaded.error());
   EXPECT_EQ(loaded->scenario.name, GetParam()) << "a scenario is called as its file";
   EXPECT_FALSE(loaded->scenario.expect.empty()) << "a run that expects nothing shows nothing";
-  const auto run = run_lockstep(loaded->scenario, loaded->setup, {});
+  const auto run = run_lockstep(*loaded, {});
   ASSERT_TRUE(run) << to_string(run.error());
   const auto not_judged = std::ranges::count_if(run->remarks, [](const std::string& remark) {
     return remark.starts_with("not judged, the car hit a wall before: ");
@@ -71,7 +71,7 @@ RunResult until_it_fails(const Loaded& loaded) {
            std::ranges::count(run.grader.expectation_states(), grading::ExpectationState::kFailed) >
                0;
   };
-  auto run = run_lockstep(loaded.scenario, loaded.setup, {.over = failed});
+  auto run = run_lockstep(loaded, {.over = failed});
   if (!run) ADD_FAILURE() << to_string(run.error());
   return run ? *std::move(run) : RunResult{};
 }
