@@ -44,6 +44,10 @@ Field::Field(std::span<const Runner> runners, std::span<const FieldGhost> ghosts
     numbers_.push_back(ghost.number);
     ghost_states_.push_back(traffic::begin(ghost.ghost, track_, Instant{}));
   }
+  for (std::size_t i = 0; i < cars_.size(); ++i) in_order_.push_back(i);
+  std::ranges::sort(in_order_, {}, [&](std::size_t i) {
+    return std::pair{numbers_[i], names_[i]};
+  });
 }
 
 void Field::step(std::span<const FieldCar> stacks, Instant now) {
@@ -70,7 +74,7 @@ void Field::move_ghosts(Instant now) {
 
 std::span<const sensors::TrueCar> Field::others_of(std::size_t car) {
   others_.clear();
-  for (std::size_t other = 0; other < cars_.size(); ++other)
+  for (const std::size_t other : in_order_)
     if (other != car) CHECK(others_.push(seen(cars_[other].pose)));
   return others_.span();
 }

@@ -77,7 +77,9 @@ class Field {
   std::size_t size() const { return cars_.size(); }
   const FieldCar& car(std::size_t i) const { return cars_[i]; }
   std::uint8_t number(std::size_t i) const { return numbers_[i]; }
-  // All cars but this one, as its sensors may see them; valid until the next call.
+  // All cars, by number and name: an order that does not depend on that of the runners.
+  std::span<const std::size_t> in_order() const { return in_order_; }
+  // All cars but this one in that order, as its sensors may see them; valid until the next call.
   std::span<const sensors::TrueCar> others_of(std::size_t car);
 
   const std::vector<FieldContact>& contacts() const { return contacts_; }
@@ -97,6 +99,7 @@ class Field {
   const world::TrackMap& track_;
   std::vector<std::string> names_;
   std::vector<std::uint8_t> numbers_;  // as race control has them
+  std::vector<std::size_t> in_order_;
   std::vector<FieldCar> cars_;
   std::vector<traffic::MotionTrace> traces_;
   std::vector<double> least_gap_m_;

@@ -209,7 +209,7 @@ void LiveCar::serve_radio(Instant now) { parts_.radio.serve(now); }
 void LiveCar::show_others(Field& field, std::size_t own, Instant at) {
   parts_.rig.show_rival(field.rival_of(own));
   if (!record_ || (at - Instant{}).ns % setup_.params.rates.tick.ns != 0) return;
-  for (std::size_t i = 0; i < field.size(); ++i)
+  for (const std::size_t i : field.in_order())
     if (i != own) record_->other(field.number(i), field.car(i).pose, at);
 }
 

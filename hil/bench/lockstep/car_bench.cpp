@@ -95,7 +95,7 @@ void CarBench::show_others(Field& field, std::size_t own, Instant at) {
   for (const world::DetectionFrame& frame : arrivals_)
     if (detections_.size() < kDetectionFrames) detections_.push_back(frame);
   if (!record_ || (at - Instant{}).ns % setup_.params.rates.tick.ns != 0) return;
-  for (std::size_t i = 0; i < field.size(); ++i)
+  for (const std::size_t i : field.in_order())
     if (i != own) record_->other(field.number(i), field.car(i).pose, at);
 }
 

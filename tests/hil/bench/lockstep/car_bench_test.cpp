@@ -21,8 +21,8 @@ scenario::Scenario part_of_lap(double start_s_m, std::uint64_t seed) {
   return part;
 }
 
-Stack stack_of(const scenario::Scenario& scenario) {
-  return {scenario, lap().setup, {.log = nowhere()}};
+Stack stack_of(const scenario::Scenario& scenario, const std::string& name = "own") {
+  return {scenario, lap().setup, {.log = nowhere()}, name};
 }
 
 std::vector<RunResult> had(Result<std::vector<RunResult>, Problem> results) {
@@ -35,15 +35,14 @@ std::vector<RunResult> had(Result<std::vector<RunResult>, Problem> results) {
 // is nothing at all.
 TEST(CarBench, TheOrderOfTheCarsChangesNoByte) {
   const std::array parts{part_of_lap(2'250.0, 7), part_of_lap(2'200.0, 8), part_of_lap(1'000.0, 9)};
-  const auto first =
-      had(run_lockstep(std::array{stack_of(parts[0]), stack_of(parts[1]), stack_of(parts[2])}));
-  const auto turned =
-      had(run_lockstep(std::array{stack_of(parts[2]), stack_of(parts[0]), stack_of(parts[1])}));
+  const Stack a = stack_of(parts[0], "a"), b = stack_of(parts[1], "b"), c = stack_of(parts[2], "c");
+  const auto first = had(run_lockstep(std::array{a, b, c}));
+  const auto turned = had(run_lockstep(std::array{c, a, b}));
   ASSERT_EQ(first.size(), 3u);
   ASSERT_EQ(turned.size(), 3u);
   for (std::size_t i = 0; i < 3; ++i) EXPECT_EQ(turned[(i + 1) % 3].digest, first[i].digest) << i;
   EXPECT_NE(first[0].digest, first[1].digest);
-  EXPECT_NE(first[0].digest, had(run_lockstep(std::array{stack_of(parts[0])})).at(0).digest)
+  EXPECT_NE(first[0].digest, had(run_lockstep(std::array{a})).at(0).digest)
       << "race control names the others";
 }
 
