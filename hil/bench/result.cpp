@@ -28,6 +28,18 @@ std::string brackets_json(const grading::CrossTrack& cross) {
   return out.str();
 }
 
+// By lap; the first up to the start line.
+std::string lap_errors_json(const std::vector<grading::ErrorStatistics>& laps) {
+  json::Array out;
+  for (const grading::ErrorStatistics& lap : laps)
+    out.json(json::Object{}
+                 .number("samples", lap.samples)
+                 .number("mean_m", lap.mean_m())
+                 .number("max_m", lap.max_m)
+                 .str());
+  return out.str();
+}
+
 std::string laps_json(const decltype(RunResult::laps)& laps) {
   return json::Object{}
       .number("finished", laps.finished)
@@ -215,6 +227,7 @@ std::string to_json(const RunResult& r) {
       .number("cross_track_overall_m", r.cross_track.overall.mean_m())
       .number("cross_track_max_m", r.cross_track.overall.max_m)
       .json("cross_track", brackets_json(r.cross_track))
+      .json("cross_track_by_lap", lap_errors_json(r.cross_track.by_lap))
       .json("can", traffic_json(r.traffic))
       .number("gate_refusals", r.gate_refusals)
       .number("bus_refusals", r.bus_refusals)

@@ -30,7 +30,8 @@ std::string name_of(const Bracket& b) {
 
 }  // namespace
 
-void add(CrossTrack& statistics, double speed_mps, double cross_track_m) {
+void add(CrossTrack& statistics, double speed_mps, double cross_track_m,
+         std::uint32_t laps_finished) {
   if (!std::isfinite(speed_mps) || !std::isfinite(cross_track_m)) {
     ++statistics.undefined;
     return;
@@ -39,6 +40,8 @@ void add(CrossTrack& statistics, double speed_mps, double cross_track_m) {
     if (speed_mps < kBrackets[i].from_mps) continue;
     add_one(statistics.by_bracket[i], std::abs(cross_track_m));
     add_one(statistics.overall, std::abs(cross_track_m));
+    if (statistics.by_lap.size() <= laps_finished) statistics.by_lap.resize(laps_finished + 1);
+    add_one(statistics.by_lap[laps_finished], std::abs(cross_track_m));
     return;
   }
   ++statistics.slow;
@@ -50,7 +53,13 @@ std::string to_table(const CrossTrack& statistics) {
   for (std::size_t i = 0; i < kBrackets.size(); ++i)
     table += row(name_of(kBrackets[i]), statistics.by_bracket[i], kBrackets[i].paper_best_m,
                  kBrackets[i].paper_mean_m);
-  return table + row("all >10", statistics.overall, kPaperBestOverall_m, kPaperMeanOverall_m);
+  table += row("all >10", statistics.overall, kPaperBestOverall_m, kPaperMeanOverall_m);
+  if (statistics.by_lap.size() < 2) return table;
+  table += "by lap, mean and max:";
+  for (const ErrorStatistics& lap : statistics.by_lap)
+    table += formatted(" %.3f %.3f;", lap.mean_m(), lap.max_m);
+  table.back() = '\n';
+  return table;
 }
 
 }  // namespace pitwall::grading

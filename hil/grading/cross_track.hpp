@@ -1,6 +1,7 @@
-// Cross-track error statistics by speed bracket, beside the figures of the paper.
-//   in     one pair (speed, cross-track error) per tick at a constant rate; a NaN is only counted
-//   out    mean and maximum of the absolute error per bracket and overall above 10 m/s
+// Cross-track error statistics by speed bracket, beside the figures of the paper, and by lap.
+//   in     one pair (speed, cross-track error) per tick at a constant rate, with the laps finished
+//          before it; a NaN is only counted
+//   out    mean and maximum of the absolute error per bracket, per lap and overall above 10 m/s
 //   units  m, m/s; a speed on a boundary belongs to the faster bracket
 //   source Saba et al., Fast and Modular Autonomy Software for Autonomous Racing Vehicles: best and
 //          mean of three runs of season one
@@ -10,6 +11,7 @@
 #include <array>
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "protocol/vocabulary/units.hpp"
 
@@ -38,12 +40,15 @@ struct ErrorStatistics {
 
 struct CrossTrack {
   std::array<ErrorStatistics, kBrackets.size()> by_bracket{};
-  ErrorStatistics overall;      // above 10 m/s
+  ErrorStatistics overall;  // above 10 m/s
+  // Likewise; the first up to the start line.
+  std::vector<ErrorStatistics> by_lap;
   std::uint64_t slow = 0;       // ticks below 10 m/s
   std::uint64_t undefined = 0;  // ticks with a NaN
 };
 
-void add(CrossTrack& statistics, double speed_mps, double cross_track_m);
+void add(CrossTrack& statistics, double speed_mps, double cross_track_m,
+         std::uint32_t laps_finished = 0);
 
 std::string to_table(const CrossTrack& statistics);
 

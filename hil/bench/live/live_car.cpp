@@ -195,7 +195,7 @@ void LiveCar::judge(Instant now) {
                                  .radio_limit = radio_limit_of(setup_.params),
                                  .off_path_m = off_m}));
   grading::add(result_.cross_track, parts_.rig.truth().speed_mps,
-               cross_track_m(parts_.rig, offset_m));
+               cross_track_m(parts_.rig, offset_m), parts_.rig.laps().finished);
   result_.speed_max_mps = std::max(result_.speed_max_mps, parts_.rig.truth().speed_mps);
   follow(result_.outcome, vehicle_place(parts_.rig, offset_m, now));
   if (record_) record_->truth(parts_.rig, now, cross_track_m(parts_.rig, offset_m));

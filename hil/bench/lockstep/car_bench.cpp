@@ -245,7 +245,8 @@ void CarBench::judge(const pipeline::Outputs& out, Instant now) {
                                 .radio_gap_max = base_.channel().longest_silence(now),
                                 .radio_limit = radio_limit_of(setup_.params),
                                 .off_path_m = off_m}));
-  grading::add(result_.cross_track, rig_.truth().speed_mps, cross_track_m(rig_, offset_m));
+  grading::add(result_.cross_track, rig_.truth().speed_mps, cross_track_m(rig_, offset_m),
+               rig_.laps().finished);
   result_.speed_max_mps = std::max(result_.speed_max_mps, rig_.truth().speed_mps);
   follow(result_.outcome, vehicle_place(rig_, offset_m, now));
   result_.gate_refusals = out.passed.refused_total;

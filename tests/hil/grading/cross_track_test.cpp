@@ -45,6 +45,23 @@ TEST(CrossTrack, AgreesWithAPlainComputation) {
   EXPECT_EQ(statistics.overall.samples, samples - statistics.slow);
 }
 
+TEST(CrossTrack, EachLapHasItsOwnMeanAndMaximum) {
+  CrossTrack statistics;
+  add(statistics, 30.0, 0.4, 0);
+  add(statistics, 30.0, -0.2, 2);
+  add(statistics, 40.0, 0.1, 2);
+  add(statistics, 5.0, 9.0, 2);  // too slow to count
+  ASSERT_EQ(statistics.by_lap.size(), 3U);
+  EXPECT_EQ(statistics.by_lap[0].samples, 1U);
+  EXPECT_EQ(statistics.by_lap[1].samples, 0U);
+  EXPECT_DOUBLE_EQ(statistics.by_lap[2].mean_m(), 0.15);
+  EXPECT_EQ(statistics.by_lap[2].max_m, 0.2);
+  EXPECT_NE(
+      to_table(statistics).find("by lap, mean and max: 0.400 0.400; nan 0.000; 0.150 0.200\n"),
+      std::string::npos)
+      << to_table(statistics);
+}
+
 TEST(CrossTrack, TheSignDoesNotMatterAndANaNIsOnlyCounted) {
   CrossTrack a, b;
   add(a, 30.0, 0.4);
