@@ -118,10 +118,10 @@ sensors::TrueCar seen(const traffic::CarPose& car);
 // Every car shows itself, and then sees the others. For cars with rig() and show_others().
 template <class Cars>
 void step_field(Field& field, const Cars& cars, Instant at) {
+  if (field.size() < 2) return;
   FixedVector<FieldCar, kFieldMax> places;
   for (const auto& car : cars) CHECK(places.push(car_of(car->rig())));
   field.step(places.span(), at);
-  if (field.size() < 2) return;
   for (std::size_t i = 0; i < cars.size(); ++i) cars[i]->show_others(field, i, at);
 }
 

@@ -140,17 +140,21 @@ void RunRecord::car(const pipeline::Outputs& out, Instant at) {
                                .age_s = (out.opponents.at - car.measured_at).seconds()});
 }
 
-void RunRecord::other(std::uint8_t number, const traffic::CarPose& pose, Instant at) {
+void RunRecord::others(const Field& field, std::size_t own, Instant at) {
   if (!others_) return;
-  log_.sample(*others_, at,
-              OtherSample{.number = number,
-                          .x_m = pose.x_m,
-                          .y_m = pose.y_m,
-                          .yaw_rad = pose.yaw_rad,
-                          .vx_mps = pose.vx_mps,
-                          .vy_mps = pose.vy_mps,
-                          .s_m = pose.s_m,
-                          .n_m = pose.n_m});
+  for (const std::size_t i : field.in_order()) {
+    if (i == own) continue;
+    const traffic::CarPose& pose = field.car(i).pose;
+    log_.sample(*others_, at,
+                OtherSample{.number = field.number(i),
+                            .x_m = pose.x_m,
+                            .y_m = pose.y_m,
+                            .yaw_rad = pose.yaw_rad,
+                            .vx_mps = pose.vx_mps,
+                            .vy_mps = pose.vy_mps,
+                            .s_m = pose.s_m,
+                            .n_m = pose.n_m});
+  }
 }
 
 void RunRecord::loss(const world::LossReport& loss) {

@@ -18,10 +18,10 @@
 #include <string_view>
 #include <type_traits>
 
+#include "hil/bench/field.hpp"
 #include "hil/bench/rig.hpp"
 #include "hil/grading/grader.hpp"
 #include "hil/scenario/scenario.hpp"
-#include "hil/traffic/car_pose.hpp"
 #include "protocol/recording/event_log.hpp"
 #include "vehicle/pipeline/step.hpp"
 
@@ -171,7 +171,8 @@ class RunRecord {
   // Includes the losses that the car detected in this tick.
   void car(const pipeline::Outputs& out, Instant at);
   void loss(const world::LossReport& loss);
-  void other(std::uint8_t number, const traffic::CarPose& pose, Instant at);
+  // All cars of the field but this one.
+  void others(const Field& field, std::size_t own, Instant at);
   void event(Instant at, std::string_view name, std::string_view text);
   void verdict(Instant at, const grading::Verdict& verdict);
   // Writes the summary; after it digest() is that of the whole file.

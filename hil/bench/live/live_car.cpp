@@ -208,9 +208,8 @@ void LiveCar::serve_radio(Instant now) { parts_.radio.serve(now); }
 
 void LiveCar::show_others(Field& field, std::size_t own, Instant at) {
   parts_.rig.show_rival(field.rival_of(own));
-  if (!record_ || (at - Instant{}).ns % setup_.params.rates.tick.ns != 0) return;
-  for (const std::size_t i : field.in_order())
-    if (i != own) record_->other(field.number(i), field.car(i).pose, at);
+  const bool tick = (at - Instant{}).ns % setup_.params.rates.tick.ns == 0;
+  if (record_ && tick) record_->others(field, own, at);
 }
 
 void LiveCar::note_others(std::size_t cars, const std::optional<CarContact>& contact) {

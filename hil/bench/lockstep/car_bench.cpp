@@ -73,8 +73,8 @@ CarBench::CarBench(const scenario::Scenario& scenario, const pipeline::Setup& se
   received_.reserve(kInboxFrames);
   if (options.log) record_.emplace(scenario, "lockstep", options.log, has_others);
   if (!has_others) return;
-  eyes_ = sensors::av21_detection_sensors();
-  detection_ = sensors::make_detections(eyes_, scenario_.seed, Instant{});
+  detection_sensors_ = sensors::av21_detection_sensors();
+  detection_ = sensors::make_detections(detection_sensors_, scenario_.seed, Instant{});
   detections_.reserve(kDetectionFrames);
 }
 
@@ -89,14 +89,13 @@ bool CarBench::is_over(Instant now) {
 void CarBench::show_others(Field& field, std::size_t own, Instant at) {
   rig_.show_rival(field.rival_of(own));
   arrivals_.clear();
-  sensors::step_detections(eyes_, detection_,
+  sensors::step_detections(detection_sensors_, detection_,
                            {.ours = seen(field.car(own).pose), .others = field.others_of(own)}, at,
                            arrivals_);
   for (const world::DetectionFrame& frame : arrivals_)
     if (detections_.size() < kDetectionFrames) detections_.push_back(frame);
-  if (!record_ || (at - Instant{}).ns % setup_.params.rates.tick.ns != 0) return;
-  for (const std::size_t i : field.in_order())
-    if (i != own) record_->other(field.number(i), field.car(i).pose, at);
+  const bool tick = (at - Instant{}).ns % setup_.params.rates.tick.ns == 0;
+  if (record_ && tick) record_->others(field, own, at);
 }
 
 void CarBench::note_others(std::size_t cars, const std::optional<CarContact>& contact) {

@@ -94,7 +94,7 @@ class CarBench {
   std::uint32_t laps_ = 0;
   world::BusIdentity identity_;  // as the car saw it last
   bool identity_changed_ = false;
-  sensors::DetectionSensors eyes_;  // none for a car that is alone
+  sensors::DetectionSensors detection_sensors_;  // none for a car that is alone
   sensors::DetectionState detection_;
   sensors::Arrivals arrivals_;
   std::vector<world::DetectionFrame> detections_;  // since the last tick

@@ -6,6 +6,8 @@
 #include <limits>
 #include <numbers>
 
+#include "vehicle/autonomy/tracking/filter/cholesky.hpp"
+
 namespace pitwall::tracking {
 namespace {
 
@@ -15,27 +17,11 @@ constexpr double kSightMin_m = 0.5;  // closer than a car can be; keeps the mode
 
 using Square = std::array<Values, kValuesMax>;
 
-// Lower triangle L with L L' = S + R.
-Square factor(const Spread& spread, const Innovation& in) {
-  Square l{};
-  for (std::size_t i = 0; i < in.size; ++i)
-    for (std::size_t j = 0; j <= i; ++j) {
-      double sum = spread.values[i][j] + (i == j ? in.variance[i] : 0.0);
-      for (std::size_t k = 0; k < j; ++k) sum -= l[i][k] * l[j][k];
-      l[i][j] = i == j ? std::sqrt(sum) : sum / l[j][j];
-    }
-  return l;
-}
-
-// L^-1 b.
-Values solved(const Square& l, std::size_t size, const Values& b) {
-  Values y{};
-  for (std::size_t i = 0; i < size; ++i) {
-    double sum = b[i];
-    for (std::size_t k = 0; k < i; ++k) sum -= l[i][k] * y[k];
-    y[i] = sum / l[i][i];
-  }
-  return y;
+// Of S + R.
+Square factor_of(const Spread& spread, const Innovation& in) {
+  return factor<kValuesMax>(in.size, [&](std::size_t i, std::size_t j) {
+    return spread.values[i][j] + (i == j ? in.variance[i] : 0.0);
+  });
 }
 
 struct Sight {
@@ -221,7 +207,7 @@ Distance distance_of(const Spread& spread, const Innovation& in, double most) {
   for (std::size_t i = 0; i < in.size; ++i)
     if (!(square(in.value[i]) <= most * (spread.values[i][i] + in.variance[i])))
       return {.square = std::numeric_limits<double>::infinity()};
-  const Square l = factor(spread, in);
+  const Square l = factor_of(spread, in);
   const Values y = solved(l, in.size, in.value);
   Distance d{.square = 0.0};
   double det = 1.0;
@@ -232,7 +218,7 @@ Distance distance_of(const Spread& spread, const Innovation& in, double most) {
 
 // With G = P H' L'^-1: x += G L^-1 v, P -= G G'.
 void update(const Spread& spread, const Innovation& in, const world::TrackMap* map, Track& track) {
-  const Square l = factor(spread, in);
+  const Square l = factor_of(spread, in);
   const Values y = solved(l, in.size, in.value);
   std::array<Values, kRoadStates> g;
   for (std::size_t i = 0; i < kRoadStates; ++i) g[i] = solved(l, in.size, spread.states[i]);

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "vehicle/autonomy/tracking/filter/association.hpp"
+#include "vehicle/autonomy/tracking/filter/cholesky.hpp"
 #include "vehicle/autonomy/tracking/filter/life.hpp"
 #include "vehicle/autonomy/tracking/filter/measurement.hpp"
 
@@ -45,30 +46,15 @@ Box residual_of(const BoxDetection& box, const Track& track) {
 
 using BoxMatrix = std::array<Box, kBoxValues>;
 
-// Lower triangle of the Cholesky factor of the upper left part of P, plus R.
+// Of the upper left part of P, plus R.
 BoxMatrix box_factor(const PaperParams& params, std::size_t size, const Track& track) {
-  BoxMatrix l{};
-  for (std::size_t i = 0; i < size; ++i)
-    for (std::size_t j = 0; j <= i; ++j) {
-      double sum = track.p[i][j] + (i == j ? params.measurement_variance : 0.0);
-      for (std::size_t k = 0; k < j; ++k) sum -= l[i][k] * l[j][k];
-      l[i][j] = i == j ? std::sqrt(sum) : sum / l[j][j];
-    }
-  return l;
-}
-
-Box box_solved(const BoxMatrix& l, std::size_t size, const Box& b) {
-  Box y{};
-  for (std::size_t i = 0; i < size; ++i) {
-    double sum = b[i];
-    for (std::size_t k = 0; k < i; ++k) sum -= l[i][k] * y[k];
-    y[i] = sum / l[i][i];
-  }
-  return y;
+  return factor<kBoxValues>(size, [&](std::size_t i, std::size_t j) {
+    return track.p[i][j] + (i == j ? params.measurement_variance : 0.0);
+  });
 }
 
 double box_distance(const PaperParams& params, const BoxDetection& box, const Track& track) {
-  const Box y = box_solved(box_factor(params, box.size, track), box.size, residual_of(box, track));
+  const Box y = solved(box_factor(params, box.size, track), box.size, residual_of(box, track));
   double sum = 0.0;
   for (std::size_t i = 0; i < box.size; ++i) sum += y[i] * y[i];
   return sum;
@@ -76,12 +62,12 @@ double box_distance(const PaperParams& params, const BoxDetection& box, const Tr
 
 void update_box(const PaperParams& params, const BoxDetection& box, Track& track) {
   const BoxMatrix l = box_factor(params, box.size, track);
-  const Box y = box_solved(l, box.size, residual_of(box, track));
+  const Box y = solved(l, box.size, residual_of(box, track));
   std::array<Box, kStates> gain{};
   for (std::size_t i = 0; i < kStates; ++i) {
     Box row{};
     std::copy_n(track.p[i].begin(), box.size, row.begin());
-    gain[i] = box_solved(l, box.size, row);
+    gain[i] = solved(l, box.size, row);
   }
   for (std::size_t i = 0; i < kStates; ++i)
     for (std::size_t k = 0; k < box.size; ++k) {
