@@ -232,13 +232,14 @@ class WebServer::Engine::Socket : public std::enable_shared_from_this<Socket> {
   void take() {
     ++unhandled_;
     pace_.receive(transport::wall_now());
-    engine_.count([](WebCounters& c) { ++c.texts_received; });
     ClientEvent news{
         .kind = stream_.got_text() ? ClientEvent::Kind::kText : ClientEvent::Kind::kBinary,
         .client = client_};
     news.text = beast::buffers_to_string(received_.data());
     received_.consume(received_.size());
     engine_.publish(car_, who_.role, std::move(news));
+    // After the hand-over: whoever waits for the count finds the text in the queue.
+    engine_.count([](WebCounters& c) { ++c.texts_received; });
   }
 
   void write() {

@@ -29,6 +29,7 @@ constexpr int kDomain = 33;
 constexpr std::uint32_t kMessages = 20;
 constexpr std::size_t kPassesOfTest = 2;
 constexpr std::size_t kCloudBytes = 200'000;
+constexpr std::size_t kMayLose = 1;     // topic whose reader may lose messages
 constexpr std::size_t kPiece = 65'000;  // what is longer goes in several
 
 struct SensorTopic {
@@ -120,14 +121,14 @@ struct Readers {
     of.push_back(peer.reader(peer_PointCloud2_desc, "sensor_msgs::msg::dds_::PointCloud2_",
                              "rt/lidar", {.latched = true, .depth = kAll}));
   }
-  // Until each has so many, or patience ends.
+  // Until each that may lose none has so many, or patience ends.
   std::vector<std::vector<Taken>> take(std::size_t many) {
     std::vector<std::vector<Taken>> taken(of.size());
     pitwall::testing::comes([&] {
       bool is_complete = true;
       for (std::size_t i = 0; i < of.size(); ++i) {
         take_all(of[i], taken[i]);
-        is_complete = is_complete && taken[i].size() >= many;
+        is_complete = is_complete && (i == kMayLose || taken[i].size() >= many);
       }
       return is_complete;
     });
@@ -143,9 +144,22 @@ struct Readers {
 bool is_same(Cdr taken, const Cdr& recorded) {
   const std::size_t filled =
       recorded.size() > kPiece ? recorded.size() : (recorded.size() + 3) / 4 * 4;
-  EXPECT_EQ(taken.size(), filled);
+  if (taken.size() != filled) return false;
   taken.resize(recorded.size());
   return taken == recorded;
+}
+
+// A reader that may lose messages gets some of them, those in order.
+void expect_some_recorded_bytes(const std::vector<Taken>& taken, const SensorTopic& topic,
+                                std::size_t passes) {
+  EXPECT_FALSE(taken.empty()) << topic.name;
+  std::size_t next = 0;
+  const std::size_t published = passes * topic.messages.size();
+  for (const Taken& one : taken) {
+    while (next < published && !is_same(one.cdr, topic.messages[next % topic.messages.size()]))
+      ++next;
+    ASSERT_LT(next++, published) << topic.name << ": a message that is none, or out of order";
+  }
 }
 
 void expect_recorded_bytes(const std::vector<Taken>& taken, const SensorTopic& topic,
@@ -180,13 +194,15 @@ TEST(ReplayTopics, CycloneGetsTheRecordedBytesInTheOrderOfTheRecording) {
 
   const auto taken = readers.take(kPassesOfTest * kMessages);
   for (std::size_t i = 0; i < taken.size(); ++i)
-    expect_recorded_bytes(taken[i], topics[i], kPassesOfTest);
+    (i == kMayLose ? expect_some_recorded_bytes : expect_recorded_bytes)(taken[i], topics[i],
+                                                                         kPassesOfTest);
   if (HasFailure()) return;
   std::int64_t before = 0;
   for (std::size_t i = 0; i < kPassesOfTest * kMessages; ++i) {
-    for (const auto& topic : taken) {
-      EXPECT_GE(topic[i].written_ns, before) << "message " << i;
-      before = topic[i].written_ns;
+    for (std::size_t topic = 0; topic < taken.size(); ++topic) {
+      if (topic == kMayLose) continue;
+      EXPECT_GE(taken[topic][i].written_ns, before) << "message " << i;
+      before = taken[topic][i].written_ns;
     }
   }
 }
