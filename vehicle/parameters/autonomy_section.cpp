@@ -133,6 +133,30 @@ planning::SpeedLaw read_speed_law(yaml::StrictMap& map) {
   return planning::SpeedLaw::kLimited;
 }
 
+planning::PassLaw read_pass_law(yaml::StrictMap& map) {
+  const std::string name = map.text_or("law", "committed");
+  if (name == "paper") return planning::PassLaw::kPaper;
+  if (name != "committed") map.fail("law", "\"" + name + "\" is not one of: committed, paper");
+  return planning::PassLaw::kCommitted;
+}
+
+// The lines of a car whose own line is one of a bank have names, otherwise offsets.
+planning::Passing read_passing(yaml::StrictMap map, const planning::LineParams& own) {
+  planning::Passing p;
+  p.pass.law = read_pass_law(map);
+  read_ranges(map, planning::kPassRanges, p.pass);
+  read_ranges(map, planning::kRivalRanges, p.pass.rival);
+  for (yaml::StrictMap line : map.maps("lines")) {
+    planning::OtherLine other;
+    if (own.bank.empty())
+      other.offset_m = line.number("offset_m", -30.0, 30.0);
+    else
+      other.name = line.text("name");
+    p.lines.push_back(other);
+  }
+  return p;
+}
+
 planning::Params read_planning(yaml::StrictMap map) {
   planning::Params p;
   p.speed_law = read_speed_law(map);
@@ -145,6 +169,7 @@ planning::Params read_planning(yaml::StrictMap map) {
     read_ranges(racing, planning::kPaceRanges, p.racing);
   }
   read_stop_plan(map.map("stop"), p);
+  if (map.has("passing")) p.passing = read_passing(map.map("passing"), p.line);
   return p;
 }
 

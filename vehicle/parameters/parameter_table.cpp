@@ -54,6 +54,8 @@ std::string autonomy_lines() {
          lines_of("planning.line.friction.engine", envelope::kEngineRanges) +
          lines_of("planning", planning::kRanges) +
          lines_of("planning.stop", planning::kStopPathRanges) +
+         lines_of("planning.passing", planning::kPassRanges) +
+         lines_of("planning.passing", planning::kRivalRanges) +
          lines_of("control.lateral", control::kLateralRanges) +
          lines_of("control.lqr_ff", control::kLqrRanges) +
          lines_of("control.lap", control::kLapRanges) +

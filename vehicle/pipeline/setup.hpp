@@ -11,6 +11,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <vector>
 
 #include "protocol/vocabulary/fixed_vector.hpp"
 #include "protocol/vocabulary/result.hpp"
@@ -84,6 +85,7 @@ struct Setup {
   world::TrackMap track;
   localization::Datum datum;
   planning::Line line;
+  std::vector<planning::Line> other_lines;  // to pass on
   control::LateralGains gains;
   steering::AngleLimits angles{};  // limits of the frame gate, at the road wheel
 };

@@ -73,7 +73,9 @@ void plan_when_due(const Setup& setup, Car& car, const Outputs& out, const Input
                       .operator_speed_limit_mps = out.speed_limit_mps,
                       .followed = followed(car),
                       .tyre_c = world::coldest_c(out.received.signals.tyre_temperature_c, in.now),
-                      .steering = &angles},
+                      .steering = &angles,
+                      .other_lines = setup.other_lines,
+                      .cars = &out.opponents},
                      in.now);
   const bool good = !plan.output.drive.points.empty() && !plan.output.stop.points.empty();
   // Who stops without localization has no other path than the last one.
@@ -117,9 +119,9 @@ double angle_max_rad(const Setup& setup, const Outputs& out, Instant now) {
   return steering::angle_max_rad(setup.angles, speed_mps) - step_rad;
 }
 
-// A trajectory that merges is beside the line.
+// What is learned is that of the own line; a trajectory that merges is beside it.
 control::LinePlace line_place(const Setup& setup, const Plan& plan) {
-  if (plan.output.next.merge.length_m > 0.0) return {};
+  if (plan.output.next.merge.length_m > 0.0 || plan.output.next.line != 0) return {};
   return {plan.output.line_s_m, setup.line.length_m};
 }
 

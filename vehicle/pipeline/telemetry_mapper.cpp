@@ -33,8 +33,8 @@ static_assert(telemetry::label_at(telemetry::kLinkLossLevels,
                                   static_cast<std::size_t>(safety::LinkLossLevel::kStop)) ==
               "controlled stop");
 static_assert(telemetry::label_at(telemetry::kSpeedReasons,
-                                  static_cast<std::size_t>(planning::Reason::kCornerAhead)) ==
-              "governor");
+                                  static_cast<std::size_t>(planning::Reason::kCarAhead)) ==
+              "car ahead");
 static_assert(telemetry::kFields[field("planner.line")].max == planning::kLinesMost);
 
 template <class E>
@@ -187,7 +187,7 @@ void put_plan(Values& v, const TelemetryInputs& in) {
   if (!plan.ever) return;
   v[field("planner.primitive")] = number_of(primitive_of(in.car));
   v[field("planner.reason")] = number_of(plan.output.reason);
-  v[field("planner.line")] = static_cast<double>(in.setup.line.number);
+  v[field("planner.line")] = static_cast<double>(plan.output.line_number);
   v[field("planner.line_offset")] = plan.output.line_offset_m;
   v[field("planner.stop_distance")] = plan.output.stop_distance_m;
   v[field("planner.operator_limit")] = in.out.speed_limit_mps;

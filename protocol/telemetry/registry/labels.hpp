@@ -50,7 +50,7 @@ inline constexpr std::string_view kRoles = "none|defender|attacker";
 inline constexpr std::string_view kPrimitives = "-|holds the line|stops|merges";
 inline constexpr std::string_view kSpeedReasons =
     "-|no position|no race control|no flag|unknown flag|red|orange|black|stop|chequered|caution|"
-    "green|round speed|operator|line|tyres|governor";
+    "green|round speed|operator|line|tyres|governor|trail|pass|gives way|car ahead";
 inline constexpr std::string_view kStopLevels = "none|controlled stop|EMERGENCY STOP";
 inline constexpr std::string_view kStopReasons =
     "none|operator|race control|pit crew|console lost its operator|test";

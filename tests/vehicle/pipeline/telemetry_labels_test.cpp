@@ -130,7 +130,11 @@ TEST(TelemetryLabels, NameWhyTheSpeedIsWhatItIs) {
                                         {kOperatorLimit, "operator"},
                                         {kLineLimit, "line"},
                                         {kTyreLimit, "tyres"},
-                                        {kCornerAhead, "governor"}}),
+                                        {kCornerAhead, "governor"},
+                                        {kTrail, "trail"},
+                                        {kPass, "pass"},
+                                        {kGiveWay, "gives way"},
+                                        {kCarAhead, "car ahead"}}),
             names_in(telemetry::kSpeedReasons));
 }
 

@@ -1,7 +1,9 @@
-// Lateral offset from the line with one change from a constant value to another: the minimum-jerk
-// transition with zero slope and zero bend at both ends.
+// Lateral offset from the line with one change to a constant value: the minimum-jerk transition
+// that begins with a slope and a bend, most often zero, and ends without.
 //   invariants
-//          n = from + (to - from) q(u), q = u^3 (10 - 15 u + 6 u^2), u in [0, 1] along the change
+//          n = from + (to - from) q(u) + slope l h1(u) + bend l^2 h2(u), u in [0, 1] along the
+//          change of length l; q = u^3 (10 - 15 u + 6 u^2), h1 = u - u^3 (6 - 8 u + 3 u^2),
+//          h2 = u^2 / 2 - u^3 (3 - 3 u + u^2) / 2. Before its begin the offset is `from`
 //   frames offset positive left; slope and bend are its derivatives along the line
 //   cost   O(1)
 //   source minimum-jerk quintic: Flash and Hogan, J. Neuroscience 5 (1985), eq. 12
@@ -25,6 +27,7 @@ constexpr Offset operator+(const Offset& a, const Offset& b) {
 struct OffsetChange {
   double from_s_m = kUnset, length_m = 0.0;
   double from_m = 0.0, to_m = 0.0;
+  double from_slope = 0.0, from_bend_per_m = 0.0;
 };
 
 // Along a path that does not close.
@@ -32,6 +35,9 @@ Offset offset_at(const OffsetChange& change, double s_m);
 // Along the closed line. A change is at most half a lap long: a station more than half a lap behind
 // counts as before it.
 Offset offset_at(const Line& line, const OffsetChange& change, double s_m);
+// Where a path goes at a point that it passes, seen from a line there.
+Offset offset_of(const LinePoint& point, double beside_m, double path_yaw_rad,
+                 double path_curvature_per_m);
 // Whether s is past the end of the change.
 bool is_over(const Line& line, const OffsetChange& change, double s_m);
 

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "vehicle/autonomy/planning/race.hpp"
 #include "vehicle/autonomy/planning/speed_profile.hpp"
 #include "vehicle/world/legal_range.hpp"
 
@@ -121,7 +122,25 @@ struct Limits {
 // Racing is for what race control wants on a green track; behind flags, and when the operator or a
 // silent radio slows the car, it drives gently.
 const Pace& pace_of(const Params& p, Reason reason) {
-  return reason == Reason::kGreen || reason == Reason::kRoundSpeed ? p.racing : p.comfort;
+  const bool races = reason == Reason::kGreen || reason == Reason::kRoundSpeed ||
+                     (reason >= Reason::kTrail && reason <= Reason::kCarAhead);
+  return races ? p.racing : p.comfort;
+}
+
+Reason reason_of(RaceReason reason) {
+  switch (reason) {
+    case RaceReason::kNone:
+      return Reason::kUnknown;
+    case RaceReason::kTrail:
+      return Reason::kTrail;
+    case RaceReason::kPass:
+      return Reason::kPass;
+    case RaceReason::kYield:
+      return Reason::kGiveWay;
+    case RaceReason::kCarAhead:
+      return Reason::kCarAhead;
+  }
+  return Reason::kUnknown;
 }
 
 Limits limits_of(const Params& p, const Inputs& in, const SpeedDemand& demand, double speed_mps) {
@@ -146,6 +165,39 @@ Limits limits_of(const Params& p, const Inputs& in, const SpeedDemand& demand, d
                    .grip_share = hard ? p.emergency_grip_share : p.stop_grip_share,
                    .decel_max_mps2 = hard ? p.emergency_decel_max_mps2 : p.stop_decel_max_mps2,
                    .jerk_max_mps3 = hard ? p.emergency_jerk_max_mps3 : p.stop_jerk_max_mps3}};
+}
+
+// The line and the speed that the other cars leave, from the demand of flags and operator.
+SpeedDemand race_on(const Params& p, const Lines& lines, const world::TrackMap& track,
+                    const Inputs& in, const SpeedDemand& demand, LinePosition& car, State& next,
+                    Instant now) {
+  const Limits limits = limits_of(p, in, demand, std::max(in.ego.vx_mps, 0.0));
+  const LinePoint here = lines[next.line].at(car.s_m);
+  const OwnPlace own{.track_s_m = here.track_s_m,
+                     .n_m = track.at(here.track_s_m).width_left_m - here.room_left_m + car.offset_m,
+                     .speed_mps = in.ego.vx_mps};
+  const RaceDecision decision = race(p.passing->pass, next.pass,
+                                     {.lines = lines,
+                                      .track = track,
+                                      .cars = *in.cars,
+                                      .race_control = in.race_control,
+                                      .line = next.line,
+                                      .car = car,
+                                      .merge = next.merge,
+                                      .own = own,
+                                      .base_mps = demand.speed_mps,
+                                      .most_mps = in.operator_speed_limit_mps,
+                                      .limits = limits.drive},
+                                     now);
+  if (next.pass.line != next.line) {
+    const Line& to = lines[next.pass.line];
+    const double length_m = std::max(in.ego.vx_mps * p.passing->pass.merge_time_s, p.merge_least_m);
+    next.merge = change_line(lines[next.line], next.merge, car.s_m, to, length_m).merge;
+    next.line = next.pass.line;
+    car = to.project(in.ego.x_m, in.ego.y_m);
+  }
+  if (decision.reason == RaceReason::kNone) return demand;
+  return {decision.speed_mps, reason_of(decision.reason)};
 }
 
 // The path that is followed stays; before, it is chosen anew from where the car is.
@@ -258,6 +310,29 @@ Result<Line, Problem> prepare(const Params& params, const world::TrackMap& track
   return build_line(track, params.line, bank, steering);
 }
 
+Result<std::vector<Line>, Problem> prepare_others(
+    const Params& params, const world::TrackMap& track, const world::RacelineBank* bank,
+    const std::optional<envelope::SteeringLimit>& steering) {
+  std::vector<Line> lines;
+  if (!params.passing) return lines;
+  const PassParams& pass = params.passing->pass;
+  if (auto problem = world::first_illegal(kPassRanges, pass, "passing."))
+    return Unexpected{*problem};
+  if (auto problem = world::first_illegal(kRivalRanges, pass.rival, "passing."))
+    return Unexpected{*problem};
+  if (params.passing->lines.size() >= kRaceLines)
+    return refuse("passing.lines", "at most " + std::to_string(kRaceLines - 1) + " beside the own");
+  for (const OtherLine& other : params.passing->lines) {
+    LineParams line = params.line;
+    line.name = other.name;
+    line.offset_m = other.offset_m;
+    auto built = build_line(track, line, bank, steering);
+    if (!built) return refuse("passing.lines: " + built.error().place, built.error().what);
+    lines.push_back(*std::move(built));
+  }
+  return lines;
+}
+
 SpeedDemand demanded_speed(const Params& params, const world::RaceControl& race_control,
                            double operator_speed_limit_mps) {
   if (!race_control.ever_received) return {0.0, Reason::kNoRaceControl};
@@ -270,7 +345,7 @@ SpeedDemand demanded_speed(const Params& params, const world::RaceControl& race_
   return demand;
 }
 
-Output step(const Params& params, const Line& line, const world::TrackMap& track,
+Output step(const Params& params, const Line& own_line, const world::TrackMap& track,
             const State& state, const Inputs& in, Instant now) {
   Output out;
   out.next = state;
@@ -280,10 +355,15 @@ Output step(const Params& params, const Line& line, const world::TrackMap& track
     next.started = false;
     return out;
   }
+  const Lines lines{own_line, in.other_lines};
+  CHECK(next.line < lines.size());
   const std::optional<double> hint = state.started ? std::optional{state.line_s_m} : std::nullopt;
-  const LinePosition car = line.project(in.ego.x_m, in.ego.y_m, hint);
+  LinePosition car = lines[next.line].project(in.ego.x_m, in.ego.y_m, hint);
   const double speed_mps = std::max(in.ego.vx_mps, 0.0);
-  const SpeedDemand demand = demanded_speed(params, in.race_control, in.operator_speed_limit_mps);
+  SpeedDemand demand = demanded_speed(params, in.race_control, in.operator_speed_limit_mps);
+  if (params.passing && in.cars != nullptr && !stops(in.followed))
+    demand = race_on(params, lines, track, in, demand, car, next, now);
+  const Line& line = lines[next.line];
   Limits limits = limits_of(params, in, demand, speed_mps);
 
   if (!stops(in.followed)) merge_if_far(params, line, car, speed_mps, next);
@@ -312,6 +392,7 @@ Output step(const Params& params, const Line& line, const world::TrackMap& track
   const SpeedDemand limited = unlimited ? demand : with_road(here, limits.drive, ahead, demand);
   out.target_speed_mps = limited.speed_mps;
   out.reason = limited.reason;
+  out.line_number = line.number;
   out.line_s_m = car.s_m;
   out.track_s_m = track.wrap_station(here.track_s_m);
   out.line_offset_m = car.offset_m;

@@ -14,6 +14,7 @@
 //          stop is the same path with more brake
 //          while the car coasts the drive trajectory slows like a car with closed throttle
 //          a car far off the line returns by a minimum-jerk offset over merge_time_s
+//          other cars are regarded where params.passing is set (race.hpp); a stop keeps its line
 //   errors without a usable ego state both trajectories are empty, with the reason kNoEgo
 //   cost   O(points + horizon steps), below 1 ms; no allocation
 // SPDX-License-Identifier: Apache-2.0
@@ -21,16 +22,22 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
 
 #include "protocol/vocabulary/result.hpp"
 #include "protocol/vocabulary/time.hpp"
 #include "vehicle/autonomy/planning/governor.hpp"
 #include "vehicle/autonomy/planning/line.hpp"
 #include "vehicle/autonomy/planning/offset.hpp"
+#include "vehicle/autonomy/planning/pass.hpp"
 #include "vehicle/autonomy/planning/stop_plan.hpp"
 #include "vehicle/steering/angle_limits.hpp"
 #include "vehicle/world/ego_state.hpp"
 #include "vehicle/world/legal_range.hpp"
+#include "vehicle/world/opponent.hpp"
 #include "vehicle/world/race_control.hpp"
 #include "vehicle/world/track_map.hpp"
 #include "vehicle/world/trajectory.hpp"
@@ -40,6 +47,17 @@ namespace pitwall::planning {
 // kPaper: the published baseline, for comparison. The demanded speed is the target of every point
 // of the drive trajectory, whatever the line, the tyres and the steering carry.
 enum class SpeedLaw : std::uint8_t { kLimited, kPaper };
+
+// A line beside the own one: of the same bank by its name, or at an offset from the reference line.
+struct OtherLine {
+  std::string name = {};
+  double offset_m = 0.0;
+};
+
+struct Passing {
+  PassParams pass;
+  std::vector<OtherLine> lines;
+};
 
 struct Params {
   LineParams line;
@@ -62,7 +80,8 @@ struct Params {
   double steer_share = kUnset;               // usable share of the gate's angle limit in a corner
   double merge_from_m = kUnset;              // deviation from the line that starts a merge
   double merge_time_s = kUnset;
-  double merge_least_m = kUnset;  // shortest merge
+  double merge_least_m = kUnset;        // shortest merge
+  std::optional<Passing> passing = {};  // none: other cars change nothing
 };
 
 inline constexpr auto kRanges = std::to_array<world::NamedRange<Params>>({
@@ -101,9 +120,13 @@ enum class Reason : std::uint8_t {
   kGreen,
   kRoundSpeed,
   kOperatorLimit,
-  kLineLimit,   // what the car can do at this place of its line
-  kTyreLimit,   // the same, where warm tyres could do more
-  kCornerAhead  // the governor slows the car for what lies ahead
+  kLineLimit,    // what the car can do at this place of its line
+  kTyreLimit,    // the same, where warm tyres could do more
+  kCornerAhead,  // the governor slows the car for what lies ahead
+  kTrail,        // behind the rival
+  kPass,
+  kGiveWay,  // a pass was given up
+  kCarAhead  // a car in the way
 };
 
 enum class Followed : std::uint8_t {
@@ -121,21 +144,26 @@ struct Inputs {
   Followed followed = Followed::kNothing;
   double tyre_c = kUnset;                           // coldest tyre; unset counts as cold
   const steering::AngleBudget* steering = nullptr;  // null: no limit
+  std::span<const Line> other_lines = {};           // as prepare_others() made them
+  const world::Opponents* cars = nullptr;           // tracked; null: none
 };
 
 struct State {
   bool started = false;
   Instant at{};
-  double line_s_m = kUnset;                     // station of the car
+  std::size_t line = 0;                         // in use: 0 the own one, then the others
+  double line_s_m = kUnset;                     // station of the car on it
   double speed_mps = kUnset, accel_mps2 = 0.0;  // reference speed
   OffsetChange merge;                           // return to the line
   StopPath stop;                                // of the last stop trajectory
+  PassState pass;
 };
 
 struct Output {
   world::Trajectory drive, stop;
   double target_speed_mps = kUnset;
   Reason reason = Reason::kUnknown;
+  std::size_t line_number = 0;                   // of the line in use, in its bank
   double line_s_m = kUnset, track_s_m = kUnset;  // stations of the car
   double line_offset_m = kUnset;                 // signed distance to the line, positive left
   double stop_distance_m = kUnset;
@@ -147,6 +175,11 @@ struct Output {
 Result<Line, Problem> prepare(const Params& params, const world::TrackMap& track,
                               const world::RacelineBank* bank = nullptr,
                               const std::optional<envelope::SteeringLimit>& steering = {});
+
+// The lines of params.passing; empty without it.
+Result<std::vector<Line>, Problem> prepare_others(
+    const Params& params, const world::TrackMap& track, const world::RacelineBank* bank = nullptr,
+    const std::optional<envelope::SteeringLimit>& steering = {});
 
 Output step(const Params& params, const Line& line, const world::TrackMap& track,
             const State& state, const Inputs& inputs, Instant now);

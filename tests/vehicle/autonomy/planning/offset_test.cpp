@@ -26,6 +26,25 @@ TEST(Offset, DerivativesAreThoseOfTheOffsetAndTheEndsAreSmooth) {
     EXPECT_NEAR(b.bend_per_m, (c.slope - a.slope) / (2.0 * kStep_m), 2e-6) << d;
     largest = std::max(largest, std::abs(b.bend_per_m));
   }
+  const OffsetChange begun{.from_s_m = 100.0,
+                           .length_m = 150.0,
+                           .from_m = 2.0,
+                           .to_m = -1.0,
+                           .from_slope = 0.03,
+                           .from_bend_per_m = -0.002};
+  const Offset first = offset_at(begun, 100.0), last = offset_at(begun, 250.0 - 1e-9);
+  EXPECT_EQ(first.n_m, 2.0);
+  EXPECT_NEAR(first.slope, 0.03, 1e-12);
+  EXPECT_NEAR(first.bend_per_m, -0.002, 1e-12);
+  EXPECT_NEAR(last.n_m, -1.0, 1e-9);
+  EXPECT_NEAR(last.slope, 0.0, 1e-9);
+  EXPECT_NEAR(last.bend_per_m, 0.0, 1e-9);
+  for (double s = 101.0; s < 249.0; s += 1.3) {
+    const Offset a = offset_at(begun, s - kStep_m), b = offset_at(begun, s),
+                 c = offset_at(begun, s + kStep_m);
+    EXPECT_NEAR(b.slope, (c.n_m - a.n_m) / (2.0 * kStep_m), 1e-6) << s;
+    EXPECT_NEAR(b.bend_per_m, (c.slope - a.slope) / (2.0 * kStep_m), 2e-6) << s;
+  }
   EXPECT_NEAR(largest, kLargestBend * 5.0 / (200.0 * 200.0), 1e-6);
   EXPECT_EQ(offset_at(line, change, change.from_s_m - 1.0).n_m, 1.0);
   EXPECT_EQ(offset_at(line, change, change.from_s_m + 201.0).n_m, -4.0);
