@@ -11,6 +11,7 @@ namespace {
 
 constexpr double kStep_s = 0.1, kHorizon_s = 25.0;  // of the own profile past a rival
 constexpr double kMargin_m = 10.0;                  // of the gap that the profile must gain
+constexpr double kDrift_s = 3.0;                    // over which a drift is believed
 constexpr double kWayStep_m = 20.0, kWay_m = 400.0;
 constexpr double kInWay_m =
     2.6;  // lateral distance of the centres, below which a car is in the way
@@ -34,10 +35,11 @@ Places places_of(const RaceInputs& in) {
   return out;
 }
 
-// Another car along the line that it is nearest to.
+// Another car along the line that it is nearest to, at its distance from it; for some seconds it
+// may go on to leave it as it does.
 struct OtherPath {
   std::size_t line = 0;
-  double aside_m = 0.0;
+  double aside_m = 0.0, drift_mps = 0.0;
 };
 
 OtherPath path_of(const RaceInputs& in, const Places& at, const Rival& car) {
@@ -45,7 +47,7 @@ OtherPath path_of(const RaceInputs& in, const Places& at, const Rival& car) {
   for (std::size_t i = 0; i < in.lines.size(); ++i) {
     const double n_m = n_of(in.track, in.lines[i].at(at.s_m[i] - car.gap_m));
     const double aside_m = car.n_m - n_m;
-    if (i == 0 || std::abs(aside_m) < std::abs(best.aside_m)) best = {i, aside_m};
+    if (i == 0 || std::abs(aside_m) < std::abs(best.aside_m)) best = {i, aside_m, car.drift_mps};
   }
   return best;
 }
@@ -56,7 +58,10 @@ double beside_m(const RaceInputs& in, const Places& at, std::size_t line, const 
   for (double d_m = 0.0; d_m <= kWay_m; d_m += kWayStep_m) {
     const double own_n_m = n_of(in.track, in.lines[line].at(at.s_m[line] + d_m));
     const double n_m = n_of(in.track, in.lines[path.line].at(at.s_m[path.line] + d_m));
-    least_m = std::min(least_m, std::abs(own_n_m - n_m - path.aside_m));
+    const double after_s = std::min(d_m / std::max(in.own.speed_mps, 1.0), kDrift_s);
+    const double beside_m = own_n_m - n_m - path.aside_m;
+    least_m =
+        std::min({least_m, std::abs(beside_m), std::abs(beside_m - path.drift_mps * after_s)});
   }
   return least_m;
 }
