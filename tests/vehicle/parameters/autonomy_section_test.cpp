@@ -297,6 +297,33 @@ TEST(AutonomySection, ARacingPaceThatIsNotWrittenIsTheComfortableOne) {
   EXPECT_EQ(full.comfort.accel_max_mps2, plain.comfort.accel_max_mps2);
 }
 
+TEST(AutonomySection, PassingHasLinesBesideTheOwnOne) {
+  EXPECT_FALSE(read_car(av21(), "car.yaml")->params.planning.passing);
+  const auto passing = [](const std::string& lines, const std::string& law = "committed") {
+    return read_car(
+        with(av21(), "  speed_band_mps: 4.0",
+             "  passing: {law: " + law + ", lines: [" + lines +
+                 "], watch_ahead_m: 150, watch_behind_m: 80, forget_s: 3, "
+                 "trail_gap_m: 25, complete_gap_m: 33, side_gap_m: 6, side_clear_m: 3.5, "
+                 "trail_gain_per_s: 0.25, close_extra_mps: 4, pass_extra_mps: 8, "
+                 "brake_mps2: 4, merge_time_s: 3.5, dwell_s: 0.5}\n"
+                 "  speed_band_mps: 4.0"),
+        "car.yaml");
+  };
+  const auto two = passing("{offset_m: -3}, {offset_m: 3.5}");
+  ASSERT_TRUE(two);
+  const planning::Passing& read = *two->params.planning.passing;
+  EXPECT_EQ(read.lines.size(), 2u);
+  EXPECT_EQ(read.lines[1].offset_m, 3.5);
+  EXPECT_EQ(read.pass.rival.watch_behind_m, 80.0);
+  EXPECT_EQ(read.pass.complete_gap_m, 33.0);
+  EXPECT_EQ(passing("{offset_m: -3}", "paper")->params.planning.passing->pass.law,
+            planning::PassLaw::kPaper);
+  EXPECT_NE(to_string(passing("{offset_m: -3}", "bold").error()).find("committed, paper"),
+            std::string::npos);
+  EXPECT_FALSE(passing("{name: inner/apex}"));  // the own line has no bank
+}
+
 TEST(AutonomySection, BracketsBeginWhereTheControllerHasThem) {
   const std::string why = refusal(with(av21(), "from_mps: 25", "from_mps: 24"));
   EXPECT_NE(why.find("from_mps"), std::string::npos) << why;

@@ -79,8 +79,10 @@ void from_trail(const PassParams& p, PassState& s, const PassInputs& in, Instant
 }
 
 void from_pass(const PassParams& p, PassState& s, const PassInputs& in, Instant now) {
-  if (!in.rival.known || in.rival.gap_m >= p.complete_gap_m)
+  if (!in.rival.known || in.rival.gap_m >= p.complete_gap_m) {
+    s.passed = in.rival.known;
     return enter(s, PassPhase::kAhead, PassBar::kNone, now);
+  }
   if (!in.may_pass) {
     // The most restrictive reading: who is not well ahead gives way.
     const bool well_ahead = in.rival.gap_m > 0.5 * p.complete_gap_m;
@@ -109,6 +111,7 @@ void from_yield(const PassParams& p, PassState& s, const PassInputs& in, Instant
 PassState advance(const PassParams& p, const PassState& state, const PassInputs& in, Instant now) {
   PassState s = state;
   s.rival = in.rival;
+  if (!in.may_pass) s.passed = false;
   if (!in.rival.known) s.ahead = false;
   if (in.rival.known && in.rival.gap_m > p.side_gap_m) s.ahead = true;
   if (in.rival.known && in.rival.gap_m < -p.side_gap_m) s.ahead = false;
@@ -142,6 +145,8 @@ PassState advance(const PassParams& p, const PassState& state, const PassInputs&
 
 double pass_speed_mps(const PassParams& p, const PassState& s, const PassInputs& in) {
   double speed_mps = in.base_mps;
+  const bool seeks = in.may_close && s.phase == PassPhase::kFree && !s.rival.known && !s.passed;
+  if (seeks) speed_mps = in.base_mps + p.close_extra_mps;
   if (in.may_close && s.phase == PassPhase::kTrail)
     speed_mps = std::max(in.base_mps, s.rival.speed_mps) + p.close_extra_mps;
   if (in.may_close && std::isfinite(s.pass_mps)) speed_mps = s.pass_mps;

@@ -87,6 +87,7 @@ struct PassState {
   Rival rival;
   std::size_t line = 0;      // in use; 0 is the own one
   double pass_mps = kUnset;  // latched
+  bool passed = false;       // since the right to pass was given
   bool ahead = false;        // of the rival, with hysteresis
   Instant risk_since{};      // of the present risk; zero: none
 };

@@ -129,8 +129,7 @@ double in_way_mps(const PassParams& p, const RaceInputs& in, const PassState& st
 
 RaceReason reason_of(PassPhase phase) {
   switch (phase) {
-    case PassPhase::kFree:
-      return RaceReason::kNone;
+    case PassPhase::kFree:  // closes up to a rival that is not seen yet
     case PassPhase::kTrail:
       return RaceReason::kTrail;
     case PassPhase::kPass:
