@@ -168,13 +168,35 @@ void put_dynamics(Values& v, const TelemetryInputs& in) {
   v[field("dynamics.speed_error")] = in.out.tracking.target_speed_mps - ego.vx_mps;
 }
 
-enum Primitive : std::uint8_t { kNoPrimitive, kHoldsLine, kStops, kMerges };
-static_assert(telemetry::label_at(telemetry::kPrimitives, kMerges) == "merges");
+enum Primitive : std::uint8_t {
+  kNoPrimitive,
+  kHoldsLine,
+  kStops,
+  kMerges,
+  kTrails,
+  kPasses,
+  kClosesDoor,
+  kGivesWay
+};
+static_assert(telemetry::label_at(telemetry::kPrimitives, kGivesWay) == "gives way");
 
 Primitive primitive_of(const Car& car) {
   if (car.follow == safety::Follow::kNone) return kNoPrimitive;
   if (car.follow == safety::Follow::kStop) return kStops;
-  return car.plan.output.next.merge.length_m > 0.0 ? kMerges : kHoldsLine;
+  const planning::State& plan = car.plan.output.next;
+  switch (plan.pass.phase) {
+    case planning::PassPhase::kTrail:
+      return kTrails;
+    case planning::PassPhase::kPass:
+      return kPasses;
+    case planning::PassPhase::kAhead:
+      return kClosesDoor;
+    case planning::PassPhase::kYield:
+      return kGivesWay;
+    case planning::PassPhase::kFree:
+      break;
+  }
+  return plan.merge.length_m > 0.0 ? kMerges : kHoldsLine;
 }
 
 double role_of(const world::RaceControl& race) {
@@ -189,6 +211,9 @@ void put_plan(Values& v, const TelemetryInputs& in) {
   v[field("planner.reason")] = number_of(plan.output.reason);
   v[field("planner.line")] = static_cast<double>(plan.output.line_number);
   v[field("planner.line_offset")] = plan.output.line_offset_m;
+  const std::optional<planning::Passing>& passing = in.setup.params.planning.passing;
+  if (passing && plan.output.next.pass.phase == planning::PassPhase::kTrail)
+    v[field("planner.target_gap")] = passing->pass.trail_gap_m;
   v[field("planner.stop_distance")] = plan.output.stop_distance_m;
   v[field("planner.operator_limit")] = in.out.speed_limit_mps;
   v[field("planner.grip_limited")] = in.out.steered.speed.grip_limited ? 1.0 : 0.0;

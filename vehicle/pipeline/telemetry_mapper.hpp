@@ -7,7 +7,7 @@
 //          the radio never sends it
 //   unset  fields that no part of this car provides yet: suspension, tread, fuel, steering_unit and
 //          brakes (the gateway does not decode those messages); torque, oil and traction of
-//          powertrain; line, target_gap and cost of planner
+//          powertrain; cost of planner
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

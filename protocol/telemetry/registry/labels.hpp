@@ -47,7 +47,8 @@ inline constexpr std::string_view kSampleVerdicts =
     "WRONG BASELINE|STAMP STANDS STILL|STAMP RAN BACK|FROZEN|CONTRADICTS THE OTHER|OFF ITS COURSE|"
     "receiver error|on probation|SILENT";
 inline constexpr std::string_view kRoles = "none|defender|attacker";
-inline constexpr std::string_view kPrimitives = "-|holds the line|stops|merges";
+inline constexpr std::string_view kPrimitives =
+    "-|holds the line|stops|merges|trails|passes|closes the door|gives way";
 inline constexpr std::string_view kSpeedReasons =
     "-|no position|no race control|no flag|unknown flag|red|orange|black|stop|chequered|caution|"
     "green|round speed|operator|line|tyres|governor|trail|pass|gives way|car ahead";

@@ -78,8 +78,8 @@ INSTANTIATE_TEST_SUITE_P(
         Mismatch{"not asked|armed|waits", "not asked|waits",
                  "mode.arming: \"armed\" is inserted here as value 1, later values have other "
                  "numbers\n"},
-        Mismatch{"merges\n", "merges|passes\n",
-                 "planner.primitive: value 4 is known only there, as \"passes\"\n"},
+        Mismatch{"gives way\n", "gives way|waves\n",
+                 "planner.primitive: value 8 is known only there, as \"waves\"\n"},
         Mismatch{"disarmed|standby|driving", "disarmed|driving|standby",
                  "mode.mode: value 1 means \"standby\" here, \"driving\" there\n"
                  "mode.mode: value 2 means \"driving\" here, \"standby\" there\n"},
