@@ -12,7 +12,6 @@ constexpr double kRisk_s = 0.2;                            // a risk must last s
 constexpr double kAsideLeast_s = 1.0, kAsideMost_s = 3.0;  // over which a drift is believed
 constexpr double kRiskClear_m = 2.6;                       // 1.93 m of car and a margin
 constexpr double kGiveWay_mps = 3.0;
-constexpr double kBumper_m = 8.0;  // between centres: never closer to a car in the way
 
 void enter(PassState& s, PassPhase phase, PassBar bar, Instant now) {
   s.phase = phase;
@@ -156,9 +155,9 @@ double pass_speed_mps(const PassParams& p, const PassState& s, const PassInputs&
 }
 
 double follow_mps(const PassParams& p, double ahead_m, double car_mps, bool trails) {
-  const double room_m = std::max(ahead_m - kBumper_m, 0.0);
+  const double room_m = std::max(ahead_m - kLeastGap_m, 0.0);
   const double met_mps = std::sqrt(car_mps * car_mps + 2.0 * p.brake_mps2 * room_m);
-  const double stop_short_mps = ahead_m < kBumper_m ? 0.5 * car_mps : met_mps;
+  const double stop_short_mps = ahead_m < kLeastGap_m ? 0.5 * car_mps : met_mps;
   if (!trails) return stop_short_mps;
   const double wanted_mps = car_mps + p.trail_gain_per_s * (ahead_m - p.trail_gap_m);
   return std::clamp(wanted_mps, 0.0, stop_short_mps);

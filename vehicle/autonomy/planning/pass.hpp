@@ -116,6 +116,9 @@ PassState advance(const PassParams& params, const PassState& state, const PassIn
 // Speed of the phase; of a car ahead in the way see follow_mps().
 double pass_speed_mps(const PassParams& params, const PassState& state, const PassInputs& in);
 
+// Between the centres, to a car in the way.
+inline constexpr double kLeastGap_m = 12.0;
+
 // Speed behind a car that is in the way, ahead_m in front of ours.
 double follow_mps(const PassParams& params, double ahead_m, double car_mps, bool trails);
 
