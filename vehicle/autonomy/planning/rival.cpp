@@ -6,6 +6,7 @@
 namespace pitwall::planning {
 namespace {
 
+constexpr double kBelieved_s = 0.25;  // five sweeps: two false ones do not make a car to brake for
 constexpr double kSamePlace_m = 15.0, kSameLane_m = 4.0;  // of a car with a new number
 
 bool is_near(const RivalParams& p, const Rival& car) {
@@ -29,6 +30,7 @@ double gap_m(const world::TrackMap& track, double own_s_m, double other_s_m) {
 
 Rival rival_of(const world::TrackMap& track, const OwnPlace& own, const world::Opponent& car,
                Instant at) {
+  if ((car.measured_at - car.born_at).seconds() < kBelieved_s) return {};
   if (!std::isfinite(car.s_m + car.n_m + car.speed_mps + car.yaw_rad)) return {};
   const double turn_rad = wrap_pi(car.yaw_rad - track.at(car.s_m).yaw_rad);
   return {.known = true,

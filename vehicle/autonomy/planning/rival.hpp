@@ -8,6 +8,7 @@
 //          a rival that is known stays the rival while it is tracked within reach. Where its number
 //          is gone, a car where it should be is the same
 //          without one it goes on at its speed for forget_s, then it is not known
+//          a car that has not been measured for a quarter of a second is not believed
 //   errors cars without a finite place or speed are no rivals
 //   cost   O(cars), no allocation
 // SPDX-License-Identifier: Apache-2.0
@@ -48,7 +49,7 @@ double gap_m(const world::TrackMap& track, double own_s_m, double other_s_m);
 Rival follow(const RivalParams& params, const Rival& last, const world::TrackMap& track,
              const OwnPlace& own, const world::Opponents& cars, Instant now);
 
-// A tracked car as a rival; not known without a finite place and speed.
+// A tracked car as a rival; not known without a finite place and speed, or where it is too young.
 Rival rival_of(const world::TrackMap& track, const OwnPlace& own, const world::Opponent& car,
                Instant at);
 

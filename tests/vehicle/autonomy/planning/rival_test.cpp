@@ -86,6 +86,16 @@ TEST(Rival, OutOfSightItGoesOnAndIsForgottenInTime) {
   EXPECT_FALSE(road.rival.known);
 }
 
+TEST(Rival, ATrackOfTwoFalseDetectionsIsNone) {
+  Road road;
+  road.add(1, 60.0, 3.0, 0.0);
+  road.cars.cars[0].born_at = road.now - milliseconds(100);
+  EXPECT_FALSE(road.step().known);
+  road.add(1, 60.0, 3.0, 0.0);
+  road.cars.cars[0].born_at = road.now - milliseconds(250);
+  EXPECT_TRUE(road.step().known);
+}
+
 TEST(Rival, WhatHasNoPlaceIsNone) {
   for (double world::Opponent::*field : {&world::Opponent::s_m, &world::Opponent::n_m,
                                          &world::Opponent::speed_mps, &world::Opponent::yaw_rad}) {
