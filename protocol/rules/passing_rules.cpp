@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "protocol/rules/passing_rules.hpp"
+
+#include "protocol/vocabulary/check.hpp"
+
+namespace pitwall::rules {
+
+RoundSpeeds standard_rounds_mph() {
+  RoundSpeeds rounds;
+  for (const double speed_mph : kRoundSpeeds_mph) CHECK(rounds.push(speed_mph));
+  return rounds;
+}
+
+bool is_behind(const Situation& now) { return gap_behind_m(now) >= 0.0; }
+
+bool is_clear(const PassingRules& rules, const Situation& now) {
+  return gap_ahead_m(now) >= rules.clear_gap_m;
+}
+
+Rights rights_of(const PassingRules& rules, const Situation& now) {
+  const bool clear = now.pass_allowed && is_clear(rules, now);
+  if (now.role == Role::kDefender)
+    return {.may_draw_level = true,
+            .may_take_inside = true,
+            .must_take_inside = !clear,
+            .holds_round_speed = true,
+            .has_right_of_way = !clear};
+  return {.may_draw_level = now.pass_allowed,
+          .may_take_inside = clear || is_behind(now),
+          .must_take_inside = clear,
+          .holds_round_speed = false,
+          .has_right_of_way = clear};
+}
+
+}  // namespace pitwall::rules
