@@ -51,12 +51,6 @@ Ending ending_of(ContactCause cause) {
   return Ending::kContactShared;
 }
 
-// Written so that NaN is a breach.
-bool holds_speed(const PassingRules& rules, double round_speed_mps, double speed_mps) {
-  return speed_mps - round_speed_mps <= rules.defender_over_mps &&
-         round_speed_mps - speed_mps <= rules.defender_under_mps;
-}
-
 // The attacker after waving green.
 Situation waved(const AttemptView& now) {
   return {.role = Role::kAttacker,

@@ -17,6 +17,16 @@ bool is_clear(const PassingRules& rules, const Situation& now) {
   return gap_ahead_m(now) >= rules.clear_gap_m;
 }
 
+// Written so that NaN is a breach.
+bool holds_speed(const PassingRules& rules, double round_speed_mps, double speed_mps) {
+  return speed_mps - round_speed_mps <= rules.defender_over_mps &&
+         round_speed_mps - speed_mps <= rules.defender_under_mps;
+}
+
+bool keeps_rule(const PassingRules& rules, double round_speed_mps, double speed_mps, bool inside) {
+  return inside && holds_speed(rules, round_speed_mps, speed_mps);
+}
+
 Rights rights_of(const PassingRules& rules, const Situation& now) {
   const bool clear = now.pass_allowed && is_clear(rules, now);
   if (now.role == Role::kDefender)

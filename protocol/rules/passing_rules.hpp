@@ -67,6 +67,10 @@ constexpr double gap_ahead_m(const Situation& now) { return now.lead_m - now.len
 bool is_behind(const Situation& now);
 bool is_clear(const PassingRules& rules, const Situation& now);  // the pass is complete
 
+// Whether a defender at this speed, in the inside lane or not, keeps to its rule. NaN: it does not.
+bool keeps_rule(const PassingRules& rules, double round_speed_mps, double speed_mps, bool inside);
+bool holds_speed(const PassingRules& rules, double round_speed_mps, double speed_mps);
+
 Rights rights_of(const PassingRules& rules, const Situation& now);
 
 }  // namespace pitwall::rules
