@@ -196,6 +196,8 @@ namespace {
 
 Result<bench::RunResult, Problem> drive(const RunOptions& options, const bench::Loaded& loaded,
                                         const bench::Follow& follow) {
+  if (options.live && loaded.scenario.match)
+    return pitwall::refuse(loaded.scenario.match->place, "match: a live run has no judge yet");
   return options.live ? live(options, loaded, follow) : lockstep(options, loaded, follow);
 }
 
