@@ -114,8 +114,9 @@ void note(const JudgeParams& params, const JudgeView& view, Phase before, JudgeS
   const bool waved = !std::isnan(state.attempt.waving_at_m);
   if (before == Phase::kClosingUp && waved) record.waving = now;
   if (before <= Phase::kPassing && !std::isnan(state.attempt.clear_at_m)) record.clear = now;
-  record.laps_used = rules::laps_used(state.attempt, params.track_length_m,
-                                      state.travelled_m[state.match.attacker]);
+  if (before <= Phase::kPassing)
+    record.laps_used = rules::laps_used(state.attempt, params.track_length_m,
+                                        state.travelled_m[state.match.attacker]);
   record.most_lead_m = state.attempt.most_lead_m;
   if (!waved || before == Phase::kEnded || phase == Phase::kClosingUp) return;
   const double speed_mps = defender_of(state, view).speed_mps;

@@ -59,8 +59,8 @@ struct JudgeView {
 struct AttemptRecord {
   rules::Assignment assignment;
   Instant formed{}, green{}, waving{}, clear{}, ended{};  // zero: not reached
-  double laps_used = 0.0;                                 // of the attacker since waving green
-  double most_lead_m = kUnset;                            // of the attacker's centre
+  double laps_used = 0.0;  // of the attacker from waving green to the gap of 30 m, or to the end
+  double most_lead_m = kUnset;                                     // of the attacker's centre
   double defender_least_mps = kUnset, defender_most_mps = kUnset;  // under waving green
   rules::Ending ending = rules::Ending::kStopped;
   rules::Score score = rules::Score::kFailed;

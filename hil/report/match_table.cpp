@@ -54,7 +54,7 @@ std::string row_of(const AttemptRow& row, std::size_t i) {
          word(row.attacker) + word(row.defender) + figure(row.green_s, 1) +
          figure(row.waving_s, 1) + figure(row.clear_s, 1) + figure(row.ended_s, 1) +
          figure(row.laps_used, 2) + figure(row.most_lead_m, 1) + speeds(row) + word(ending) +
-         word(row.score) + word(row.reason) + "</tr>\n";
+         "<td>" + escaped(row.score) + "</td>" + word(row.reason) + "</tr>\n";
 }
 
 }  // namespace
