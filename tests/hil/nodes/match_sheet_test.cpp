@@ -54,7 +54,7 @@ TEST(MatchSheet, IsReadBackFromItsJson) {
   EXPECT_EQ(first.text("attacker"), "blue");
   EXPECT_EQ(first.number("round"), 1.0);
   EXPECT_EQ(first.number("round_speed_mph"), 80.0);
-  EXPECT_EQ(first.number("waving_s"), 40.0);
+  EXPECT_NEAR(first.number("waving_s"), 40.0, 1e-9);
   EXPECT_TRUE(std::isnan(first.number("clear_s"))) << "not reached";
   EXPECT_EQ(json->items("attempts")[1].text("score"), "repeated");
 }

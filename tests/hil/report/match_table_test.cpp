@@ -48,8 +48,8 @@ TEST(MatchTable, HasTheSheetThatWasWritten) {
   EXPECT_EQ(rows.attempts[1].ending, "cut_in");
   EXPECT_EQ(rows.attempts[1].score, "failed");
   EXPECT_EQ(rows.attempts[0].round_speed_mph, 80.0);
-  EXPECT_EQ(rows.attempts[0].green_s, 31.0);
-  EXPECT_EQ(rows.attempts[0].ended_s, 99.5);
+  EXPECT_NEAR(rows.attempts[0].green_s, 31.0, 1e-9);
+  EXPECT_NEAR(rows.attempts[0].ended_s, 99.5, 1e-9);
   EXPECT_EQ(rows.attempts[0].most_lead_m, 41.25);
   EXPECT_TRUE(std::isnan(rows.attempts[0].waving_s)) << "not reached";
 }

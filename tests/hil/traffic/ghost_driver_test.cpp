@@ -59,6 +59,7 @@ TEST(GhostDriver, BreaksExactlyTheRuleOfItsManner) {
   EXPECT_TRUE(order_of(Manner::kCutIn, Defence::kHold, attacker(kCar_m + 11.0, true)).inside);
   EXPECT_FALSE(order_of(Manner::kPass, Defence::kHold, attacker(kCar_m + 11.0, true)).inside);
   EXPECT_TRUE(order_of(Manner::kRam, Defence::kHold, attacker(-20.0, true)).inside);
+  EXPECT_LT(order_of(Manner::kFollow, Defence::kHold, attacker(-20.0, true)).speed_mps, kRound_mps);
   EXPECT_FALSE(order_of(Manner::kOpenDoor, Defence::kHold, attacker(90.0, true)).inside);
   EXPECT_TRUE(order_of(Manner::kPass, Defence::kHold, attacker(90.0, true)).inside);
   EXPECT_GT(order_of(Manner::kEarly, Defence::kHold, attacker(-20.0, false)).speed_mps, kRound_mps);
