@@ -15,6 +15,7 @@ using faults::BenchFaultKind;
 using faults::FrameFaultKind;
 
 constexpr double kMaxRadioDelay_s = 10.0;
+constexpr double kLatestFlags_s = 60.0;
 constexpr double kMaxStuck_kpa = 9000.0;
 
 // What rig.cpp carries out; a kind that nobody carries out is refused rather than ignored.
@@ -25,6 +26,7 @@ bool in_the_rig(BenchFaultKind kind) {
     case BenchFaultKind::kRaceControlSilent:
     case BenchFaultKind::kRaceHeartbeatStop:
     case BenchFaultKind::kWrongRoundSpeed:
+    case BenchFaultKind::kFlagsLate:
     case BenchFaultKind::kSteeringStuck:
     case BenchFaultKind::kSteeringSlow:
     case BenchFaultKind::kSteeringBias:
@@ -72,6 +74,8 @@ bool is_sensible(BenchFaultKind kind, double value) {
       return value > 0.0;
     case BenchFaultKind::kWrongRoundSpeed:
       return value >= 0.0;
+    case BenchFaultKind::kFlagsLate:
+      return value > 0.0 && value <= kLatestFlags_s;
     case BenchFaultKind::kColdTyres:
       return value >= scenario::kColdest_c && value <= scenario::kHottest_c;
     case BenchFaultKind::kComputerSlow:

@@ -33,7 +33,8 @@ Field::Field(std::span<const Runner> runners, std::span<const FieldGhost> ghosts
       cars_(runners.size() + ghosts.size()),
       traces_(cars_.size()),
       least_gap_m_(cars_.size(), kUnset),
-      ghosts_(ghosts) {
+      ghosts_(ghosts),
+      orders_(ghosts.size()) {
   CHECK(cars_.size() <= kFieldMax);
   for (const Runner& runner : runners) {
     names_.push_back(runner.name);
@@ -65,11 +66,23 @@ void Field::move_ghosts(Instant now) {
   const std::size_t first = cars_.size() - ghosts_.size();
   for (std::size_t i = 0; i < ghosts_.size(); ++i) {
     traffic::GhostState& state = ghost_states_[i];
-    state = traffic::step(ghosts_[i].ghost, track_, state, {cars_.front().pose.s_m}, now);
+    state =
+        traffic::step(ghosts_[i].ghost, track_, state, {cars_.front().pose.s_m, orders_[i]}, now);
     cars_[first + i] = {.pose = state.pose,
                         .laps = static_cast<std::uint32_t>(state.travelled_m / track_.length_m()),
                         .told_to_slow = cars_.front().told_to_slow};
   }
+}
+
+std::size_t Field::index_of(const std::string& name) const {
+  const auto found = std::ranges::find(names_, name);
+  CHECK(found != names_.end());
+  return static_cast<std::size_t>(found - names_.begin());
+}
+
+void Field::order(std::size_t ghost, const traffic::GhostOrder& order) {
+  CHECK(is_ghost(ghost));
+  orders_[ghost - (cars_.size() - ghosts_.size())] = order;
 }
 
 std::span<const sensors::TrueCar> Field::others_of(std::size_t car) {

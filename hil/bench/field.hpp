@@ -77,6 +77,11 @@ class Field {
   std::size_t size() const { return cars_.size(); }
   const FieldCar& car(std::size_t i) const { return cars_[i]; }
   std::uint8_t number(std::size_t i) const { return numbers_[i]; }
+  bool is_ghost(std::size_t i) const { return i >= cars_.size() - ghosts_.size(); }
+  // Of a car of this name; there is one.
+  std::size_t index_of(const std::string& name) const;
+  // Lane and speed of a ghost from the next step on.
+  void order(std::size_t ghost, const traffic::GhostOrder& order);
   // All cars, by number and name: an order that does not depend on that of the runners.
   std::span<const std::size_t> in_order() const { return in_order_; }
   // All cars but this one in that order, as its sensors may see them; valid until the next call.
@@ -106,6 +111,7 @@ class Field {
   std::vector<FieldContact> contacts_;
   std::span<const FieldGhost> ghosts_;
   std::vector<traffic::GhostState> ghost_states_;
+  std::vector<std::optional<traffic::GhostOrder>> orders_;  // of the ghosts
   FixedVector<sensors::TrueCar, sensors::kTrueCarsMax> others_;
 };
 

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "hil/bench/fault_plan.hpp"
 #include "hil/bench/field.hpp"
 #include "hil/scenario/scenario.hpp"
 #include "protocol/vocabulary/result.hpp"
@@ -27,7 +28,9 @@ struct Loaded {
   std::vector<LoadedStack> stacks{};
 };
 
-// Track, car and plant files are named relative to `folder` unless they are absolute.
-Result<Loaded, Problem> load(const std::string& scenario_file, const std::string& folder);
+// Track, car and plant files are named relative to `folder` unless they are absolute. A match is
+// refused live.
+Result<Loaded, Problem> load(const std::string& scenario_file, const std::string& folder,
+                             BenchMode mode = BenchMode::kLockstep);
 
 }  // namespace pitwall::bench

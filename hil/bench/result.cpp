@@ -111,6 +111,12 @@ std::string remarks_json(const std::vector<std::string>& remarks) {
   return out.str();
 }
 
+std::string match_text(const race::MatchSheet& sheet) {
+  std::string out;
+  for (std::size_t i = 0; i < sheet.attempts.size(); ++i) out += race::to_text(sheet, i) + "\n";
+  return out + "match: " + race::result_text(sheet) + "\n";
+}
+
 }  // namespace
 
 bool RunResult::passed() const {
@@ -138,6 +144,7 @@ std::string to_text(const RunResult& r) {
   out += formatted("; top speed %.2f m/s\n", r.speed_max_mps);
   if (const std::string end = to_text(r.outcome); !end.empty()) out += end + "\n";
   if (r.car_contact) out += to_text(*r.car_contact) + "\n";
+  if (r.match) out += match_text(*r.match);
   out += formatted("CAN frames: %llu to the car, %llu from the car, %llu lost",
                    static_cast<unsigned long long>(r.traffic.to_car),
                    static_cast<unsigned long long>(r.traffic.from_car),
@@ -227,6 +234,7 @@ std::string to_json(const RunResult& r) {
       .number("cross_track_overall_m", r.cross_track.overall.mean_m())
       .number("cross_track_max_m", r.cross_track.overall.max_m)
       .json("cross_track", brackets_json(r.cross_track))
+      .json("match", r.match ? race::to_json(*r.match) : "null")
       .json("cross_track_by_lap", lap_errors_json(r.cross_track.by_lap))
       .json("can", traffic_json(r.traffic))
       .number("gate_refusals", r.gate_refusals)

@@ -13,6 +13,7 @@
 #include "hil/bench/rig.hpp"
 #include "hil/grading/cross_track.hpp"
 #include "hil/grading/grader.hpp"
+#include "hil/nodes/match_sheet.hpp"
 #include "protocol/transport/bench_clock/clock_waits.hpp"
 
 namespace pitwall::bench {
@@ -60,6 +61,7 @@ struct RunResult {
   Outcome outcome;
   std::size_t other_cars = 0;             // on the track
   std::optional<CarContact> car_contact;  // the first one
+  std::optional<race::MatchSheet> match;  // of a scenario with one
   std::optional<RealTime> real_time;
   std::string refused_to_arm;  // reason, if the bus did not match the car at the end; else empty
   std::vector<CompletedAction> done;  // faults on processes, clock and disk that were carried out

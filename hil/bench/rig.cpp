@@ -209,6 +209,9 @@ void Rig::apply_model_fault(const faults::BenchFault& fault, Instant now) {
     case BenchFaultKind::kWrongRoundSpeed:
       race_.faults.wrong_speed_mph = fault.value;
       return;
+    case BenchFaultKind::kFlagsLate:
+      race_.faults.late = from_seconds(fault.value);
+      return;
     case BenchFaultKind::kSteeringStuck:
       raptor_.faults.steering_stuck = true;
       return;

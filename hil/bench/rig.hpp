@@ -61,6 +61,9 @@ class Rig {
   // Adds a fault of the models to those of the scenario.
   void add_fault(const faults::BenchFault& fault) { plan_.models.push_back(fault); }
 
+  // A call of the judge, in place of what race control's script says.
+  void call_race_control(const race::Call& call) { race::call(race_, call); }
+
   // What race control's timing says of another car, from now on.
   void show_rival(const std::optional<race::Rival>& rival) { rival_ = rival; }
 

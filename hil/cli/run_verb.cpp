@@ -231,7 +231,7 @@ Result<bool, Problem> cut(scenario::Scenario& scenario) {
 // The exit code; the files that were asked for are written. What failed on a machine that did not
 // keep up has not been judged.
 Result<int, Problem> run_once(const RunOptions& options) {
-  auto loaded = bench::load(options.scenario, "");
+  auto loaded = bench::load(options.scenario, "", options.mode());
   if (!loaded) return Unexpected{loaded.error()};
   if (options.duration) loaded->scenario.duration = *options.duration;
   if (options.cut) {
@@ -253,7 +253,7 @@ Result<int, Problem> run_once(const RunOptions& options) {
 
 // As many runs as fill the hours; the exit code of the first that failed.
 Result<int, Problem> run_hours(RunOptions options) {
-  const auto loaded = bench::load(options.scenario, "");
+  const auto loaded = bench::load(options.scenario, "", options.mode());
   if (!loaded) return Unexpected{loaded.error()};
   const double each_s = options.duration.value_or(loaded->scenario.duration).seconds();
   const std::uint64_t first = options.seed.value_or(loaded->scenario.seed);
@@ -315,7 +315,7 @@ int run_where_the_bus_is(const RunOptions& options) {
   if (!options.live || options.here) return run_scenario(options);
 
   // Bad input is told before a machine is booted for it.
-  if (const auto loaded = bench::load(options.scenario, ""); !loaded)
+  if (const auto loaded = bench::load(options.scenario, "", options.mode()); !loaded)
     return report_failure(options, loaded.error());
   if (transport::is_unix_bus(options.interface)) {  // needs no guest, only a hub
     const std::string clock = clock_place(options.clock, options.attach).file;

@@ -22,6 +22,7 @@
 #include <string>
 #include <vector>
 
+#include "hil/bench/fault_plan.hpp"
 #include "protocol/vocabulary/result.hpp"
 #include "protocol/vocabulary/time.hpp"
 
@@ -45,6 +46,10 @@ struct RunOptions {
   std::uint16_t uplink_port = 0;  // live: port for datagrams of the base; 0: any port
   std::string clock;              // live: see clock_place.hpp
   std::string keys;               // live: folder of the keys of the run; empty: new ones
+
+  bench::BenchMode mode() const {
+    return live ? bench::BenchMode::kLive : bench::BenchMode::kLockstep;
+  }
 };
 
 int run_scenario(const RunOptions& options);

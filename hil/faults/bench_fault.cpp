@@ -100,6 +100,7 @@ constexpr std::array<BenchFaultRow, kBenchFaultKinds> kBenchFaults{{
     {Kind::kBaseMoved, "base_moved", Part::kRadio, ""},
     {Kind::kBaseReplaced, "base_replaced", Part::kRadio, ""},
     {Kind::kPlannerHangs, "planner_hangs", Part::kComputer, ""},
+    {Kind::kFlagsLate, "flags_late", Part::kRaceControl, "seconds"},
 }};
 
 const BenchFaultRow& row_of(BenchFaultKind kind) {

@@ -100,7 +100,8 @@ enum class BenchFaultKind : std::uint8_t {
   kGpsTimeStep,
   kBaseMoved,
   kBaseReplaced,
-  kPlannerHangs
+  kPlannerHangs,
+  kFlagsLate
 };
 
 enum class BenchPart : std::uint8_t {
@@ -136,7 +137,7 @@ struct BenchFault {
 
 inline constexpr std::size_t kBrakeCircuits = 2;  // unit 0: front, unit 1: rear
 
-inline constexpr std::size_t kBenchFaultKinds = 82;
+inline constexpr std::size_t kBenchFaultKinds = 83;
 extern const std::array<BenchFaultRow, kBenchFaultKinds> kBenchFaults;
 
 const BenchFaultRow& row_of(BenchFaultKind kind);

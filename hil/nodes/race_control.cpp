@@ -51,7 +51,7 @@ bool encoded(const Message& message, State& state, can::Frame& out) {
 }
 
 bool encode_summary(State& state, const Timing& timing, can::Frame& out) {
-  const RawFlags raw = to_mylaps(state.flags);
+  const RawFlags raw = to_mylaps(state.shown.flags);
   if (!state.faults.heartbeat_stopped)
     state.heartbeat = static_cast<std::uint8_t>((state.heartbeat + 1) % kHeartbeats);
   av21::BaseToCarSummary m;
@@ -59,15 +59,16 @@ bool encode_summary(State& state, const Timing& timing, can::Frame& out) {
   m.track_flag = raw.track;
   m.veh_flag = raw.vehicle;
   m.veh_rank = timing.rank;
-  m.round_target_speed = state.faults.wrong_speed_mph.value_or(state.round_target_speed_mph);
-  m.lap_count = state.lap.value_or(timing.laps);
+  m.round_target_speed = state.faults.wrong_speed_mph.value_or(state.shown.round_target_speed_mph);
+  m.lap_count = state.shown.lap.value_or(timing.laps);
   m.lap_distance = timing.lap_distance_m;
   return encoded(m, state, out);
 }
 
 bool encode_marelli(State& state, can::Frame& out, Instant now) {
-  const double speed_mph = state.faults.wrong_speed_mph.value_or(state.round_target_speed_mph);
-  const RawFlags raw = to_marelli(state.flags, speed_mph);
+  const double speed_mph =
+      state.faults.wrong_speed_mph.value_or(state.shown.round_target_speed_mph);
+  const RawFlags raw = to_marelli(state.shown.flags, speed_mph);
   const bool synchronous = !state.base_lost || now - state.base_lost_since <= kBaseSyncTimeout;
   av21::MarelliReport1 m;
   m.marelli_track_flag = raw.track;
@@ -146,23 +147,31 @@ void begin(const Script& script, State& state, Instant now) {
   state.begun = true;
 }
 
+void show(State& state, Instant now) {
+  const ShownCall called{state.flags, state.round_target_speed_mph, state.lap};
+  if (state.shown == called) return state.waiting_since.reset();
+  if (!state.waiting_since) state.waiting_since = now;
+  if (now - *state.waiting_since < state.faults.late) return;
+  state.waiting_since.reset();
+  state.shown = called;
+  state.changed = true;
+}
+
 }  // namespace
 
 void call(State& state, const Call& call) {
-  const State before = state;
   state.flags.track = call.track.value_or(state.flags.track);
   state.flags.vehicle = call.vehicle.value_or(state.flags.vehicle);
   state.round_target_speed_mph = call.round_target_speed_mph.value_or(state.round_target_speed_mph);
   if (call.lap) state.lap = call.lap;
-  if (state.flags != before.flags ||
-      state.round_target_speed_mph != before.round_target_speed_mph || state.lap != before.lap)
-    state.changed = true;
 }
 
 RaceFrames step(const Script& script, State& state, const Timing& timing, Instant now) {
   if (!state.begun) begin(script, state, now);
   while (state.next_call < script.calls.size() && script.calls[state.next_call].at <= now)
     call(state, script.calls[state.next_call++]);
+
+  show(state, now);
 
   const bool lost = state.faults.heartbeat_stopped || state.faults.silent;
   if (lost && !state.base_lost) state.base_lost_since = now;

@@ -65,6 +65,8 @@ struct RaceFaults {
   bool silent = false;                      // neither system sends any frame
   bool heartbeat_stopped = false;           // frames continue, the base behind both is lost
   std::optional<double> wrong_speed_mph{};  // the round speed sent instead
+  // A call is shown so long after it; what is called meanwhile, with it.
+  Duration late{};
 };
 
 struct RaceFrame {
@@ -81,10 +83,21 @@ inline constexpr std::array kRaceFrames{
     RaceFrame{228, milliseconds(200), milliseconds(62)},
 };
 
-struct State {
+// What the frames carry.
+struct ShownCall {
   Flags flags;
   double round_target_speed_mph = 0.0;
   std::optional<std::uint8_t> lap{};
+
+  bool operator==(const ShownCall&) const = default;
+};
+
+struct State {
+  Flags flags;  // as called
+  double round_target_speed_mph = 0.0;
+  std::optional<std::uint8_t> lap{};
+  ShownCall shown;
+  std::optional<Instant> waiting_since{};  // a call that is not shown yet
   std::size_t next_call = 0;
   bool changed = true;  // an extra 1200 / 1250 is due
   RaceFaults faults;

@@ -29,6 +29,8 @@ std::string page(const RunData& run, const world::TrackMap* track, const std::st
   out += kStyle;
   out += "</style></head>\n<body>\n" + header(run) + banner(run);
   out += section("Expectations", verdict_table(run));
+  if (run.result && run.result->match)
+    out += section("Match sheet", match_table(*run.result->match));
   out += section("Where, and how far from the line",
                  beside(map_chart(run, track, no_walls),
                         bracket_chart(statistics) + bracket_table(statistics)));

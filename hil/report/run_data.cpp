@@ -217,7 +217,8 @@ ResultFigures figures_of(const JsonValue& json) {
                         .gate_refusals = json.number("gate_refusals"),
                         .bus_refusals = json.number("bus_refusals"),
                         .real_time = real_time_of(json.find("real_time")),
-                        .remarks = {}};
+                        .remarks = {},
+                        .match = match_of(json)};
   for (const JsonValue& remark : json.items("remarks")) figures.remarks.push_back(remark.text());
   return figures;
 }

@@ -18,6 +18,7 @@
 
 #include "hil/bench/result.hpp"
 #include "hil/bench/run_record.hpp"
+#include "hil/report/match_table.hpp"
 #include "protocol/recording/mcap_reader.hpp"
 #include "protocol/vocabulary/units.hpp"
 
@@ -66,6 +67,7 @@ struct ResultFigures {
   double gate_refusals = kUnset, bus_refusals = kUnset;
   std::optional<bench::RealTime> real_time;
   std::vector<std::string> remarks;  // further notes for the reader
+  std::optional<MatchRows> match;    // of a passing competition
 };
 
 struct LogHealth {

@@ -220,6 +220,9 @@ void check_order(yaml::StrictMap& map, const Scenario& scenario) {
     if (scenario.race_control[i].at <= scenario.race_control[i - 1].at)
       map.fail("race_control",
                "entry " + std::to_string(i + 1) + " is not later than the one before");
+  if (scenario.match && !scenario.race_control.empty() &&
+      scenario.race_control.back().at >= scenario.match->begins)
+    map.fail("race_control", "has an entry after match.begins_s: from then on the judge calls");
   if (scenario.race_control.empty())
     map.fail("race_control", "expected at least one entry: race control would be silent");
 }
@@ -249,6 +252,7 @@ Scenario read_root(yaml::StrictMap& map) {
   if (map.has("plant") && scenario.plant_file.empty()) map.fail("plant", "names no file");
   if (auto perturb = map.optional_map("perturb")) scenario.perturb = read_perturbations(*perturb);
   scenario.cars = read_cars(map, scenario.seed);
+  scenario.match = read_match(map, scenario.cars);
   read_list(map, "race_control", scenario.race_control, read_flag_change);
   scenario.radio = read_radio(map);
   scenario.operator_texts = read_operator(map);

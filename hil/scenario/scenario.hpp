@@ -15,6 +15,7 @@
 
 #include "hil/plant/params.hpp"
 #include "hil/scenario/cars_section.hpp"
+#include "hil/scenario/match_section.hpp"
 #include "hil/scenario/radio_section.hpp"
 #include "protocol/vocabulary/result.hpp"
 #include "protocol/vocabulary/time.hpp"
@@ -106,6 +107,7 @@ struct Scenario {
   plant::Params plant;     // content of that file; the code that opens the files fills it in
   Perturbations perturb;
   std::vector<OtherCar> cars;
+  std::optional<MatchPlan> match;
   std::vector<FlagChange> race_control;
   std::vector<RadioPath> radio;  // empty: no delay, no loss
   std::vector<OperatorText> operator_texts;

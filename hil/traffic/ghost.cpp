@@ -135,13 +135,23 @@ void follow_script(const Ghost& ghost, const world::TrackMap& track, const Surro
   }
 }
 
+// A change of line is finished before the next one begins.
+void follow_order(const Ghost& ghost, const world::TrackMap& track, const GhostOrder& order,
+                  GhostState& state) {
+  const std::size_t to = order.inside ? ghost.lanes->inside : ghost.lanes->outside;
+  if (to == state.change.to || state.change.progress < 1.0) return;
+  change_line(ghost, track.wrap_station(state.travelled_m), to, kLaneChange_s, state);
+}
+
 double next_speed_mps(const Ghost& ghost, const world::TrackMap& track, const GhostState& state,
-                      double dt_s) {
+                      const std::optional<GhostOrder>& order, double dt_s) {
   const double v_mps = state.speed_mps;
-  if (state.pace != Action::kSpeed)
+  if (!order && state.pace != Action::kSpeed)
     return std::max(std::min(v_mps, state.to_mps), v_mps - state.decel_mps2 * dt_s);
-  const double wanted_mps =
-      ghost.speeds[state.speed].at(track.wrap_station(state.travelled_m)) - v_mps;
+  const double ordered_mps =
+      order ? order->speed_mps
+            : ghost.speeds[state.speed].at(track.wrap_station(state.travelled_m));
+  const double wanted_mps = ordered_mps - v_mps;
   const GhostLimits& limits = ghost.params.limits;
   return v_mps + std::clamp(wanted_mps, -limits.brake_mps2 * dt_s, limits.accel_mps2 * dt_s);
 }
@@ -168,8 +178,12 @@ GhostState step(const Ghost& ghost, const world::TrackMap& track, const GhostSta
   GhostState next = state;
   const double dt_s = (now - state.at).seconds();
   if (!(dt_s > 0.0)) return next;
-  follow_script(ghost, track, around, next);
-  const double speed_mps = next_speed_mps(ghost, track, next, dt_s);
+  const auto order = ghost.lanes ? around.order : std::nullopt;
+  if (order)
+    follow_order(ghost, track, *order, next);
+  else
+    follow_script(ghost, track, around, next);
+  const double speed_mps = next_speed_mps(ghost, track, next, order, dt_s);
   next.speed_mps = 0.5 * (next.speed_mps + speed_mps);
   const double way_m = next.speed_mps * dt_s;
   const Course course = course_of(ghost, track, next);

@@ -23,6 +23,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "hil/traffic/car_pose.hpp"
@@ -58,14 +59,21 @@ struct GhostParams {
   std::uint64_t seed = 0;
 };
 
+// Lines of the two lanes that it may be ordered to.
+struct Lanes {
+  std::size_t inside = 0, outside = 0;
+};
+
 // Line 0 goes through the start, line 1 and speed 0 are the first that it follows.
 struct Ghost {
   GhostParams params;
+  std::optional<Lanes> lanes;
   std::vector<OffsetLine> lines;
   std::vector<SpeedTable> speeds;
 };
 
-inline constexpr double kJoining_s = 4.0;  // time of the change from the start to the first line
+inline constexpr double kJoining_s = 4.0;     // time of the change from the start to the first line
+inline constexpr double kLaneChange_s = 3.0;  // of an ordered one
 
 struct LineChange {
   std::size_t from = 0, to = 0;
@@ -89,8 +97,15 @@ struct GhostState {
   CarPose pose;
 };
 
+// Lane and speed, in place of those of the script.
+struct GhostOrder {
+  bool inside = false;
+  double speed_mps = 0.0;
+};
+
 struct Surroundings {
   double ego_s_m = kUnset;
+  std::optional<GhostOrder> order{};  // ignored by a ghost without lanes
 };
 
 GhostState begin(const Ghost& ghost, const world::TrackMap& track, Instant now);

@@ -21,6 +21,7 @@ class Builder {
     if (auto problem = add_start()) return Unexpected{*problem};
     for (const ScriptPlan& entry : plan_.script)
       if (auto problem = add_entry(entry)) return Unexpected{*problem};
+    if (auto problem = add_lanes()) return Unexpected{*problem};
     return std::move(ghost_);
   }
 
@@ -90,6 +91,14 @@ class Builder {
       return Problem{place, "lap_share needs a line of the bank with a speed profile"};
     ghost_.speeds.emplace_back(lap_of(*raceline_, track_, lap_share_), track_.length_m(),
                                plan_.limits.brake_mps2);
+    return std::nullopt;
+  }
+
+  std::optional<Problem> add_lanes() {
+    if (!plan_.lanes) return std::nullopt;
+    for (const double offset_m : {plan_.lanes->inside_m, plan_.lanes->outside_m})
+      if (auto problem = add_line({.offset_m = offset_m}, plan_.place)) return problem;
+    ghost_.lanes = Lanes{.inside = ghost_.lines.size() - 2, .outside = ghost_.lines.size() - 1};
     return std::nullopt;
   }
 

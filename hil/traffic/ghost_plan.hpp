@@ -53,6 +53,11 @@ struct ScriptPlan {
   std::string place{};         // for messages
 };
 
+// The two lanes that a ghost changes between when it is told to; offsets from the reference line.
+struct LanePlan {
+  double inside_m = kUnset, outside_m = kUnset;
+};
+
 struct GhostPlan {
   double start_s_m = 0.0, start_mps = 0.0;
   std::optional<double> start_n_m;  // empty: on its line
@@ -61,6 +66,7 @@ struct GhostPlan {
   GhostLimits limits;
   DriftParams drift;
   std::vector<ScriptPlan> script;
+  std::optional<LanePlan> lanes;  // of a ghost that takes orders
   double length_m = plant::Chassis{}.length_m, width_m = plant::Chassis{}.width_m;
   std::uint64_t seed = 0;
   std::string place{};  // for messages

@@ -7,6 +7,7 @@
 
 #include "basestation/inputs/text_command.hpp"
 #include "hil/bench/contact.hpp"
+#include "hil/bench/lockstep/match_run.hpp"
 #include "hil/bench/signals.hpp"
 #include "protocol/telemetry/registry/labels.hpp"
 
@@ -102,6 +103,10 @@ void CarBench::note_others(std::size_t cars, const std::optional<CarContact>& co
   result_.other_cars = cars;
   result_.car_contact = contact;
   if (record_ && contact) record_->event(contact->at, "contact", to_text(*contact));
+}
+
+void CarBench::note_attempt(Instant now, const std::string& sentence) {
+  if (record_) record_->event(now, "attempt", sentence);
 }
 
 void CarBench::step_computer(Instant now) {
@@ -287,6 +292,7 @@ RunResult CarBench::finish() {
   result_.simulated_s = length_.seconds();
   result_.verdicts = grader_.finish();
   judge_contact(scenario_, result_);
+  if (result_.match) judge_match(*scenario_.match, result_);
   result_.laps = rig_.laps();
   for (const std::string& refusal : base_.refusals())
     result_.remarks.push_back("the operator was refused: " + refusal);

@@ -47,6 +47,10 @@ class CarBench {
   // What its sensors see of the others and what race control's timing says of the nearest one;
   // after every step of the field.
   void show_others(Field& field, std::size_t own, Instant at);
+  void call_race_control(const race::Call& call) { rig_.call_race_control(call); }
+  void note_attempt(Instant now, const std::string& sentence);
+  // Of the match of the run, before its end.
+  void note_match(const race::MatchSheet& sheet) { result_.match = sheet; }
   // Of the field of the run, before its end.
   void note_others(std::size_t cars, const std::optional<CarContact>& contact);
 

@@ -9,6 +9,7 @@
 
 #include "hil/bench/field.hpp"
 #include "hil/bench/lockstep/car_bench.hpp"
+#include "hil/bench/lockstep/match_run.hpp"
 #include "protocol/vocabulary/check.hpp"
 #include "protocol/vocabulary/text.hpp"
 
@@ -35,6 +36,15 @@ bool is_over(const Cars& cars, Instant now) {
   return over;
 }
 
+// The judge sees the field at the end of a tick; what it calls is sent from the next step on.
+void step_match(MatchRun& match, Field& field, const Cars& cars, Instant at) {
+  match.step(field, at);
+  for (std::size_t i = 0; i < cars.size(); ++i)
+    if (const auto call = match.call_for(i, at)) cars[i]->call_race_control(*call);
+  if (const auto sentence = match.ended_attempt())
+    for (const auto& car : cars) car->note_attempt(at, *sentence);
+}
+
 }  // namespace
 
 Result<std::vector<RunResult>, Problem> run_lockstep(std::span<const Stack> stacks,
@@ -47,6 +57,9 @@ Result<std::vector<RunResult>, Problem> run_lockstep(std::span<const Stack> stac
   std::vector<Runner> runners;
   for (const Stack& stack : stacks) runners.push_back(stack.runner());
   Field field{runners, ghosts};
+  const auto& plan = stacks.front().scenario.match;
+  std::optional<MatchRun> match;
+  if (plan) match.emplace(*plan, field, stacks.front().setup.track);
   Instant now{};
   for (; now - Instant{} <= stacks.front().scenario.duration; now += tick) {
     for (const auto& car : cars) car->step_computer(now);
@@ -54,13 +67,16 @@ Result<std::vector<RunResult>, Problem> run_lockstep(std::span<const Stack> stac
       for (const auto& car : cars) car->step_rig(at);
       step_field(field, cars, at);
     }
-    if (!is_over(cars, now) && field.contacts().empty()) continue;
+    if (match) step_match(*match, field, cars, now + tick);
+    const bool match_over = match && match->is_over(now + tick);
+    if (!is_over(cars, now) && field.contacts().empty() && !match_over) continue;
     for (const auto& car : cars) car->end(now);
     break;
   }
   std::vector<RunResult> results;
   for (std::size_t i = 0; i < cars.size(); ++i) {
     cars[i]->note_others(field.size() - 1, field.contact_of(i));
+    if (match && i == 0) cars[i]->note_match(match->sheet());
     results.push_back(cars[i]->finish());
   }
   return results;

@@ -181,6 +181,7 @@ TEST(FaultPlan, ANumberThatMakesNoSenseIsRefusedWithItsPlace) {
                                 {"steering_slow", {-1, 0, kUnset}},
                                 {"gnss_variance_spike", {0, -5, kUnset}},
                                 {"gnss_position_jump", {kUnset, kInfinity}},
+                                {"flags_late", {0, -1, 61, kUnset}},
                                 {"wrong_round_speed", {-1, kUnset}}};
   for (const Case& c : cases)
     for (const double value : c.values)

@@ -54,6 +54,12 @@ TEST_F(RunVerb, ABadScenarioIsToldWithItsPlaceAndNothingIsStarted) {
   expect_refusal({"run", path("none.yaml"), "--live"}, path("none.yaml"));
 }
 
+TEST_F(RunVerb, ALiveRunOfAMatchIsRefusedBeforeAnythingIsStarted) {
+  const std::string match = "hil/scenarios/matches/match_early.yaml";
+  expect_refusal({"run", match, "--live", "--out", path("live")}, "match: a live run has no judge");
+  EXPECT_FALSE(exists("live"));
+}
+
 TEST_F(RunVerb, WhatTheBenchDoesNotKnowIsToldWithItsPlace) {
   const std::string signal = spoilt("red_flag_stop.yaml", "signal: wall_gap_m", "signal: wall_gap");
   expect_refusal({"run", signal}, signal + ":");

@@ -20,7 +20,7 @@ TEST(BenchFault, EveryKindHasOneRowAndAUniqueNameThatReadsBack) {
     names.insert(row_of(kind).name);
   }
   EXPECT_EQ(names.size(), kBenchFaultKinds);
-  EXPECT_EQ(static_cast<std::size_t>(BenchFaultKind::kPlannerHangs) + 1, kBenchFaultKinds);
+  EXPECT_EQ(static_cast<std::size_t>(BenchFaultKind::kFlagsLate) + 1, kBenchFaultKinds);
   EXPECT_FALSE(bench_fault_kind("").has_value());
 }
 

@@ -179,6 +179,34 @@ TEST(RaceControl, AStoppedHeartbeatFreezesAndSyncFallsAfterTenSeconds) {
   }
 }
 
+TEST(RaceControl, LateFlagsAreShownAtOnceInBothEncodingsAfterTheirTime) {
+  State state;
+  state.faults.late = milliseconds(1300);
+  Script script = everything();
+  script.calls = {{.at = Instant{} + milliseconds(2100),
+                   .track = TrackFlag::kWavingGreen,
+                   .vehicle = VehicleFlag::kAttacker,
+                   .round_target_speed_mph = 100.0,
+                   .lap = {}}};
+  const Log log = play(script, state, seconds(6));
+  const Instant due = Instant{} + milliseconds(3400);
+  for (const Sent& s : log.at(1200)) {
+    av21::BaseToCarSummary m;
+    ASSERT_TRUE(av21::decode(s.frame, m));
+    EXPECT_EQ(m.track_flag == 8.0, s.at >= due) << s.at.seconds();
+    EXPECT_EQ(m.round_target_speed == 100.0, s.at >= due);
+  }
+  for (const Sent& s : log.at(1250)) {
+    av21::MarelliReport1 m;
+    ASSERT_TRUE(av21::decode(s.frame, m));
+    EXPECT_EQ(m.marelli_track_flag == 37.0, s.at >= due);
+    EXPECT_EQ(m.marelli_vehicle_flag == 36.0, s.at >= due);
+  }
+  const auto at_due = [due](const Sent& s) { return s.at == due; };
+  EXPECT_TRUE(std::ranges::any_of(log.at(1200), at_due));
+  EXPECT_TRUE(std::ranges::any_of(log.at(1250), at_due));
+}
+
 TEST(RaceControl, AWrongRoundSpeedReplacesTheCalledOne) {
   State state;
   state.round_target_speed_mph = 80.0;
