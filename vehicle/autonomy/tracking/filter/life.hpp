@@ -17,6 +17,14 @@ namespace pitwall::tracking {
 void note_first(const Frame& frame, std::size_t index, Track& track);
 void note_detection(const Frame& frame, std::size_t index, Track& track);
 
+// Whether a confirmed track was not seen for so long that a detection near it may be another car's,
+// or none: it does not go on with one detection, but with a heir.
+bool is_lost(const Frame& frame, const Track& track);
+
+// The track as it is with a detection of the frame, on trial. Confirmed, it takes the place of the
+// lost track.
+Track heir_of(const Track& lost, const Frame& frame, std::size_t index);
+
 // Adds a track on trial; counts it in `crowded` where there is no room.
 void add_track(const Track& track, Tracks& tracks);
 
