@@ -32,6 +32,14 @@ TEST(Modes, OfATrackThatBeginsAreTheTrack) {
     for (std::size_t j = 0; j < kRoadStates; ++j) EXPECT_NEAR(t.p[i][j], before[i][j], 1e-14);
 }
 
+// Second moments about the mean, by hand: 0.7 * 1 + 0.3 * 3 + 0.3 * 0.7 * 0.5^2, and their product.
+TEST(Modes, JoinedHaveTheDistanceBetweenThem) {
+  const Track t = with_two_modes();
+  EXPECT_NEAR(t.p[0][0], 1.6525, 1e-14);
+  EXPECT_NEAR(t.p[0][1], -0.021, 1e-15);
+  EXPECT_EQ(t.p[1][0], t.p[0][1]);
+}
+
 // Both modes seen as one: a change of the mode changes neither mean nor covariance.
 TEST(Modes, MixingKeepsMeanAndCovariance) {
   Track t = with_two_modes();
