@@ -79,7 +79,7 @@ std::size_t nearest_point(const world::TrackMap& map, double s_m) {
 // Second derivative of the middle between the walls against the reference line, over the lap. A
 // reference line may swing from wall to wall, as a racing line does; other cars keep to the road.
 double middle_bend_per_m(const world::TrackMap& map, std::size_t point) {
-  constexpr double kSpan_m = 75.0;  // to both sides: what is shorter is the survey of the walls
+  constexpr double kSpan_m = 90.0;  // to both sides: what is shorter is the survey of the walls
   const std::size_t count = map.size();
   const double spacing_m = map.length_m() / static_cast<double>(count);
   const auto span = std::min(static_cast<std::size_t>(kSpan_m / spacing_m + 0.5), count);
