@@ -2,7 +2,7 @@
 //   invariants
 //          a track is confirmed by its second detection; on trial it ends with the first frame of
 //          the sensor that began it without a detection of it. A confirmed track ends when its
-//          newest detection is older than coast_s
+//          newest detection is older than coast_s, or when its heir is confirmed
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
