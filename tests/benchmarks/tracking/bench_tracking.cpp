@@ -34,11 +34,13 @@ tracking::Params params_of(Method method) {
   return params;
 }
 
-std::vector<TrackingRow> track_scenes() {
+std::vector<TrackingRow> track_scenes(std::uint64_t seed) {
   std::vector<TrackingJob> jobs;
-  for (const Scene& scene :
-       {tracking_bench::race_scene(), tracking_bench::pair_scene(), tracking_bench::blind_scene()})
+  for (Scene scene : {tracking_bench::race_scene(), tracking_bench::pair_scene(),
+                      tracking_bench::blind_scene()}) {
+    scene.seed = seed;
     for (const Method method : {Method::kPaper, Method::kRoad}) jobs.push_back({scene, method});
+  }
   std::vector<TrackingRow> rows(jobs.size());
   sweep::in_parallel(jobs.size(), kAtATime, [&](std::size_t i) {
     rows[i] = tracking_bench::run_tracking(jobs[i].scene, params_of(jobs[i].method));
@@ -50,12 +52,14 @@ std::vector<TrackingRow> track_scenes() {
 
 int bench_tracking(std::span<const std::string> args) {
   std::string json_file;
+  std::uint64_t seed = 1;
   CommandLine app{"pitwall-benchmarks tracking: trackers on the same detections of other cars"};
   app.option("--json", json_file, "write rows and gates here");
+  app.option("--seed", seed, "of traffic, sensors and our own errors").range(0, 1'000'000);
   if (const auto code = app.ended_by(args)) return *code;
-  const std::vector<TrackingRow> rows = track_scenes();
+  const std::vector<TrackingRow> rows = track_scenes(seed);
   Scene orders_scene = tracking_bench::race_scene();
-  orders_scene.span = kOrdersSpan;
+  orders_scene.span = kOrdersSpan, orders_scene.seed = seed;
   const auto orders =
       tracking_bench::compare_orders(orders_scene, params_of(Method::kRoad), kOrders);
   const auto measured = tracking_bench::measure_tracking_cost(params_of(Method::kRoad), kCostSpan);
@@ -69,6 +73,7 @@ int bench_tracking(std::span<const std::string> args) {
     const std::string json = json::Object{}
                                  .text("bench", "tracking")
                                  .flag("simulation", true)
+                                 .number("seed", seed)
                                  .text("machine", cost::machine_name())
                                  .json("rows", tracking_bench::to_json(rows))
                                  .json("gates", tracking_bench::to_json(gates))

@@ -1,5 +1,5 @@
-// Subcommand `pitwall-benchmarks tracking [--json FILE]`: the paper's tracker and ours on the same
-// detections of other cars, in simulation.
+// Subcommand `pitwall-benchmarks tracking [--seed N] [--json FILE]`: the paper's tracker and
+// ours on the same detections of other cars, in simulation.
 //
 //   in     the scenes of tracking_plan.hpp; two runs at a time
 //   out    the table and gates of tracking_table.hpp, the cost of tracking_cost.hpp

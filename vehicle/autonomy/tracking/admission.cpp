@@ -59,28 +59,28 @@ bool is_in_own_car(const Params& params, double dx_m, double dy_m, const OwnMoti
          std::abs(c * dy_m - s * dx_m) < 0.5 * params.own_width_m;
 }
 
-bool is_on_track(const Params& params, const world::TrackMap& map, DetectionSource source,
+bool is_on_track(const Params& params, const world::TrackMap& map, const FrameKey& sensor,
                  const OwnMotion& own, const Position& at, double distance_m) {
   const world::Curvilinear c = station_of(map, own, at);
   const world::TrackPoint line = map.at(c.s_m);
-  const SightSigma sigma = sight_sigma(params.road, source, distance_m);
+  const SightSigma sigma = sight_sigma(params.road, sensor, distance_m);
   const double margin_m =
       params.wall_margin_m + kWallSigmas * std::fmax(sigma.along_m, sigma.across_m);
   return c.n_m < line.width_left_m + margin_m && c.n_m > -line.width_right_m - margin_m;
 }
 
 // Counts the reason; null for a detection to use.
-std::uint64_t* refusal_of(const Params& params, const Surroundings& around, DetectionSource source,
+std::uint64_t* refusal_of(const Params& params, const Surroundings& around, const FrameKey& sensor,
                           const OwnMotion& own, const Measurement& m, Counters& n) {
-  if (!has_form(source, m)) return &n.not_finite;
+  if (!has_form(sensor.source, m)) return &n.not_finite;
   if (m.confidence < params.confidence_min) return &n.low_confidence;
-  const Position at = position_of(source, own, m);
+  const Position at = position_of(sensor.source, own, m);
   if (!is_set(at.x_m)) return nullptr;  // a bearing
   const double dx_m = at.x_m - own.x_m, dy_m = at.y_m - own.y_m;
   const double distance_m = std::hypot(dx_m, dy_m);
   if (distance_m > params.reach_m) return &n.too_far;
   if (is_in_own_car(params, dx_m, dy_m, own)) return &n.in_own_car;
-  if (around.track != nullptr && !is_on_track(params, *around.track, source, own, at, distance_m))
+  if (around.track != nullptr && !is_on_track(params, *around.track, sensor, own, at, distance_m))
     return &n.off_track;
   return nullptr;
 }
@@ -110,7 +110,7 @@ std::optional<AdmittedFrame> admit(const Params& params, const Surroundings& aro
   admitted.own = *own;
   for (const Detection& d : frame.detections) {
     const Measurement m = measurement_of(frame.source, d);
-    if (std::uint64_t* reason = refusal_of(params, around, frame.source, *own, m, counters))
+    if (std::uint64_t* reason = refusal_of(params, around, admitted.key, *own, m, counters))
       ++*reason;
     else
       (void)admitted.measurements.push(m);

@@ -56,6 +56,7 @@ Track track_of(const RoadParams& params, const world::Opponent& car, const world
       map != nullptr ? params.turn_sigma_rad_per_s : params.plane_turn_sigma_rad_per_s;
   track.p[kAccel][kAccel] = params.accel_sigma_mps2 * params.accel_sigma_mps2;
   track.p[kTurn][kTurn] = turn_sigma * turn_sigma;
+  begin_modes(params, track);
   return track;
 }
 

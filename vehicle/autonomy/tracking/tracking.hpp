@@ -49,7 +49,7 @@ struct State {
   Names names;
   Counters counters;
 };
-static_assert(std::is_trivially_copyable_v<State> && sizeof(State) < 300'000);
+static_assert(std::is_trivially_copyable_v<State> && sizeof(State) < 500'000);
 
 struct Output {
   world::Opponents opponents;

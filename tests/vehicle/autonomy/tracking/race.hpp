@@ -11,6 +11,7 @@
 
 #include "tests/support/instants.hpp"
 #include "tests/vehicle/autonomy/tracking/filter/circle.hpp"
+#include "vehicle/autonomy/tracking/filter/measurement.hpp"
 #include "vehicle/autonomy/tracking/tracking.hpp"
 
 namespace pitwall::tracking::testing {
@@ -36,20 +37,20 @@ struct Race {
   double noise = 1.0;                         // times that of the parameters
   RoadParams sensors{};
 
-  world::Detection noisy(world::DetectionSource source, const TruePose& from, const TruePose& car,
-                         std::mt19937_64& random) const {
+  world::Detection noisy(world::DetectionSource source, std::uint8_t unit, const TruePose& from,
+                         const TruePose& car, std::mt19937_64& random) const {
     world::Detection d = seen(source, from, car);
     const auto add = [&](double& value, double sigma) {
       value += noise * sigma * draw_normal(random);
     };
     if (source == world::DetectionSource::kLidar) {
-      const double sigma_m =
-          sensors.lidar_sigma_m + sensors.lidar_sigma_per_m * std::hypot(d.x_m, d.y_m);
+      const double sigma_m = lidar_sigma_m(sensors, std::hypot(d.x_m, d.y_m));
       add(d.x_m, sigma_m), add(d.y_m, sigma_m), add(d.yaw_rad, sensors.lidar_yaw_sigma_rad);
       add(d.length_m, 0.2), add(d.width_m, 0.1);
     } else if (source == world::DetectionSource::kCamera) {
-      add(d.bearing_rad, sensors.camera_bearing_sigma_rad);
-      add(d.inverse_depth_per_m, sensors.camera_inverse_depth_sigma_per_m);
+      const CameraSigma sigma = camera_sigma(sensors, unit);
+      add(d.bearing_rad, sigma.bearing_rad);
+      add(d.inverse_depth_per_m, sigma.inverse_depth_per_m);
     } else {
       add(d.range_m, sensors.radar_range_sigma_m);
       add(d.bearing_rad, sensors.radar_bearing_sigma_rad);
@@ -65,11 +66,11 @@ struct Race {
     const TruePose mine = own.at(t_s);
     for (const Car& car : cars)
       if (draw_uniform(random) >= miss)
-        (void)f.detections.push(noisy(source, mine, car.at(t_s), random));
+        (void)f.detections.push(noisy(source, unit, mine, car.at(t_s), random));
     if (draw_uniform(random) < false_detections) {
       const Car ghost{.s_m = own.s_m + own.speed_mps * t_s + draw_uniform(random, 10.0, 80.0),
                       .n_m = draw_uniform(random, -8.0, 8.0)};
-      (void)f.detections.push(noisy(source, mine, ghost.at(0.0), random));
+      (void)f.detections.push(noisy(source, unit, mine, ghost.at(0.0), random));
     }
     return f;
   }

@@ -66,5 +66,21 @@ TEST(TrackingCost, FrameThatIsASecondLate) {
   }
 }
 
+// A thousand detections in one tick of 10 ms, after a second without any: half of it at most.
+TEST(TrackingCost, AThousandDetectionsAtOnce) {
+  Race race;
+  for (int i = 0; i < 24; ++i)
+    race.cars.push_back({.s_m = 110.0 + 6.0 * i, .n_m = i % 2 == 0 ? 5.0 : -5.0});
+  Loop loop;
+  loop.drive(race, 0.0, 2.0, race.frames(0.0, 1.0, false, 1));
+  std::mt19937_64 random(12);
+  std::vector<world::DetectionFrame> frames;
+  for (std::uint8_t unit = 0; unit < 42; ++unit)
+    frames.push_back(race.frame(2.0, world::DetectionSource::kLidar, unit, random));
+  const double took_us = least_us(race, loop, 2.01, frames);
+  EXPECT_LE(took_us, 5000.0);
+  std::printf("a thousand detections at once: %.0f us\n", took_us);
+}
+
 }  // namespace
 }  // namespace pitwall::tracking

@@ -10,42 +10,56 @@ namespace pitwall::tracking {
 
 // The method "road": noise of the motion and of the sensors, gates.
 struct RoadParams {
-  // Acceleration and turn rate are noise with this sigma that is forgotten in this time.
-  double accel_sigma_mps2 = 2.0, accel_time_s = 2.0;
-  double turn_sigma_rad_per_s = 0.02, turn_time_s = 1.0;
+  // Acceleration and turn rate are noise that is forgotten in this time. Its sigma is one of two:
+  // of a steady car, and of one that begins to brake, to speed up or to change its lane.
+  double steady_accel_sigma_mps2 = 0.4, accel_sigma_mps2 = 4.0, accel_time_s = 2.0;
+  double steady_turn_sigma_rad_per_s = 0.009, turn_sigma_rad_per_s = 0.03, turn_time_s = 0.6;
+  double steady_s = 20.0, maneuver_s = 6.0;  // mean length of both
   // The same without a map, where the turn rate is that of the road too.
   double plane_turn_sigma_rad_per_s = 0.3, plane_turn_time_s = 5.0;
-  double wander_m_per_sqrt_s = 0.05;  // what the model of the motion leaves out
+  double wander_m_per_sqrt_s = 0.055;  // what the model of the motion leaves out
   // Of a new track, about our own speed and the direction of the road (of our car on a plane).
   double start_speed_sigma_mps = 40.0, start_heading_sigma_rad = 0.15;
-  // Grows with the distance: 0.21 m at 60 m, 0.27 m at 100 m.
-  double lidar_sigma_m = 0.13, lidar_sigma_per_m = 0.0014;
+  // Grows beyond a distance: 0.30 m at 100 m.
+  double lidar_sigma_m = 0.15, lidar_sigma_from_m = 60.0, lidar_sigma_per_m = 0.00375;
   double lidar_yaw_sigma_rad = 0.035;
-  double camera_bearing_sigma_rad = 0.003;
-  // 1 pixel of height of the wide cameras: sigma_h / (f H).
-  double camera_inverse_depth_sigma_per_m = 0.0014;
+  // Camera 0, the narrow one, and the wide ones. Of the depth, the sigma of the height of the image
+  // by focal length and height of the car: 1 and 1.5 pixels.
+  double camera_bearing_sigma_rad = 0.001, wide_camera_bearing_sigma_rad = 0.003;
+  double camera_inverse_depth_sigma_per_m = 0.00042;
+  double wide_camera_inverse_depth_sigma_per_m = 0.0014;
   double radar_range_sigma_m = 0.5, radar_bearing_sigma_rad = 0.0175;
-  double radar_rate_sigma_mps = 0.17;
-  // Chi-square gates by the number of values; these let 0.1 % of the good ones out.
-  double gate_1 = 10.83, gate_2 = 13.82, gate_3 = 16.27;
+  // 0.15 m/s, and the error of our own speed of 0.05 m/s, which is the same for some 40 of them.
+  double radar_rate_sigma_mps = 0.3;
+  // Chi-square gates by the number of values; these let 1 of 100000 good ones out. More would leave
+  // where two modes are one normal distribution.
+  double gate_1 = 19.51, gate_2 = 23.03, gate_3 = 25.90;
   double apart_m = 1.8;      // closer to a confirmed track no track begins
   double size_share = 0.02;  // of a detection in the size, after the first 1 / size_share
 };
 
 inline constexpr auto kRoadRanges = std::to_array<world::NamedRange<RoadParams>>({
-    {"accel_sigma_mps2", &RoadParams::accel_sigma_mps2, 0.1, 20.0},
     {"accel_time_s", &RoadParams::accel_time_s, 0.1, 20.0},
-    {"turn_sigma_rad_per_s", &RoadParams::turn_sigma_rad_per_s, 0.001, 1.0},
     {"turn_time_s", &RoadParams::turn_time_s, 0.1, 20.0},
+    {"steady_accel_sigma_mps2", &RoadParams::steady_accel_sigma_mps2, 0.01, 20.0},
+    {"accel_sigma_mps2", &RoadParams::accel_sigma_mps2, 0.1, 20.0},
+    {"steady_turn_sigma_rad_per_s", &RoadParams::steady_turn_sigma_rad_per_s, 1e-4, 1.0},
+    {"turn_sigma_rad_per_s", &RoadParams::turn_sigma_rad_per_s, 0.001, 1.0},
+    {"steady_s", &RoadParams::steady_s, 0.1, 1000.0},
+    {"maneuver_s", &RoadParams::maneuver_s, 0.1, 1000.0},
     {"plane_turn_sigma_rad_per_s", &RoadParams::plane_turn_sigma_rad_per_s, 0.001, 2.0},
     {"plane_turn_time_s", &RoadParams::plane_turn_time_s, 0.1, 60.0},
     {"wander_m_per_sqrt_s", &RoadParams::wander_m_per_sqrt_s, 0.0, 2.0},
     {"start_speed_sigma_mps", &RoadParams::start_speed_sigma_mps, 1.0, 100.0},
     {"start_heading_sigma_rad", &RoadParams::start_heading_sigma_rad, 0.01, 1.5},
     {"lidar_sigma_m", &RoadParams::lidar_sigma_m, 0.01, 2.0},
+    {"lidar_sigma_from_m", &RoadParams::lidar_sigma_from_m, 0.0, 300.0},
     {"lidar_sigma_per_m", &RoadParams::lidar_sigma_per_m, 0.0, 0.05},
     {"lidar_yaw_sigma_rad", &RoadParams::lidar_yaw_sigma_rad, 0.005, 0.5},
     {"camera_bearing_sigma_rad", &RoadParams::camera_bearing_sigma_rad, 0.0002, 0.1},
+    {"wide_camera_bearing_sigma_rad", &RoadParams::wide_camera_bearing_sigma_rad, 0.0002, 0.1},
+    {"wide_camera_inverse_depth_sigma_per_m", &RoadParams::wide_camera_inverse_depth_sigma_per_m,
+     1e-5, 0.02},
     {"camera_inverse_depth_sigma_per_m", &RoadParams::camera_inverse_depth_sigma_per_m, 1e-5, 0.02},
     {"radar_range_sigma_m", &RoadParams::radar_range_sigma_m, 0.02, 5.0},
     {"radar_bearing_sigma_rad", &RoadParams::radar_bearing_sigma_rad, 0.0005, 0.2},

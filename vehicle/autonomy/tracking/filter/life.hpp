@@ -2,7 +2,7 @@
 //   invariants
 //          a track is confirmed by its second detection; on trial it ends with the first frame of
 //          the sensor that began it without a detection of it. A confirmed track ends when its
-//          newest detection is older than coast_s
+//          newest detection is older than coast_s, or when its heir is confirmed
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -16,6 +16,14 @@ namespace pitwall::tracking {
 // A detection of the frame belongs to the track: its first one, or another one.
 void note_first(const Frame& frame, std::size_t index, Track& track);
 void note_detection(const Frame& frame, std::size_t index, Track& track);
+
+// Whether a confirmed track was not seen for so long that a detection near it may be another car's,
+// or none: it does not go on with one detection, but with a heir.
+bool is_lost(const Frame& frame, const Track& track);
+
+// The track as it is with a detection of the frame, on trial. Confirmed, it takes the place of the
+// lost track.
+Track heir_of(const Track& lost, const Frame& frame, std::size_t index);
 
 // Adds a track on trial; counts it in `crowded` where there is no room.
 void add_track(const Track& track, Tracks& tracks);

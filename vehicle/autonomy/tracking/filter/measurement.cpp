@@ -95,11 +95,47 @@ double half_turn(double angle_rad) {
 Innovation lidar_reading(const RoadParams& params, const OwnMotion& own, const Measurement& m) {
   const Position at = position_of(DetectionSource::kLidar, own, m);
   const double distance_m = std::hypot(m.value[0], m.value[1]);
-  const double variance = square(sight_sigma(params, DetectionSource::kLidar, distance_m).along_m);
+  const double variance = square(lidar_sigma_m(params, distance_m));
   const bool yaw = std::isfinite(m.value[2]);
   return {.size = yaw ? 3U : 2U,
           .value = {at.x_m, at.y_m, yaw ? own.yaw_rad + m.value[2] : 0.0},
           .variance = {variance, variance, square(params.lidar_yaw_sigma_rad)}};
+}
+
+// How well a mode expected a detection.
+struct Fit {
+  double square = 0.0;  // Mahalanobis distance
+  double det = 1.0;     // of the covariance of the innovation
+};
+
+// Value by value: their noise is independent. `x` is relative to the states of the expectation.
+Fit update_mode(const Expectation& e, const Innovation& in, RoadVector& x, RoadMatrix& p) {
+  Fit fit;
+  for (std::size_t k = 0; k < in.size; ++k) {
+    const auto& h = e.jacobian[k];
+    RoadVector ph{};
+    double rest = in.value[k], variance = in.variance[k];
+    for (std::size_t j = 0; j < h.size(); ++j) {
+      for (std::size_t i = 0; i < kRoadStates; ++i) ph[i] += h[j] * p[j][i];
+      rest -= h[j] * x[j];
+    }
+    for (std::size_t j = 0; j < h.size(); ++j) variance += h[j] * ph[j];
+    const double share = 1.0 / variance;
+    fit.square += rest * rest * share, fit.det *= variance;
+    for (std::size_t i = 0; i < kRoadStates; ++i) {
+      const double gain = share * ph[i];
+      x[i] += gain * rest;
+      for (std::size_t j = 0; j < kRoadStates; ++j) p[i][j] -= gain * ph[j];
+    }
+  }
+  return fit;
+}
+
+// Bounded, so that no mode is ever ruled out.
+double likelihood_ratio(const Fit& a, const Fit& b) {
+  constexpr double kMost = 1e6;
+  const double ratio = std::exp(0.5 * (b.square - a.square)) * std::sqrt(b.det / a.det);
+  return std::clamp(ratio, 1.0 / kMost, kMost);
 }
 
 }  // namespace
@@ -162,15 +198,15 @@ Spread spread_of(const Expectation& e, const StateMatrix& p) {
   return s;
 }
 
-Innovation reading_of(const RoadParams& params, DetectionSource source, const OwnMotion& own,
+Innovation reading_of(const RoadParams& params, const FrameKey& sensor, const OwnMotion& own,
                       const Measurement& m) {
-  switch (source) {
+  switch (sensor.source) {
     case DetectionSource::kCamera: {
       const bool depth = std::isfinite(m.value[1]);
+      const CameraSigma sigma = camera_sigma(params, sensor.unit);
       return {.size = depth ? 2U : 1U,
               .value = {m.value[0], depth ? m.value[1] : 0.0, 0.0},
-              .variance = {square(params.camera_bearing_sigma_rad),
-                           square(params.camera_inverse_depth_sigma_per_m), 0.0}};
+              .variance = {square(sigma.bearing_rad), square(sigma.inverse_depth_per_m), 0.0}};
     }
     case DetectionSource::kRadar: {
       const bool rate = std::isfinite(m.value[2]);
@@ -216,21 +252,23 @@ Distance distance_of(const Spread& spread, const Innovation& in, double most) {
   return d;
 }
 
-// With G = P H' L'^-1: x += G L^-1 v, P -= G G'.
-void update(const Spread& spread, const Innovation& in, const world::TrackMap* map, Track& track) {
-  const Square l = factor_of(spread, in);
-  const Values y = solved(l, in.size, in.value);
-  std::array<Values, kRoadStates> g;
-  for (std::size_t i = 0; i < kRoadStates; ++i) g[i] = solved(l, in.size, spread.states[i]);
+void update(const Expectation& e, const Innovation& in, const world::TrackMap* map, Track& track) {
+  Modes& m = track.modes;
+  std::array<RoadVector, kModes> x;
+  std::array<Fit, kModes> fit;
+  for (std::size_t mode = 0; mode < kModes; ++mode) {
+    for (std::size_t i = 0; i < kRoadStates; ++i) x[mode][i] = offset_of(m, mode, i);
+    fit[mode] = update_mode(e, in, x[mode], m.p[mode]);
+  }
+  const double odds = likelihood_ratio(fit[kManeuver], fit[kSteady]) * m.maneuver;
+  m.maneuver = odds / (odds + 1.0 - m.maneuver);
   for (std::size_t i = 0; i < kRoadStates; ++i) {
-    for (std::size_t k = 0; k < in.size; ++k) track.x[i] += g[i][k] * y[k];
-    for (std::size_t j = 0; j <= i; ++j) {
-      for (std::size_t k = 0; k < in.size; ++k) track.p[i][j] -= g[i][k] * g[j][k];
-      track.p[j][i] = track.p[i][j];
-    }
+    m.apart[i] = x[kManeuver][i] - x[kSteady][i];
+    track.x[i] += x[kSteady][i] + m.maneuver * m.apart[i];
   }
   track.x[kHeading] = wrap_pi(track.x[kHeading]);
   if (map != nullptr) track.x[kAlong] = map->wrap_station(track.x[kAlong]);
+  join_modes(track);
 }
 
 Position position_of(DetectionSource source, const OwnMotion& own, const Measurement& m) {
@@ -252,17 +290,27 @@ world::Curvilinear station_of(const world::TrackMap& map, const OwnMotion& own,
   return map.project(at.x_m, at.y_m, own.s_m + std::copysign(std::hypot(dx_m, dy_m), ahead_m));
 }
 
-SightSigma sight_sigma(const RoadParams& p, DetectionSource source, double distance_m) {
-  switch (source) {
-    case DetectionSource::kCamera:
-      return {distance_m * distance_m * p.camera_inverse_depth_sigma_per_m,
-              distance_m * p.camera_bearing_sigma_rad};
+double lidar_sigma_m(const RoadParams& p, double distance_m) {
+  return p.lidar_sigma_m + p.lidar_sigma_per_m * std::max(0.0, distance_m - p.lidar_sigma_from_m);
+}
+
+CameraSigma camera_sigma(const RoadParams& p, std::uint8_t unit) {
+  if (unit == 0) return {p.camera_bearing_sigma_rad, p.camera_inverse_depth_sigma_per_m};
+  return {p.wide_camera_bearing_sigma_rad, p.wide_camera_inverse_depth_sigma_per_m};
+}
+
+SightSigma sight_sigma(const RoadParams& p, const FrameKey& sensor, double distance_m) {
+  switch (sensor.source) {
+    case DetectionSource::kCamera: {
+      const CameraSigma sigma = camera_sigma(p, sensor.unit);
+      return {distance_m * distance_m * sigma.inverse_depth_per_m, distance_m * sigma.bearing_rad};
+    }
     case DetectionSource::kRadar:
       return {p.radar_range_sigma_m, distance_m * p.radar_bearing_sigma_rad};
     case DetectionSource::kLidar:
       break;
   }
-  const double sigma_m = p.lidar_sigma_m + p.lidar_sigma_per_m * distance_m;
+  const double sigma_m = lidar_sigma_m(p, distance_m);
   return {sigma_m, sigma_m};
 }
 

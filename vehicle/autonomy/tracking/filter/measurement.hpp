@@ -52,7 +52,7 @@ struct Innovation {
   std::size_t size = 0;
   Values value{}, variance{};
 };
-Innovation reading_of(const RoadParams& params, world::DetectionSource source, const OwnMotion& own,
+Innovation reading_of(const RoadParams& params, const FrameKey& sensor, const OwnMotion& own,
                       const Measurement& m);
 // Read minus expected.
 Innovation innovation_of(world::DetectionSource source, const Innovation& reading,
@@ -65,8 +65,10 @@ struct Distance {
 // The square is infinite where one value alone is beyond `most`.
 Distance distance_of(const Spread& spread, const Innovation& innovation, double most);
 
-void update(const Spread& spread, const Innovation& innovation, const world::TrackMap* map,
-            Track& track);
+// Updates both modes, and by how well each expected it their probability. The innovation is that of
+// the expectation.
+void update(const Expectation& expectation, const Innovation& innovation,
+            const world::TrackMap* map, Track& track);
 
 // Position of a detection in Map; unset for a bearing without a depth.
 struct Position {
@@ -78,10 +80,17 @@ Position position_of(world::DetectionSource source, const OwnMotion& own, const 
 // the position is away.
 world::Curvilinear station_of(const world::TrackMap& map, const OwnMotion& own, const Position& at);
 
+// Noise of a box in each axis, and of one of the cameras.
+double lidar_sigma_m(const RoadParams& params, double distance_m);
+struct CameraSigma {
+  double bearing_rad, inverse_depth_per_m;
+};
+CameraSigma camera_sigma(const RoadParams& params, std::uint8_t unit);
+
 // Standard deviation along and across the line of sight, at a distance.
 struct SightSigma {
   double along_m, across_m;
 };
-SightSigma sight_sigma(const RoadParams& params, world::DetectionSource source, double distance_m);
+SightSigma sight_sigma(const RoadParams& params, const FrameKey& sensor, double distance_m);
 
 }  // namespace pitwall::tracking

@@ -11,11 +11,9 @@ namespace {
 constexpr double kStepMax_s = 0.1;
 constexpr double kRadiusLeftMin = 0.2;  // of 1 - kappa n, which is positive between the walls
 
-using Road6 = std::array<std::array<double, kRoadStates>, kRoadStates>;
-
 // F P: rows of the positions are full, the others add one state to another.
-Road6 times_covariance(const MotionStep& step, const Advance& a, const StateMatrix& p) {
-  Road6 fp;
+RoadMatrix times_covariance(const MotionStep& step, const Advance& a, const RoadMatrix& p) {
+  RoadMatrix fp;
   for (std::size_t j = 0; j < kRoadStates; ++j) {
     for (std::size_t i = 0; i < 2; ++i) {
       double sum = 0.0;
@@ -30,15 +28,16 @@ Road6 times_covariance(const MotionStep& step, const Advance& a, const StateMatr
   return fp;
 }
 
-void add_noise(const Fading& f, std::size_t integral, std::size_t value, StateMatrix& p) {
-  p[value][value] += f.value_variance;
-  p[integral][integral] += f.integral_variance;
-  p[integral][value] += f.covariance;
-  p[value][integral] += f.covariance;
+void add_noise(const Fading& f, double variance, std::size_t integral, std::size_t value,
+               RoadMatrix& p) {
+  p[value][value] += variance * f.value_variance;
+  p[integral][integral] += variance * f.integral_variance;
+  p[integral][value] += variance * f.covariance;
+  p[value][integral] += variance * f.covariance;
 }
 
-void move_covariance(const MotionStep& step, const Advance& a, StateMatrix& p) {
-  const Road6 fp = times_covariance(step, a, p);
+void move_covariance(const MotionStep& step, const Advance& a, std::size_t mode, RoadMatrix& p) {
+  const RoadMatrix fp = times_covariance(step, a, p);
   for (std::size_t i = 0; i < kRoadStates; ++i) {
     const auto& row = fp[i];
     for (std::size_t j = 0; j < 2; ++j) {
@@ -53,35 +52,67 @@ void move_covariance(const MotionStep& step, const Advance& a, StateMatrix& p) {
   }
   for (std::size_t i = 0; i < kRoadStates; ++i)
     for (std::size_t j = 0; j < i; ++j) p[i][j] = p[j][i];
-  add_noise(step.accel, kSpeed, kAccel, p);
-  add_noise(step.turn, kHeading, kTurn, p);
+  add_noise(step.accel, step.accel_variance[mode], kSpeed, kAccel, p);
+  add_noise(step.turn, step.turn_variance[mode], kHeading, kTurn, p);
   p[kAlong][kAlong] += step.wander_variance;
   p[kAcross][kAcross] += step.wander_variance;
 }
 
+void move_apart(const MotionStep& step, const Advance& a, RoadVector& d) {
+  const RoadVector before = d;
+  for (std::size_t i = 0; i < 2; ++i) {
+    d[i] = 0.0;
+    for (std::size_t k = 0; k < kRoadStates; ++k) d[i] += a.jacobian[i][k] * before[k];
+  }
+  d[kHeading] += step.turn.gain_s * before[kTurn];
+  d[kSpeed] += step.accel.gain_s * before[kAccel];
+  d[kAccel] *= step.accel.kept;
+  d[kTurn] *= step.turn.kept;
+}
+
+std::size_t nearest_point(const world::TrackMap& map, double s_m) {
+  const auto count = static_cast<double>(map.size());
+  const double place = std::round(map.wrap_station(s_m) / map.length_m() * count);
+  return place < count ? static_cast<std::size_t>(place) : 0;
+}
+
 // Second derivative of the middle between the walls against the reference line, over the lap. A
 // reference line may swing from wall to wall, as a racing line does; other cars keep to the road.
-double middle_bend_per_m(const world::TrackMap* map, double s_m) {
-  if (map == nullptr) return 0.0;
-  constexpr double kSpan_m = 75.0;  // to both sides: what is shorter is the survey of the walls
-  const auto count = static_cast<double>(map->size());
-  const auto middle_m = [&](double at_s_m) {
-    const double place = std::round(map->wrap_station(at_s_m) / map->length_m() * count);
-    const world::TrackPoint& point = map->point(static_cast<std::size_t>(place) % map->size());
-    return 0.5 * (point.width_left_m - point.width_right_m);
+double middle_bend_per_m(const world::TrackMap& map, std::size_t point) {
+  constexpr double kSpan_m = 90.0;  // to both sides: what is shorter is the survey of the walls
+  const std::size_t count = map.size();
+  const double spacing_m = map.length_m() / static_cast<double>(count);
+  const auto span = std::min(static_cast<std::size_t>(kSpan_m / spacing_m + 0.5), count);
+  const auto middle_m = [&](std::size_t i) {
+    const world::TrackPoint& p = map.point(i < count ? i : i - count);
+    return 0.5 * (p.width_left_m - p.width_right_m);
   };
-  return (middle_m(s_m + kSpan_m) - 2.0 * middle_m(s_m) + middle_m(s_m - kSpan_m)) /
-         (kSpan_m * kSpan_m);
+  const double span_m = static_cast<double>(span) * spacing_m;
+  return (middle_m(point + span) - 2.0 * middle_m(point) + middle_m(point + count - span)) /
+         (span_m * span_m);
+}
+
+struct Bend {
+  double road_per_m = 0.0, middle_per_m = 0.0;
+};
+
+Bend bend_at(const world::TrackMap* map, double s_m) {
+  if (map == nullptr) return {};
+  const std::size_t point = nearest_point(*map, s_m);
+  return {map->point(point).curvature_per_m, middle_bend_per_m(*map, point)};
 }
 
 void take_step(const MotionStep& step, const world::TrackMap* map, Track& track) {
   const double half_way_m = track.x[kAlong] + 0.5 * step.dt_s * track.x[kSpeed];
-  const Advance a = advanced(step, curvature_at(map, half_way_m), track.x);
+  const Bend bend = bend_at(map, half_way_m);
+  const Advance a = advanced(step, bend.road_per_m, track.x);
   track.x = a.x;
-  track.x[kHeading] =
-      wrap_pi(track.x[kHeading] + step.dt_s * track.x[kSpeed] * middle_bend_per_m(map, half_way_m));
+  track.x[kHeading] = wrap_pi(track.x[kHeading] + step.dt_s * track.x[kSpeed] * bend.middle_per_m);
   if (map != nullptr) track.x[kAlong] = map->wrap_station(track.x[kAlong]);
-  move_covariance(step, a, track.p);
+  mix_modes(step.change, track.modes);
+  move_apart(step, a, track.modes.apart);
+  for (std::size_t mode = 0; mode < kModes; ++mode)
+    move_covariance(step, a, mode, track.modes.p[mode]);
 }
 
 void coast_all(const RoadParams& params, const world::TrackMap* map, Duration time,
@@ -91,6 +122,11 @@ void coast_all(const RoadParams& params, const world::TrackMap* map, Duration ti
   const MotionStep step = motion_step(params, map != nullptr, time.seconds() / steps);
   for (double k = 0.0; k < steps; k += 1.0)
     for (Track& track : tracks) take_step(step, map, track);
+  for (Track& track : tracks) join_modes(track);
+}
+
+std::array<double, kModes> squares(double steady, double maneuver) {
+  return {steady * steady, maneuver * maneuver};
 }
 
 }  // namespace
@@ -115,18 +151,17 @@ Fading fading(double sigma, double time_s, double dt_s) {
 
 MotionStep motion_step(const RoadParams& p, bool with_map, double dt_s) {
   return {.dt_s = dt_s,
-          .accel = fading(p.accel_sigma_mps2, p.accel_time_s, dt_s),
-          .turn = with_map ? fading(p.turn_sigma_rad_per_s, p.turn_time_s, dt_s)
-                           : fading(p.plane_turn_sigma_rad_per_s, p.plane_turn_time_s, dt_s),
-          .wander_variance = p.wander_m_per_sqrt_s * p.wander_m_per_sqrt_s * dt_s};
+          .accel = fading(1.0, p.accel_time_s, dt_s),
+          .turn = fading(1.0, with_map ? p.turn_time_s : p.plane_turn_time_s, dt_s),
+          .accel_variance = squares(p.steady_accel_sigma_mps2, p.accel_sigma_mps2),
+          .turn_variance =
+              with_map ? squares(p.steady_turn_sigma_rad_per_s, p.turn_sigma_rad_per_s)
+                       : squares(p.plane_turn_sigma_rad_per_s, p.plane_turn_sigma_rad_per_s),
+          .wander_variance = p.wander_m_per_sqrt_s * p.wander_m_per_sqrt_s * dt_s,
+          .change = mode_change(p, dt_s)};
 }
 
-double curvature_at(const world::TrackMap* map, double s_m) {
-  if (map == nullptr) return 0.0;
-  const auto count = static_cast<double>(map->size());
-  const double nearest = std::round(map->wrap_station(s_m) / map->length_m() * count);
-  return map->point(static_cast<std::size_t>(nearest) % map->size()).curvature_per_m;
-}
+double curvature_at(const world::TrackMap* map, double s_m) { return bend_at(map, s_m).road_per_m; }
 
 double road_turn_of(double curvature_per_m, const StateVector& x) {
   const double left = std::max(1.0 - curvature_per_m * x[kAcross], kRadiusLeftMin);

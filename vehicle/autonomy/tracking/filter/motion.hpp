@@ -15,6 +15,7 @@
 
 #include "protocol/vocabulary/time.hpp"
 #include "vehicle/autonomy/tracking/filter/filter_params.hpp"
+#include "vehicle/autonomy/tracking/filter/modes.hpp"
 #include "vehicle/autonomy/tracking/filter/track.hpp"
 #include "vehicle/world/track_map.hpp"
 
@@ -22,7 +23,7 @@ namespace pitwall::tracking {
 
 // Indices of the states of the method "road".
 inline constexpr std::size_t kAlong = 0, kAcross = 1, kHeading = 2, kSpeed = 3, kAccel = 4,
-                             kTurn = 5, kRoadStates = 6;
+                             kTurn = 5;
 
 // Value that is forgotten with time, and its integral, over one step.
 struct Fading {
@@ -38,8 +39,10 @@ Fading fading(double sigma, double time_s, double dt_s);
 // Constants of a step, the same for all tracks.
 struct MotionStep {
   double dt_s = 0.0;
-  Fading accel, turn;
+  Fading accel, turn;  // of a sigma of one
+  std::array<double, kModes> accel_variance{}, turn_variance{};
   double wander_variance = 0.0;
+  ModeChange change;
 };
 MotionStep motion_step(const RoadParams& params, bool with_map, double dt_s);
 

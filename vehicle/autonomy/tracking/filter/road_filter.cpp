@@ -9,6 +9,7 @@
 #include "vehicle/autonomy/tracking/filter/association.hpp"
 #include "vehicle/autonomy/tracking/filter/life.hpp"
 #include "vehicle/autonomy/tracking/filter/measurement.hpp"
+#include "vehicle/autonomy/tracking/filter/modes.hpp"
 #include "vehicle/autonomy/tracking/filter/motion.hpp"
 
 namespace pitwall::tracking {
@@ -17,7 +18,7 @@ namespace {
 using world::DetectionSource;
 using world::TrackMap;
 
-constexpr double kTrialCost = 1e3;  // a confirmed track has the first choice
+constexpr double kTrialCost = 1e3, kLostCost = 2e3;  // a confirmed track has the first choice
 // A detection this many gates away from a track without another one is no new car.
 constexpr double kNearGates = 2.0;
 constexpr double kBackwards_mps = 2.0;     // faster than that a car does not roll back
@@ -37,22 +38,27 @@ double gate_of(const RoadParams& p, std::size_t values) {
   return values == 1 ? p.gate_1 : values == 2 ? p.gate_2 : p.gate_3;
 }
 
+double handicap_of(const Frame& frame, const Track& track) {
+  if (!track.confirmed) return kTrialCost;
+  return is_lost(frame, track) ? kLostCost : 0.0;
+}
+
 void judge_pair(const RoadParams& params, const Frame& frame, const Track& track, std::size_t t,
                 std::size_t d, Gates& g) {
   const Innovation in = innovation_of(frame.key.source, g.reading[d], g.expected[t]);
   const double gate = gate_of(params, in.size);
   const Distance distance = distance_of(g.spread[t], in, kNearGates * gate);
   g.near[t][d] = distance.square <= kNearGates * gate;
-  g.costs.cost[t][d] = distance.square <= gate ? distance.square + distance.log_det +
-                                                     (track.confirmed ? 0.0 : kTrialCost)
-                                               : Costs::kOutside;
+  g.costs.cost[t][d] = distance.square <= gate
+                           ? distance.square + distance.log_det + handicap_of(frame, track)
+                           : Costs::kOutside;
 }
 
 void judge_pairs(const RoadParams& params, const TrackMap* map, const Frame& frame,
                  const Tracks& tracks, Gates& g) {
   g.costs.tracks = tracks.list.size(), g.costs.detections = frame.measurements.size();
   for (std::size_t d = 0; d < frame.measurements.size(); ++d)
-    g.reading[d] = reading_of(params, frame.key.source, frame.own, frame.measurements[d]);
+    g.reading[d] = reading_of(params, frame.key, frame.own, frame.measurements[d]);
   for (std::size_t t = 0; t < tracks.list.size(); ++t) {
     const Track& track = tracks.list[t];
     g.place[t] = place_of(map, track.x);
@@ -79,24 +85,37 @@ void turn_around(Track& track) {
   track.x[kHeading] = wrap_pi(track.x[kHeading] + std::numbers::pi);
   for (const std::size_t i : {kSpeed, kAccel}) {
     track.x[i] = -track.x[i];
-    for (std::size_t j = 0; j < kRoadStates; ++j) {
-      track.p[i][j] = -track.p[i][j];
-      track.p[j][i] = -track.p[j][i];
-    }
+    track.modes.apart[i] = -track.modes.apart[i];
+    for (RoadMatrix& p : track.modes.p)
+      for (std::size_t j = 0; j < kRoadStates; ++j) {
+        p[i][j] = -p[i][j];
+        p[j][i] = -p[j][i];
+      }
   }
+  join_modes(track);
+}
+
+void update_track(const RoadParams& params, const TrackMap* map, const Frame& frame, const Gates& g,
+                  std::size_t t, std::size_t d, Track& track) {
+  update(g.expected[t], innovation_of(frame.key.source, g.reading[d], g.expected[t]), map, track);
+  if (map == nullptr) turn_around(track);
+  if (frame.key.source == DetectionSource::kLidar)
+    average_size(params, frame.measurements[d], track);
 }
 
 void update_tracks(const RoadParams& params, const TrackMap* map, const Frame& frame,
                    const Gates& g, const Assignment& a, Tracks& tracks) {
   for (std::size_t t = 0; t < g.costs.tracks; ++t) {
     if (a.of_track[t] == kNone) continue;
-    Track& track = tracks.list[t];
     const std::size_t d = a.of_track[t];
-    update(g.spread[t], innovation_of(frame.key.source, g.reading[d], g.expected[t]), map, track);
-    if (map == nullptr) turn_around(track);
-    if (frame.key.source == DetectionSource::kLidar)
-      average_size(params, frame.measurements[d], track);
-    note_detection(frame, d, track);
+    if (is_lost(frame, tracks.list[t])) {
+      Track heir = heir_of(tracks.list[t], frame, d);
+      update_track(params, map, frame, g, t, d, heir);
+      add_track(heir, tracks);
+    } else {
+      update_track(params, map, frame, g, t, d, tracks.list[t]);
+      note_detection(frame, d, tracks.list[t]);
+    }
   }
 }
 
@@ -149,14 +168,14 @@ void set_heading(const RoadParams& params, const TrackMap* map, const Frame& fra
 void use_range_rate(const RoadParams& params, const TrackMap* map, const Frame& frame,
                     const Measurement& m, Track& track) {
   const Expectation e = expectation_of(DetectionSource::kRadar, frame.own, place_of(map, track.x));
-  const Innovation all = innovation_of(
-      DetectionSource::kRadar, reading_of(params, DetectionSource::kRadar, frame.own, m), e);
+  const Innovation all =
+      innovation_of(DetectionSource::kRadar, reading_of(params, frame.key, frame.own, m), e);
   if (all.size < kValuesMax) return;
   Expectation rate;
   rate.jacobian[0] = e.jacobian[2];
   Innovation in{.size = 1};
   in.value[0] = all.value[2], in.variance[0] = all.variance[2];
-  update(spread_of(rate, track.p), in, map, track);
+  update(rate, in, map, track);
 }
 
 }  // namespace
@@ -196,7 +215,7 @@ std::optional<Track> first_track(const RoadParams& params, const TrackMap* map, 
   set_heading(params, map, frame, m, road_rad, track);
   const double sight_rad = std::atan2(at.y_m - own.y_m, at.x_m - own.x_m);
   const double distance_m = std::hypot(at.x_m - own.x_m, at.y_m - own.y_m);
-  set_position_covariance(sight_sigma(params, source, distance_m), sight_rad - road_rad, left,
+  set_position_covariance(sight_sigma(params, frame.key, distance_m), sight_rad - road_rad, left,
                           track.p);
   track.x[kSpeed] = std::hypot(own.vx_mps, own.vy_mps);
   track.p[kSpeed][kSpeed] = params.start_speed_sigma_mps * params.start_speed_sigma_mps;
@@ -204,6 +223,7 @@ std::optional<Track> first_track(const RoadParams& params, const TrackMap* map, 
   const double turn_sigma =
       map != nullptr ? params.turn_sigma_rad_per_s : params.plane_turn_sigma_rad_per_s;
   track.p[kTurn][kTurn] = turn_sigma * turn_sigma;
+  begin_modes(params, track);
   if (source == DetectionSource::kLidar) average_size(params, m, track);
   if (source == DetectionSource::kRadar) use_range_rate(params, map, frame, m, track);
   return track;

@@ -30,19 +30,33 @@ inline constexpr std::size_t kStates = 7;
 using StateVector = std::array<double, kStates>;
 using StateMatrix = std::array<std::array<double, kStates>, kStates>;
 
+inline constexpr std::size_t kRoadStates = 6;  // of the method "road"
+using RoadVector = std::array<double, kRoadStates>;
+using RoadMatrix = std::array<RoadVector, kRoadStates>;
+
+// The two ways in which a car may move at the moment, see modes.hpp.
+inline constexpr std::size_t kSteady = 0, kManeuver = 1, kModes = 2;
+struct Modes {
+  double maneuver = 0.0;               // probability
+  RoadVector apart{};                  // states in a maneuver minus those of a steady car
+  std::array<RoadMatrix, kModes> p{};  // covariances
+};
+
 // States of the method "road" (the seventh is not used): position along and across, heading,
 // speed, acceleration, turn rate (beyond that of the road). States of the method "paper": x, y,
 // yaw, length, width, vx, vy.
 struct Track {
   StateVector x{};
-  StateMatrix p{};  // covariance
+  StateMatrix p{};  // covariance; of "road" that of both modes together
+  Modes modes;      // of "road"
   double length_m = kUnset, width_m = kUnset;
   double confidence = kUnset;    // of its newest detection
   std::uint32_t sizes = 0;       // detections in length_m and width_m
   std::uint32_t detections = 0;  // that belong to it
   bool confirmed = false;
   DetectionKey first, previous, newest;
-  Instant born_at{};  // confirmed
+  DetectionKey tried;  // first one of the trial
+  Instant born_at{};   // confirmed
 };
 
 inline constexpr std::size_t kTracksMax = 24;  // confirmed and on trial

@@ -13,6 +13,7 @@
 
 #include "tests/support/instants.hpp"
 #include "tests/vehicle/autonomy/tracking/filter/circle.hpp"
+#include "vehicle/autonomy/tracking/filter/measurement.hpp"
 #include "vehicle/autonomy/tracking/filter/motion.hpp"
 #include "vehicle/autonomy/tracking/filter/road_filter.hpp"
 
@@ -78,11 +79,11 @@ Measurement noisy(const RoadParams& p, DetectionSource source, const TruePose& o
   Measurement m = measured(source, seen(source, own, car));
   const auto add = [&](std::size_t i, double sigma) { m.value[i] += sigma * draw_normal(random); };
   if (source == DetectionSource::kLidar) {
-    const double sigma_m =
-        p.lidar_sigma_m + p.lidar_sigma_per_m * std::hypot(m.value[0], m.value[1]);
+    const double sigma_m = lidar_sigma_m(p, std::hypot(m.value[0], m.value[1]));
     add(0, sigma_m), add(1, sigma_m), add(2, p.lidar_yaw_sigma_rad);
   } else if (source == DetectionSource::kCamera) {
-    add(0, p.camera_bearing_sigma_rad), add(1, p.camera_inverse_depth_sigma_per_m);
+    const CameraSigma sigma = camera_sigma(p, 0);
+    add(0, sigma.bearing_rad), add(1, sigma.inverse_depth_per_m);
   } else {
     add(0, p.radar_range_sigma_m), add(1, p.radar_bearing_sigma_rad);
     add(2, p.radar_rate_sigma_mps);
@@ -94,7 +95,9 @@ Measurement noisy(const RoadParams& p, DetectionSource source, const TruePose& o
 double mean_error(bool on_road, const std::vector<DetectionSource>& sensors) {
   const world::TrackMap map = circle();
   RoadParams params;
-  params.turn_sigma_rad_per_s = 0.01;  // or a car leaves the road within seconds
+  params.steady_accel_sigma_mps2 = params.accel_sigma_mps2 = 2.0;  // the modes are one
+  params.steady_turn_sigma_rad_per_s = params.turn_sigma_rad_per_s =
+      0.01;  // or a car leaves the road within seconds
   params.plane_turn_sigma_rad_per_s = 0.1;
   params.gate_1 = params.gate_2 = params.gate_3 = 50.0;  // or the worst errors are left out
   const world::TrackMap* ground = on_road ? &map : nullptr;
@@ -103,7 +106,9 @@ double mean_error(bool on_road, const std::vector<DetectionSource>& sensors) {
   for (int seed = 0; seed < kCars; ++seed) {
     std::mt19937_64 random(static_cast<std::uint64_t>(seed) + 1);
     RandomCar own{0, -3.0, 0, 60.0, 0, 0}, car{40.0, 2.0, 0.0, 60.0, 0, 0};
-    const RoadParams still{.accel_sigma_mps2 = 0,
+    const RoadParams still{.steady_accel_sigma_mps2 = 0,
+                           .accel_sigma_mps2 = 0,
+                           .steady_turn_sigma_rad_per_s = 0,
                            .turn_sigma_rad_per_s = 0,
                            .plane_turn_sigma_rad_per_s = 0,
                            .wander_m_per_sqrt_s = 0};

@@ -56,7 +56,8 @@ TEST(TrackMeasurement, ExpectsWhatIsMeasured) {
   for (const DetectionSource source : kAll) {
     const Measurement m = measured(source, seen(source, kOwn, car));
     const Expectation e = expectation_of(source, own, place_of(&map, x));
-    const Innovation in = innovation_of(source, reading_of(RoadParams{}, source, own, m), e);
+    const Innovation in =
+        innovation_of(source, reading_of(RoadParams{}, {.source = source}, own, m), e);
     ASSERT_EQ(in.size, values_of(source));
     for (std::size_t i = 0; i < in.size; ++i) EXPECT_NEAR(in.value[i], 0.0, 1e-6) << i;
     const Position at = position_of(source, own, m);
@@ -73,15 +74,16 @@ TEST(TrackMeasurement, TurnedBoxIsTheSameBox) {
   Measurement m = measured(DetectionSource::kLidar, seen(DetectionSource::kLidar, kOwn, car));
   const Expectation e{.value = {car.x_m, car.y_m, car.yaw_rad}};
   m.value[2] += std::numbers::pi;
-  const Innovation in = innovation_of(DetectionSource::kLidar,
-                                      reading_of(RoadParams{}, DetectionSource::kLidar, own, m), e);
+  const Innovation in =
+      innovation_of(DetectionSource::kLidar,
+                    reading_of(RoadParams{}, {.source = DetectionSource::kLidar}, own, m), e);
   EXPECT_NEAR(in.value[2], 0.0, 1e-12);
 }
 
 TEST(TrackMeasurement, MissingValuesLeaveFewer) {
   const OwnMotion own = own_motion(kOwn);
   const auto size = [&](DetectionSource source, std::array<double, 5> values) {
-    return reading_of(RoadParams{}, source, own, {values, 1.0}).size;
+    return reading_of(RoadParams{}, {.source = source}, own, {values, 1.0}).size;
   };
   EXPECT_EQ(size(DetectionSource::kCamera, {0.1, kUnset, kUnset, kUnset, kUnset}), 1U);
   EXPECT_EQ(size(DetectionSource::kRadar, {40.0, 0.1, kUnset, kUnset, kUnset}), 2U);
@@ -113,9 +115,9 @@ TEST(TrackMeasurement, UpdateIsThatOfTheFormulaForOneValue) {
   track.p[0][3] = track.p[3][0] = 0.7;
   Expectation e;
   e.jacobian[0] = {0.6, -0.8, 0.0, 0.3};
+  begin_modes(RoadParams{}, track);
   const Track before = track;
-  update(spread_of(e, track.p), {.size = 1, .value = {1.5, 0, 0}, .variance = {0.2, 0, 0}}, nullptr,
-         track);
+  update(e, {.size = 1, .value = {1.5, 0, 0}, .variance = {0.2, 0, 0}}, nullptr, track);
   std::array<double, kRoadStates> ph{};
   for (std::size_t i = 0; i < kRoadStates; ++i)
     for (std::size_t k = 0; k < 4; ++k) ph[i] += before.p[i][k] * e.jacobian[0][k];
@@ -131,8 +133,8 @@ TEST(TrackMeasurement, UpdateIsThatOfTheFormulaForOneValue) {
 // The noise of a depth grows with its square: that of its inverse does not.
 TEST(TrackMeasurement, CameraDepthIsWorseFarAway) {
   const RoadParams params;
-  const SightSigma near = sight_sigma(params, DetectionSource::kCamera, 50.0);
-  const SightSigma far = sight_sigma(params, DetectionSource::kCamera, 100.0);
+  const SightSigma near = sight_sigma(params, {.source = DetectionSource::kCamera}, 50.0);
+  const SightSigma far = sight_sigma(params, {.source = DetectionSource::kCamera}, 100.0);
   EXPECT_NEAR(far.along_m / near.along_m, 4.0, 1e-12);
   EXPECT_NEAR(far.across_m / near.across_m, 2.0, 1e-12);
 }

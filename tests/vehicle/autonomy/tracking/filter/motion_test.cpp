@@ -23,12 +23,14 @@ Track moving(double speed_mps) {
   }
   for (std::size_t i = 0; i < kRoadStates; ++i)
     for (std::size_t j = 0; j < i; ++j) t.p[i][j] = t.p[j][i];
+  begin_modes(RoadParams{}, t);
   return t;
 }
 
 RoadParams without_noise() {
   RoadParams p;
-  p.accel_sigma_mps2 = p.turn_sigma_rad_per_s = p.plane_turn_sigma_rad_per_s = 0.0;
+  p.steady_accel_sigma_mps2 = p.accel_sigma_mps2 = p.steady_turn_sigma_rad_per_s =
+      p.turn_sigma_rad_per_s = p.plane_turn_sigma_rad_per_s = 0.0;
   p.wander_m_per_sqrt_s = 0.0;
   return p;
 }
@@ -105,6 +107,7 @@ TEST(Motion, FollowsTheRoadForFiveSeconds) {
   const world::TrackMap map = circle();
   Track track;
   track.x = {1500.0, -4.0, 0.0, 70.0, 0.0, 0.0};
+  begin_modes(RoadParams{}, track);
   coast(RoadParams{}, &map, seconds(5), track);
   const double way_m = 5.0 * 70.0 / (1.0 + 4.0 / kRadius_m);
   EXPECT_NEAR(track.x[kAlong], map.wrap_station(1500.0 + way_m), 1e-6);
@@ -118,6 +121,7 @@ TEST(Motion, TurnsOnAPlane) {
   Track track;
   constexpr double kTurn_rad_per_s = 0.25, kSpeed_mps = 50.0;
   track.x = {0.0, 0.0, 0.0, kSpeed_mps, 0.0, kTurn_rad_per_s};
+  begin_modes(params, track);
   coast(params, nullptr, seconds(2), track);
   const double r_m = kSpeed_mps / kTurn_rad_per_s, turned_rad = 2.0 * kTurn_rad_per_s;
   // The midpoint rule is off by (turn dt)^2 / 24 of the way.

@@ -136,6 +136,47 @@ TEST(RoadFilter, StrayDetectionOfAKnownCarBeginsNoTrack) {
   EXPECT_EQ(drive.tracks.list[0].detections, 20U) << "and it is not used";
 }
 
+// What is seen near a car that was out of sight may be something else: one detection changes
+// nothing, two are the car.
+TEST(RoadFilter, LostCarIsFoundByTwoDetections) {
+  const Car car{.s_m = 150.0, .n_m = 0.0, .speed_mps = 58.0};
+  Drive drive;
+  for (int i = 0; i < 20; ++i) drive.see(0.05 * i, DetectionSource::kLidar, {car.at(0.05 * i)});
+  const DetectionKey first = drive.tracks.list[0].first;
+  drive.see(2.5, DetectionSource::kLidar, {});
+  Drive unseen = drive;
+  Car other = car;
+  other.n_m = 1.0;
+  drive.see(2.55, DetectionSource::kLidar, {other.at(2.55)});
+  drive.see(2.6, DetectionSource::kLidar, {});
+  unseen.see(2.55, DetectionSource::kLidar, {});
+  unseen.see(2.6, DetectionSource::kLidar, {});
+  ASSERT_EQ(drive.tracks.list.size(), 1U);
+  for (std::size_t i = 0; i < kRoadStates; ++i)
+    EXPECT_EQ(drive.tracks.list[0].x[i], unseen.tracks.list[0].x[i]) << i;
+  for (const double t_s : {2.65, 2.7}) drive.see(t_s, DetectionSource::kLidar, {car.at(t_s)});
+  ASSERT_EQ(drive.tracks.list.size(), 1U);
+  EXPECT_TRUE(drive.tracks.list[0].confirmed);
+  EXPECT_EQ(drive.tracks.list[0].first, first);
+  EXPECT_EQ(drive.tracks.list[0].newest.frame.at, at_s(2.7));
+}
+
+// A car that brakes is in a maneuver, one that goes on is not.
+TEST(RoadFilter, BrakingIsAManeuver) {
+  const Car car{.s_m = 150.0, .n_m = 0.0, .speed_mps = 58.0};
+  Drive drive;
+  const auto braking = [&](double t_s) {
+    Car slower = car;
+    const double for_s = std::max(0.0, t_s - 3.0);
+    slower.s_m -= 0.5 * 5.0 * for_s * for_s;
+    return slower.at(t_s);
+  };
+  for (int i = 0; i < 60; ++i) drive.see(0.05 * i, DetectionSource::kLidar, {braking(0.05 * i)});
+  EXPECT_LT(drive.tracks.list[0].modes.maneuver, 0.1);
+  for (int i = 60; i < 80; ++i) drive.see(0.05 * i, DetectionSource::kLidar, {braking(0.05 * i)});
+  EXPECT_GT(drive.tracks.list[0].modes.maneuver, 0.9);
+}
+
 TEST(RoadFilter, SecondCarBesideIsASecondTrack) {
   const Car left{.s_m = 150.0, .n_m = 1.3, .speed_mps = 58.0},
       right{.s_m = 150.0, .n_m = -1.3, .speed_mps = 58.0};
