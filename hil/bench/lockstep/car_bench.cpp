@@ -90,7 +90,7 @@ void CarBench::show_others(Field& field, std::size_t own, Instant at) {
   rig_.show_rival(field.rival_of(own));
   arrivals_.clear();
   sensors::step_detections(detection_sensors_, detection_,
-                           {.ours = seen(field.car(own).pose), .others = field.others_of(own)}, at,
+                           {.ours = field.car(own).pose, .others = field.others_of(own)}, at,
                            arrivals_);
   for (const world::DetectionFrame& frame : arrivals_)
     if (detections_.size() < kDetectionFrames) detections_.push_back(frame);
