@@ -92,8 +92,12 @@ void CarBench::show_others(Field& field, std::size_t own, Instant at) {
   sensors::step_detections(detection_sensors_, detection_,
                            {.ours = field.car(own).pose, .others = field.others_of(own)}, at,
                            arrivals_);
-  for (const world::DetectionFrame& frame : arrivals_)
-    if (detections_.size() < kDetectionFrames) detections_.push_back(frame);
+  for (const world::DetectionFrame& frame : arrivals_) {
+    if (detections_.size() < kDetectionFrames)
+      detections_.push_back(frame);
+    else
+      ++result_.detections_lost;
+  }
   const bool tick = (at - Instant{}).ns % setup_.params.rates.tick.ns == 0;
   if (record_ && tick) record_->others(field, own, at);
 }
@@ -108,6 +112,8 @@ void CarBench::step_computer(Instant now) {
   if (guardian_.car_restarts(now)) {
     *car_ = {};
     inbox_.clear();
+    result_.detections_lost += detections_.size();
+    detections_.clear();
     decoder_ = ReceiverDecoder{setup_.params.receivers};
     base_.restart_car();
     stepped_at_ = now - setup_.params.rates.tick;
@@ -290,6 +296,7 @@ RunResult CarBench::finish() {
   result_.laps = rig_.laps();
   for (const std::string& refusal : base_.refusals())
     result_.remarks.push_back("the operator was refused: " + refusal);
+  result_.detections_lost += detection_.overflows;
   result_.traffic.lost = frames_lost();
   result_.traffic.bus_load = bus_.load();
   if (record_) {
