@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -24,6 +25,7 @@
 #include "vehicle/io/report/local_report.hpp"
 #include "vehicle/io/report/radio_summary.hpp"
 #include "vehicle/io/report/tally.hpp"
+#include "vehicle/io/report/tracking_summary.hpp"
 #include "vehicle/io/station_addresses.hpp"
 #include "vehicle/parameters/car_file.hpp"
 #include "vehicle/parameters/car_setup.hpp"
@@ -112,6 +114,7 @@ class Drive {
                         .dt = now - last_,
                         .can = incoming.can,
                         .sensors = incoming.sensors,
+                        .detections = detections(),
                         .requests = {.arm = args_.arm},
                         .may_arm = !parts_.car_io.listen_only(),
                         .gnss_byte_at = incoming.gnss_byte_at,
@@ -147,6 +150,7 @@ class Drive {
     frames_.gate_refusals = out.passed.refused_total;
     frames_.gate_verdicts = car_->gate.verdicts;
     frames_.missed_shifts = car_->control.gear.missed;
+    opponents_ = out.opponents;
   }
 
   // A snapshot is made when somebody shall have it now.
@@ -174,6 +178,11 @@ class Drive {
     if (!radio_due) return;
     parts_.radio->send(snapshot, now, parts_.box);
     tell_schema(now);
+  }
+
+  std::span<const world::DetectionFrame> detections() {
+    if (!parts_.sensors) return {};
+    return parts_.sensors->take_detections();
   }
 
   world::ComputerHealth computer() const {
@@ -238,9 +247,10 @@ class Drive {
     const std::string sensors =
         parts_.sensors ? parts_.sensors->json(transport::monotonic_now()) : "[]";
     const auto written = transport::write_file(
-        args_.summary_file, io::summary_json(tally_, frames_, bus_, losses_, radio,
-                                             io::receivers_json(parts_.car_io.receivers()),
-                                             parts_.box.json(), sensors));
+        args_.summary_file,
+        io::summary_json(tally_, frames_, bus_, losses_, radio,
+                         io::receivers_json(parts_.car_io.receivers()), parts_.box.json(), sensors,
+                         io::tracking_json(car_->tracking.counters, opponents_)));
     return written ? 0 : (refuse(written.error()), kExitFailed);
   }
 
@@ -254,6 +264,7 @@ class Drive {
   io::FrameTotals frames_;
   io::LossTally losses_;
   world::BusHealth bus_;
+  world::Opponents opponents_;
   safety::Arming arming_ = safety::Arming::kNotRequested;
   bool schema_reported_ = false, silence_reported_ = false;
   std::optional<Instant> first_tick_;
@@ -263,8 +274,9 @@ class Drive {
 
 Result<std::unique_ptr<io::SensorIngress>, Problem> open_sensors(const io::Arguments& args) {
   if (args.sensors_file.empty()) return std::unique_ptr<io::SensorIngress>{};
-  const auto file = io::read_sensor_file(args.sensors_file);
+  auto file = io::read_sensor_file(args.sensors_file);
   if (!file) return Unexpected{file.error()};
+  file->domain.domain = args.sensors_domain.value_or(file->domain.domain);
   return io::SensorIngress::start(*file);
 }
 

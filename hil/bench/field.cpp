@@ -85,10 +85,10 @@ void Field::order(std::size_t ghost, const traffic::GhostOrder& order) {
   orders_[ghost - (cars_.size() - ghosts_.size())] = order;
 }
 
-std::span<const sensors::TrueCar> Field::others_of(std::size_t car) {
+std::span<const plant::CarPose> Field::others_of(std::size_t car) {
   others_.clear();
   for (const std::size_t other : in_order_)
-    if (other != car) CHECK(others_.push(seen(cars_[other].pose)));
+    if (other != car) CHECK(others_.push(cars_[other].pose));
   return others_.span();
 }
 
@@ -149,17 +149,6 @@ std::optional<race::Rival> Field::rival_of(std::size_t car) const {
                      .laps = static_cast<std::uint8_t>(rival.laps & 0xFF),
                      .distance_m = rival.pose.s_m,
                      .speed_mps = traffic::speed_mps(rival.pose)};
-}
-
-sensors::TrueCar seen(const traffic::CarPose& car) {
-  const double c = std::cos(car.yaw_rad), s = std::sin(car.yaw_rad);
-  return {.x_m = car.x_m,
-          .y_m = car.y_m,
-          .yaw_rad = car.yaw_rad,
-          .vx_mps = c * car.vx_mps - s * car.vy_mps,
-          .vy_mps = s * car.vx_mps + c * car.vy_mps,
-          .length_m = car.length_m,
-          .width_m = car.width_m};
 }
 
 FieldCar car_of(const Rig& rig) {

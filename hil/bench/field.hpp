@@ -20,8 +20,8 @@
 #include "hil/bench/outcome.hpp"
 #include "hil/bench/rig.hpp"
 #include "hil/nodes/race_control.hpp"
+#include "hil/plant/car_pose.hpp"
 #include "hil/sensors/detections.hpp"
-#include "hil/traffic/car_pose.hpp"
 #include "hil/traffic/contact_cause.hpp"
 #include "hil/traffic/ghost.hpp"
 #include "hil/traffic/motion_trace.hpp"
@@ -51,7 +51,7 @@ struct FieldGhost {
 };
 
 struct FieldCar {
-  traffic::CarPose pose{};
+  plant::CarPose pose{};
   std::uint32_t laps = 0;
   bool told_to_slow = false;  // by race control
 };
@@ -85,7 +85,7 @@ class Field {
   // All cars, by number and name: an order that does not depend on that of the runners.
   std::span<const std::size_t> in_order() const { return in_order_; }
   // All cars but this one in that order, as its sensors may see them; valid until the next call.
-  std::span<const sensors::TrueCar> others_of(std::size_t car);
+  std::span<const plant::CarPose> others_of(std::size_t car);
 
   const std::vector<FieldContact>& contacts() const { return contacts_; }
   // Unset as long as no other car was within kNear_m.
@@ -112,14 +112,11 @@ class Field {
   std::span<const FieldGhost> ghosts_;
   std::vector<traffic::GhostState> ghost_states_;
   std::vector<std::optional<traffic::GhostOrder>> orders_;  // of the ghosts
-  FixedVector<sensors::TrueCar, sensors::kTrueCarsMax> others_;
+  FixedVector<plant::CarPose, sensors::kTrueCarsMax> others_;
 };
 
 // The true car of a rig.
 FieldCar car_of(const Rig& rig);
-
-// The true car as a sensor sees it.
-sensors::TrueCar seen(const traffic::CarPose& car);
 
 // Every car shows itself, and then sees the others. For cars with rig() and show_others().
 template <class Cars>

@@ -157,6 +157,9 @@ std::string to_text(const RunResult& r) {
       static_cast<unsigned long long>(r.bus_refusals),
       static_cast<unsigned long long>(r.gate_refusals),
       static_cast<unsigned long long>(r.bus_losses));
+  if (r.detections_lost > 0)
+    out += formatted("frames of detections that never reached the car: %llu\n",
+                     static_cast<unsigned long long>(r.detections_lost));
   if (!r.refused_to_arm.empty()) out += "car refused to arm: " + r.refused_to_arm + "\n";
   for (const CompletedAction& done : r.done)
     out += formatted("at %.3f s: ", done.at.seconds()) + done.what + "\n";
@@ -239,7 +242,8 @@ std::string to_json(const RunResult& r) {
       .json("can", traffic_json(r.traffic))
       .number("gate_refusals", r.gate_refusals)
       .number("bus_refusals", r.bus_refusals)
-      .number("bus_losses", r.bus_losses);
+      .number("bus_losses", r.bus_losses)
+      .number("detections_lost", r.detections_lost);
   if (r.real_time) out.json("real_time", real_time_json(*r.real_time));
   return out.json("done", done_json(r.done))
       .json("remarks", remarks_json(r.remarks))

@@ -57,6 +57,9 @@ struct RunResult {
   Traffic traffic;
   std::uint64_t gate_refusals = 0, bus_refusals = 0;
   std::uint64_t bus_losses = 0;  // frames not received when due (live: also late ones)
+  // Frames of detections that never reached the car's loop: lost on the way, no room, or no process
+  // that waited.
+  std::uint64_t detections_lost = 0;
   double speed_max_mps = 0.0;
   Outcome outcome;
   std::size_t other_cars = 0;             // on the track

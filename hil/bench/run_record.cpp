@@ -144,7 +144,7 @@ void RunRecord::others(const Field& field, std::size_t own, Instant at) {
   if (!others_) return;
   for (const std::size_t i : field.in_order()) {
     if (i == own) continue;
-    const traffic::CarPose& pose = field.car(i).pose;
+    const plant::CarPose& pose = field.car(i).pose;
     log_.sample(*others_, at,
                 OtherSample{.number = field.number(i),
                             .x_m = pose.x_m,

@@ -112,7 +112,9 @@ Result<bench::RunResult, Problem> live(const RunOptions& options, const bench::L
   std::error_code error;
   fs::create_directories(options.folder, error);
   if (error) return Unexpected{Problem{options.folder, error.message()}};
-  bench::LivePlan plan = bench::in_bay(plan_of(options, loaded.scenario), options.bay);
+  bench::LivePlan plan = plan_of(options, loaded.scenario);
+  if (auto problem = bench::add_sensors(plan, options.sensors_file)) return Unexpected{*problem};
+  plan = bench::in_bay(std::move(plan), options.bay);
   std::optional<bench::RunKeys> keys;  // as long as the run
   if (plan.has_base() && !(plan.attached() && options.keys.empty())) {
     auto made = bench::keys_of_run(plan, options.keys);
@@ -156,30 +158,23 @@ std::string beside(const std::string& program) {
 }
 
 std::vector<std::string> live_command(const RunOptions& options) {
-  std::vector<std::string> command{own_program(),
-                                   "run",
-                                   options.scenario,
-                                   "--live",
-                                   "--here",
-                                   "--interface",
-                                   options.interface,
-                                   "--out",
-                                   options.folder,
-                                   "--radio-port",
-                                   std::to_string(options.radio_port),
-                                   "--uplink-port",
-                                   std::to_string(options.uplink_port)};
+  std::vector<std::string> command{own_program(), "run", options.scenario, "--live", "--here"};
   const auto add = [&command](const std::string& flag, const std::string& value) {
     if (value.empty()) return;
     command.push_back(flag);
     command.push_back(value);
   };
+  add("--interface", options.interface);
+  add("--out", options.folder);
+  add("--radio-port", std::to_string(options.radio_port));
+  add("--uplink-port", std::to_string(options.uplink_port));
   if (options.bay != 0) add("--bay", std::to_string(options.bay));
   add("--keys", options.keys);
   add("--clock", options.clock);
   add("--report", options.report_folder);
   add("--progress", options.progress_file);
   add("--record", options.record_folder);
+  add("--sensors", options.sensors_file);
   if (options.report_folder.empty()) {
     add("--log", options.log_file);
     add("--json", options.json_file);
@@ -359,6 +354,10 @@ int run_verb(std::span<const std::string> args) {
   app.flag("--candump", options.candump, "live: record the bus with candump");
   app.option("--record", options.record_folder,
              "live: folder for the car's own recording, which `compare` drives again");
+  app.option(
+      "--sensors", options.sensors_file,
+      "live: sensor file of the car; the bench publishes detections of the other cars on the "
+      "topics of its rows that detect cars");
   app.option("--radio-port", options.radio_port, "live: pass the car's datagrams on to this port");
   app.option("--uplink-port", options.uplink_port, "live: answers of the base come here");
   app.option("--bay", options.bay, "live: of the benches that run on this machine at once")

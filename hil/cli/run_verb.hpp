@@ -33,6 +33,7 @@ struct RunOptions {
   std::string report_folder;          // empty: no report
   std::string progress_file;          // progress lines; empty: none
   std::string record_folder;          // live: folder of the car's own recording; empty: none
+  std::string sensors_file;           // live: of the car's sensors on ROS 2 topics; empty: none
   std::optional<Duration> duration;   // replaces that of the scenario
   std::optional<std::uint64_t> seed;  // replaces that of the scenario
   double hours = 0.0;                 // 0: a single run

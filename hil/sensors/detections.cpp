@@ -15,6 +15,7 @@ namespace {
 
 static_assert(std::is_trivially_copyable_v<DetectionState>);
 
+using plant::CarPose;
 using world::Detection, world::DetectionFrame, world::DetectionSource;
 
 constexpr double kTwoPi = 2.0 * std::numbers::pi;
@@ -54,7 +55,16 @@ struct Seen {
   double length_m = 0.0, width_m = 0.0;
 };
 
-Seen seen_from(const TrueCar& ours, const TrueCar& car) {
+struct Velocity {
+  double east_mps = 0.0, north_mps = 0.0;
+};
+
+Velocity velocity_in_map(const CarPose& car) {
+  const double c = std::cos(car.yaw_rad), s = std::sin(car.yaw_rad);
+  return {c * car.vx_mps - s * car.vy_mps, s * car.vx_mps + c * car.vy_mps};
+}
+
+Seen seen_from(const CarPose& ours, const CarPose& car) {
   const double east_m = car.x_m - ours.x_m, north_m = car.y_m - ours.y_m;
   const double cos_yaw = std::cos(ours.yaw_rad), sin_yaw = std::sin(ours.yaw_rad);
   Seen s{.x_m = east_m * cos_yaw + north_m * sin_yaw,
@@ -64,8 +74,10 @@ Seen seen_from(const TrueCar& ours, const TrueCar& car) {
          .length_m = car.length_m,
          .width_m = car.width_m};
   s.bearing_rad = std::atan2(s.y_m, s.x_m);
+  const Velocity own = velocity_in_map(ours), its = velocity_in_map(car);
   s.range_rate_mps =
-      ((car.vx_mps - ours.vx_mps) * east_m + (car.vy_mps - ours.vy_mps) * north_m) / s.range_m;
+      ((its.east_mps - own.east_mps) * east_m + (its.north_mps - own.north_mps) * north_m) /
+      s.range_m;
   // Half of the angle under which the corners of the box lie.
   for (const double along : {-0.5, 0.5}) {
     for (const double across : {-0.5, 0.5}) {
@@ -156,7 +168,7 @@ Detection measured(const DetectionSensor& sensor, const Seen& car, Noise& noise)
 
 // A place for what is not there: boxes on the road ahead and behind, the rest anywhere in view.
 // What a radar sees falsely stands still.
-Seen phantom(const DetectionSensor& sensor, const TrueCar& ours, Noise& noise) {
+Seen phantom(const DetectionSensor& sensor, const CarPose& ours, Noise& noise) {
   const View& view = sensor.view;
   Seen s{.yaw_rad = between(-std::numbers::pi, std::numbers::pi, noise),
          .length_m = between(2.0, 6.0, noise),
@@ -173,7 +185,9 @@ Seen phantom(const DetectionSensor& sensor, const TrueCar& ours, Noise& noise) {
   s.range_m = std::max(kNearest_m, std::hypot(s.x_m, s.y_m));
   s.bearing_rad = std::atan2(s.y_m, s.x_m);
   const double heading_rad = ours.yaw_rad + s.bearing_rad;
-  s.range_rate_mps = -(ours.vx_mps * std::cos(heading_rad) + ours.vy_mps * std::sin(heading_rad));
+  const Velocity own = velocity_in_map(ours);
+  s.range_rate_mps =
+      -(own.east_mps * std::cos(heading_rad) + own.north_mps * std::sin(heading_rad));
   return s;
 }
 
@@ -186,7 +200,7 @@ using Surroundings = FixedVector<Seen, kTrueCarsMax>;
 
 Surroundings surroundings(const TrueCars& cars) {
   Surroundings all;
-  for (const TrueCar& car : cars.others) CHECK(all.push(seen_from(cars.ours, car)));
+  for (const CarPose& car : cars.others) CHECK(all.push(seen_from(cars.ours, car)));
   return all;
 }
 
@@ -200,7 +214,7 @@ void add(DetectionFrame& frame, Detection d, double confidence, std::uint32_t& o
 }
 
 DetectionFrame frame_of(const DetectionSensor& sensor, DetectionSensorState& state,
-                        const Surroundings& all, const TrueCar& ours, Instant now,
+                        const Surroundings& all, const CarPose& ours, Instant now,
                         std::uint32_t& overflows) {
   Noise& noise = state.noise;
   DetectionFrame frame;

@@ -4,7 +4,7 @@
 //   out    frames that are due by `now`, in order of arrival; frame.at is the time of measurement.
 //          Frames of different sensors, and with enough jitter of one, arrive in another order
 //          than they were measured in
-//   frames true cars: Map, at the centre of the box; detections: Body of our car, see
+//   frames true cars: hil/plant/car_pose.hpp; detections: Body of our car, see
 //          vehicle/world/detection.hpp. All sensors measure from the origin of Body
 //   noise  own generator per sensor: the same seed gives the same frames, and what one sensor
 //          draws changes no other
@@ -18,26 +18,20 @@
 #include <cstdint>
 #include <span>
 
+#include "hil/plant/car_pose.hpp"
 #include "hil/sensors/detection_params.hpp"
 #include "hil/sensors/noise.hpp"
 #include "protocol/vocabulary/time.hpp"
-#include "protocol/vocabulary/units.hpp"
 #include "vehicle/world/detection.hpp"
 
 namespace pitwall::sensors {
-
-struct TrueCar {
-  double x_m = kUnset, y_m = kUnset, yaw_rad = kUnset;
-  double vx_mps = kUnset, vy_mps = kUnset;  // Map
-  double length_m = 4.92, width_m = 1.89;
-};
 
 inline constexpr std::size_t kTrueCarsMax = 16;
 
 // A car keeps its place in `others`: what hides it for a while goes by it.
 struct TrueCars {
-  const TrueCar& ours;
-  std::span<const TrueCar> others;  // at most kTrueCarsMax
+  const plant::CarPose& ours;
+  std::span<const plant::CarPose> others;  // at most kTrueCarsMax
 };
 
 struct BurstState {

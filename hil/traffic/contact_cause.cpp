@@ -91,7 +91,7 @@ Cause cause_from_side(const CarBefore& first, const CarBefore& second, const Gap
 
 }  // namespace
 
-Vector2 velocity_at(const CarPose& car, Vector2 point_m) {
+Vector2 velocity_at(const plant::CarPose& car, Vector2 point_m) {
   const double c = std::cos(car.yaw_rad), s = std::sin(car.yaw_rad);
   const Vector2 arm = point_m - Vector2{car.x_m, car.y_m};
   return Vector2{c * car.vx_mps - s * car.vy_mps, s * car.vx_mps + c * car.vy_mps} +

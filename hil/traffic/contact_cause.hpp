@@ -31,7 +31,7 @@
 #include <cstdint>
 #include <optional>
 
-#include "hil/traffic/car_pose.hpp"
+#include "hil/plant/car_pose.hpp"
 #include "hil/traffic/motion_trace.hpp"
 #include "hil/traffic/rectangle.hpp"
 #include "protocol/vocabulary/time.hpp"
@@ -49,7 +49,7 @@ enum class ContactKind : std::uint8_t { kFromBehind, kFromSide, kStandingCar };
 enum class Cause : std::uint8_t { kNone, kFirst, kSecond, kBoth };
 
 struct CarBefore {
-  CarPose pose{};
+  plant::CarPose pose{};
   MotionTrace trace{};
   bool told_to_slow = false;  // by a flag, or to stop
 };
@@ -66,7 +66,7 @@ std::optional<Contact> contact_between(const CarBefore& first, const CarBefore& 
                                        double road_yaw_rad, Instant now);
 
 // Velocity in Map of the part of the car that is at this point.
-Vector2 velocity_at(const CarPose& car, Vector2 point_m);
+Vector2 velocity_at(const plant::CarPose& car, Vector2 point_m);
 
 const char* name_of(ContactKind kind);
 const char* name_of(Cause cause);

@@ -65,7 +65,7 @@ double spin_rad(const GhostState& state) {
 }
 
 // The yaw rate is unset: two poses tell it.
-CarPose pose_of(const Ghost& ghost, const world::TrackMap& track, const GhostState& state) {
+plant::CarPose pose_of(const Ghost& ghost, const world::TrackMap& track, const GhostState& state) {
   const Course c = course_of(ghost, track, state);
   const double turned_rad = spin_rad(state);
   return {.x_m = c.x_m,

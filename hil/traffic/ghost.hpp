@@ -26,7 +26,7 @@
 #include <optional>
 #include <vector>
 
-#include "hil/traffic/car_pose.hpp"
+#include "hil/plant/car_pose.hpp"
 #include "hil/traffic/ghost_plan.hpp"
 #include "hil/traffic/lane_drift.hpp"
 #include "hil/traffic/offset_line.hpp"
@@ -94,7 +94,7 @@ struct GhostState {
   double spin_from_mps = 0.0, turn_rad = 0.0;
   std::size_t next = 0;     // entry of the script
   double armed_m = kUnset;  // kStation: travelled_m where it fires; unset: not yet armed
-  CarPose pose;
+  plant::CarPose pose;
 };
 
 // Lane and speed, in place of those of the script.

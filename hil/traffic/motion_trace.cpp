@@ -8,9 +8,9 @@
 
 namespace pitwall::traffic {
 
-double speed_mps(const CarPose& car) { return std::hypot(car.vx_mps, car.vy_mps); }
+double speed_mps(const plant::CarPose& car) { return std::hypot(car.vx_mps, car.vy_mps); }
 
-void MotionTrace::record(const CarPose& car, Instant now) {
+void MotionTrace::record(const plant::CarPose& car, Instant now) {
   if (size_ > 0 && now - sample(0).at < kTraceStep) return;
   ring_[next_] = {.at = now, .speed_mps = speed_mps(car), .n_m = car.n_m};
   next_ = (next_ + 1) % kSamples;

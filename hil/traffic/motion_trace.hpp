@@ -9,7 +9,7 @@
 #include <array>
 #include <cstddef>
 
-#include "hil/traffic/car_pose.hpp"
+#include "hil/plant/car_pose.hpp"
 #include "protocol/vocabulary/time.hpp"
 #include "protocol/vocabulary/units.hpp"
 
@@ -26,7 +26,7 @@ struct TraceSample {
 class MotionTrace {
  public:
   // Leaves out what comes sooner than kTraceStep after the last sample.
-  void record(const CarPose& car, Instant now);
+  void record(const plant::CarPose& car, Instant now);
   std::size_t size() const { return size_; }
   const TraceSample& sample(std::size_t i) const;  // 0: the newest; i < size()
 
@@ -36,6 +36,6 @@ class MotionTrace {
   std::size_t next_ = 0, size_ = 0;
 };
 
-double speed_mps(const CarPose& car);
+double speed_mps(const plant::CarPose& car);
 
 }  // namespace pitwall::traffic

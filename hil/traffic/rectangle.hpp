@@ -14,7 +14,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "hil/traffic/car_pose.hpp"
+#include "hil/plant/car_pose.hpp"
 #include "protocol/vocabulary/units.hpp"
 
 namespace pitwall::traffic {
@@ -42,7 +42,7 @@ struct Gap {
 
 Gap gap_between(const Rectangle& first, const Rectangle& second);
 
-inline Rectangle rectangle_of(const CarPose& car) {
+inline Rectangle rectangle_of(const plant::CarPose& car) {
   return {{car.x_m, car.y_m}, car.yaw_rad, car.length_m, car.width_m};
 }
 

@@ -108,11 +108,22 @@ class CdrReader {
   const Problem& problem() const { return *problem_; }
 
  private:
-  // Smallest size of an element, whatever its alignment.
+  // Smallest size of an element, without the padding of its fields.
   template <class T>
   static constexpr std::size_t least_bytes() {
-    if constexpr (Number<T>) return sizeof(T);
-    return 1;
+    if constexpr (Number<T>) {
+      return sizeof(T);
+    } else if constexpr (Text<T> || Sequence<T>) {
+      return sizeof(std::uint32_t);
+    } else if constexpr (FixedArray<T>) {
+      return std::tuple_size_v<T> * least_bytes<typename T::value_type>();
+    } else if constexpr (Message<T>) {
+      std::size_t sum = 0;
+      for_each_field<T>([&sum]<class M, class F>(const Field<M, F>&) { sum += least_bytes<F>(); });
+      return sum > 0 ? sum : 1;
+    } else {
+      return 1;
+    }
   }
   template <class M>
   void take_message(M& message) {

@@ -103,6 +103,23 @@ CarSensor sensor_of(yaml::StrictMap& map) {
   return sensor;
 }
 
+void read_tracking(yaml::StrictMap map, CarSummary& car) {
+  for (const std::string& name : map.keys()) {
+    if (name != "cars") {
+      car.tracking.emplace_back(name, count_of(map, name.c_str()));
+      continue;
+    }
+    for (yaml::StrictMap& row : map.maps(name)) {
+      const auto figure = [&row](const char* key) {
+        return row.number(key, -kMostOfAFigure, kMostOfAFigure);
+      };
+      car.opponents.push_back(
+          {.x_m = figure("x_m"), .y_m = figure("y_m"), .speed_mps = figure("speed_mps")});
+      for (const char* other : {"id", "position_sigma_m", "unmeasured_s"}) figure(other);
+    }
+  }
+}
+
 }  // namespace
 
 Result<CarSummary, Problem> read_car_summary(const std::string& path) {
@@ -137,6 +154,7 @@ Result<CarSummary, Problem> read_car_summary(const std::string& path) {
     for (yaml::StrictMap& row : map.maps("receivers")) car.receivers.push_back(receiver_of(row));
     car.recorder = counts_of(map.map("recorder"));
     for (yaml::StrictMap& row : map.maps("sensors")) car.sensors.push_back(sensor_of(row));
+    read_tracking(map.map("tracking"), car);
     car.refused_by_kind = counts_of(map.map("refused_by_kind"));
     car.gate_verdicts = counts_of(map.map("gate_verdicts"));
     car.step_p50_us = map.number("step_p50_us", 0.0, 1e9);
@@ -144,6 +162,22 @@ Result<CarSummary, Problem> read_car_summary(const std::string& path) {
     car.step_max_us = map.number("step_max_us", 0.0, 1e9);
     return car;
   });
+}
+
+std::uint64_t detections_received(const CarSummary& car) {
+  std::uint64_t sum = 0;
+  for (const CarSensor& sensor : car.sensors) {
+    const auto is = [](const char* name) {
+      return [name](const auto& count) { return count.first == name; };
+    };
+    if (std::ranges::none_of(sensor.counts, is("bad_detections"))) continue;  // detects no cars
+    for (const char* name :
+         {"samples", "refused", "in_future", "too_old", "foreign_frames", "too_many"}) {
+      const auto found = std::ranges::find_if(sensor.counts, is(name));
+      if (found != sensor.counts.end()) sum += found->second;
+    }
+  }
+  return sum;
 }
 
 std::uint64_t frames_that_never_came(const CarSummary& car, Instant until) {

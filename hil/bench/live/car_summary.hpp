@@ -37,6 +37,11 @@ struct CarSensor {
   std::vector<std::pair<std::string, std::uint64_t>> counts;
 };
 
+// Another car that it knew at the end.
+struct CarOpponent {
+  double x_m = kUnset, y_m = kUnset, speed_mps = kUnset;
+};
+
 struct CarSummary {
   using Counts = std::vector<std::pair<std::string, std::uint64_t>>;
 
@@ -53,6 +58,8 @@ struct CarSummary {
   std::vector<Counts> radio_paths;
   std::vector<CarReceiver> receivers;
   std::vector<CarSensor> sensors;
+  Counts tracking;  // of other cars
+  std::vector<CarOpponent> opponents;
   Counts recorder;  // of its own recording; empty without one
   std::vector<CarMessage> messages;
   std::vector<world::LossReport> losses;  // the first of loss_reports
@@ -60,6 +67,9 @@ struct CarSummary {
 };
 
 Result<CarSummary, Problem> read_car_summary(const std::string& path);
+
+// Frames of detections that reached its loop, or that it refused.
+std::uint64_t detections_received(const CarSummary& car);
 
 // Frames due until then that never arrived: those reported missing, less those that arrived later.
 std::uint64_t frames_that_never_came(const CarSummary& car, Instant until);

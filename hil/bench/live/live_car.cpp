@@ -19,6 +19,18 @@ namespace {
 constexpr Duration kStartLimit = seconds(15);
 constexpr std::size_t kReadBatch = 256;
 
+Result<std::optional<DetectionPublisher>, Problem> open_detections(const LivePlan& plan,
+                                                                   std::uint64_t seed) {
+  using Optional = std::optional<DetectionPublisher>;
+  if (plan.sensors.empty()) return Optional{};
+  auto file = io::read_sensor_file(plan.sensors);
+  if (!file) return Unexpected{file.error()};
+  file->domain.domain = plan.sensors_domain;
+  auto opened = DetectionPublisher::open(*file, seed);
+  if (!opened) return Unexpected{opened.error()};
+  return Optional{*std::move(opened)};
+}
+
 }  // namespace
 
 Result<std::unique_ptr<LiveCar>, Problem> LiveCar::open(const scenario::Scenario& scenario,
@@ -59,12 +71,15 @@ Result<std::unique_ptr<LiveCar>, Problem> LiveCar::open(const scenario::Scenario
   auto receivers = ReceiverPort::open(plan.receiver_ports(),
                                       ReceiverEncoder{setup.params.receivers, faults->bytes});
   if (!receivers) return Unexpected{receivers.error()};
-  return std::unique_ptr<LiveCar>{new LiveCar(
-      scenario, setup, plan, has_others,
-      {*std::move(rig), *std::move(grader), *std::move(bus), *std::move(radio), *std::move(monitor),
-       *std::move(receivers), *std::move(machine),
-       ProcessSupervisor{members_of(plan),
-                         script_of(faults->processes, Instant{} + scenario.duration)}})};
+  auto detections = open_detections(plan, scenario.seed);
+  if (!detections) return Unexpected{detections.error()};
+  return std::unique_ptr<LiveCar>{
+      new LiveCar(scenario, setup, plan, has_others,
+                  {*std::move(rig), *std::move(grader), *std::move(bus), *std::move(radio),
+                   *std::move(monitor), *std::move(receivers), *std::move(machine),
+                   ProcessSupervisor{members_of(plan),
+                                     script_of(faults->processes, Instant{} + scenario.duration)},
+                   *std::move(detections)})};
 }
 
 LiveCar::LiveCar(const scenario::Scenario& scenario, const pipeline::Setup& setup,
@@ -208,6 +223,8 @@ void LiveCar::serve_radio(Instant now) { parts_.radio.serve(now); }
 
 void LiveCar::show_others(Field& field, std::size_t own, Instant at) {
   parts_.rig.show_rival(field.rival_of(own));
+  if (parts_.detections)
+    parts_.detections->step({field.car(own).pose, field.others_of(own)}, at, started_);
   const bool tick = (at - Instant{}).ns % setup_.params.rates.tick.ns == 0;
   if (record_ && tick) record_->others(field, own, at);
 }
@@ -269,6 +286,7 @@ void LiveCar::fill() {
   result_.laps = parts_.rig.laps();
   result_.traffic.from_car = result_.traffic.bench_received;
   result_.traffic.lost = lost_here();
+  if (parts_.detections) result_.detections_lost = parts_.detections->lost();
   const CarReport& last = parts_.monitor.report();
   if (std::isfinite(last.gate_refusals))
     result_.gate_refusals = static_cast<std::uint64_t>(last.gate_refusals);
@@ -301,6 +319,8 @@ void LiveCar::compare_counts(const CarSummary& car) {
   result_.traffic.lost = missing(result_.traffic.to_car, car.frames_received) +
                          missing(car.frames_sent, result_.traffic.bench_received) + not_taken_ +
                          car.tx_drops;
+  if (parts_.detections)
+    result_.detections_lost += missing(parts_.detections->sent(), detections_received(car));
 }
 
 void LiveCar::record_car(const CarSummary& car) {

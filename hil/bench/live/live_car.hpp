@@ -16,6 +16,7 @@
 
 #include "hil/bench/live/car_monitor.hpp"
 #include "hil/bench/live/car_summary.hpp"
+#include "hil/bench/live/detection_publisher.hpp"
 #include "hil/bench/live/live.hpp"
 #include "hil/bench/live/machine.hpp"
 #include "hil/bench/live/operator_line.hpp"
@@ -55,7 +56,7 @@ class LiveCar {
   std::optional<Problem> stop_processes(Duration limit, const std::function<void()>& idle);
   LiveResult finish(const RealTime& time, double wall_s);
 
-  // What race control's timing says of the nearest other car.
+  // What race control's timing says of the nearest other car, and what our sensors see of all.
   void show_others(Field& field, std::size_t own, Instant at);
   void note_others(std::size_t cars, const std::optional<CarContact>& contact);
   const Rig& rig() const { return parts_.rig; }
@@ -71,6 +72,7 @@ class LiveCar {
     ReceiverPort receivers;
     Machine machine;
     ProcessSupervisor processes;
+    std::optional<DetectionPublisher> detections;  // none: the car has no such sensors
   };
 
   LiveCar(const scenario::Scenario& scenario, const pipeline::Setup& setup, const LivePlan& plan,

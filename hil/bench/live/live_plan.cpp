@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hil/bench/live/live_plan.hpp"
 
+#include "vehicle/io/ingress/sensor_file.hpp"
+
 namespace pitwall::bench {
 namespace {
 
@@ -34,9 +36,14 @@ Words radio_of_car(const LivePlan& plan) {
   return words;
 }
 
+Words sensors_of(const LivePlan& plan) {
+  if (plan.sensors.empty()) return {};
+  return {"--sensors", plan.sensors, "--sensors-domain", std::to_string(plan.sensors_domain)};
+}
+
 Words car_command(const LivePlan& plan) {
   return plan.vehicle + Words{"--can", plan.interface} + receivers(plan.gnss_port) +
-         radio_of_car(plan) + shared_memory(plan) + clock_of(plan) +
+         radio_of_car(plan) + shared_memory(plan) + clock_of(plan) + sensors_of(plan) +
          Words{"--local-report", std::to_string(plan.report_port), "--summary",
                plan.summary_of("vehicle"), "--simulation"};
 }
@@ -57,6 +64,15 @@ Words base_command(const LivePlan& plan) {
 
 }  // namespace
 
+std::optional<Problem> add_sensors(LivePlan& plan, const std::string& file) {
+  if (file.empty()) return std::nullopt;
+  const auto read = io::read_sensor_file(file);
+  if (!read) return read.error();
+  plan.sensors = file;
+  plan.sensors_domain = read->domain.domain;
+  return std::nullopt;
+}
+
 LivePlan in_bay(LivePlan plan, int bay) {
   if (bay == 0) return plan;
   const auto shift = [bay](std::uint16_t& port) {
@@ -68,6 +84,7 @@ LivePlan in_bay(LivePlan plan, int bay) {
     shift(*port);
   }
   plan.guardian_name += "-" + std::to_string(bay);
+  plan.sensors_domain += bay;
   return plan;
 }
 

@@ -8,6 +8,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,6 +17,7 @@
 #include "hil/bench/progress.hpp"
 #include "hil/scenario/radio_section.hpp"
 #include "protocol/recording/mcap_writer.hpp"
+#include "protocol/vocabulary/result.hpp"
 
 namespace pitwall::bench {
 
@@ -29,6 +31,8 @@ struct LivePlan {
   // already, and the bench attaches to its bus, its receivers' ports and its radio.
   std::vector<std::string> vehicle{}, guardian{}, base{};
   std::string folder{};                       // for the summaries and the candump
+  std::string sensors{};                      // sensor file of the car; empty: none
+  int sensors_domain = 0;                     // ROS domain of these sensors
   std::string disk{};                         // for a disk-full fault; empty: none
   std::string clock{};                        // file of bench time; empty: the wall clock
   std::string clock_line{};                   // of a guest, to a host that follows it; empty: none
@@ -63,6 +67,9 @@ struct LivePlan {
     return (disk.empty() ? folder : disk) + "/" + who + ".json";
   }
 };
+
+// The car has the sensors of this file; an empty name: none.
+std::optional<Problem> add_sensors(LivePlan& plan, const std::string& file);
 
 std::array<Member, kRoles> members_of(const LivePlan& plan);
 

@@ -91,10 +91,14 @@ void CarBench::show_others(Field& field, std::size_t own, Instant at) {
   rig_.show_rival(field.rival_of(own));
   arrivals_.clear();
   sensors::step_detections(detection_sensors_, detection_,
-                           {.ours = seen(field.car(own).pose), .others = field.others_of(own)}, at,
+                           {.ours = field.car(own).pose, .others = field.others_of(own)}, at,
                            arrivals_);
-  for (const world::DetectionFrame& frame : arrivals_)
-    if (detections_.size() < kDetectionFrames) detections_.push_back(frame);
+  for (const world::DetectionFrame& frame : arrivals_) {
+    if (detections_.size() < kDetectionFrames)
+      detections_.push_back(frame);
+    else
+      ++result_.detections_lost;
+  }
   const bool tick = (at - Instant{}).ns % setup_.params.rates.tick.ns == 0;
   if (record_ && tick) record_->others(field, own, at);
 }
@@ -113,6 +117,8 @@ void CarBench::step_computer(Instant now) {
   if (guardian_.car_restarts(now)) {
     *car_ = {};
     inbox_.clear();
+    result_.detections_lost += detections_.size();
+    detections_.clear();
     decoder_ = ReceiverDecoder{setup_.params.receivers};
     base_.restart_car();
     stepped_at_ = now - setup_.params.rates.tick;
@@ -296,6 +302,7 @@ RunResult CarBench::finish() {
   result_.laps = rig_.laps();
   for (const std::string& refusal : base_.refusals())
     result_.remarks.push_back("the operator was refused: " + refusal);
+  result_.detections_lost += detection_.overflows;
   result_.traffic.lost = frames_lost();
   result_.traffic.bus_load = bus_.load();
   if (record_) {

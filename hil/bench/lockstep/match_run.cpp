@@ -49,12 +49,12 @@ void MatchRun::step(Field& field, Instant now) {
   order_ghost(field);
 }
 
-bool MatchRun::is_inside(const traffic::CarPose& pose) const {
+bool MatchRun::is_inside(const plant::CarPose& pose) const {
   return pose.n_m > 0.5 * (plan_.lanes.inside_m + plan_.lanes.outside_m);
 }
 
 race::JudgedCar MatchRun::judged(const Field& field, std::size_t car) const {
-  const traffic::CarPose& pose = field.car(cars_[car]).pose;
+  const plant::CarPose& pose = field.car(cars_[car]).pose;
   return {.station_m = pose.s_m,
           .speed_mps = traffic::speed_mps(pose),
           .length_m = pose.length_m,
@@ -81,7 +81,7 @@ void MatchRun::order_ghost(Field& field) {
   const auto shown = race::shown_to(state_, kRival);
   if (!shown || !field.is_ghost(cars_[kRival])) return;
   if (state_.stage == race::Stage::kOver) return field.order(cars_[kRival], {.speed_mps = 0.0});
-  const traffic::CarPose &own = field.car(cars_[kOwn]).pose, &rival = field.car(cars_[kRival]).pose;
+  const plant::CarPose &own = field.car(cars_[kOwn]).pose, &rival = field.car(cars_[kRival]).pose;
   const bool attacks = state_.match.attacker == kRival;
   const traffic::DriverOrder order =
       traffic::order_of(nth_or_last(plan_.attempts, attempts_by(kRival)),

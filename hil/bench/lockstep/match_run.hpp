@@ -15,8 +15,8 @@
 #include "hil/bench/result.hpp"
 #include "hil/nodes/judge.hpp"
 #include "hil/nodes/match_sheet.hpp"
+#include "hil/plant/car_pose.hpp"
 #include "hil/scenario/match_section.hpp"
-#include "hil/traffic/car_pose.hpp"
 #include "protocol/rules/passing_rules.hpp"
 #include "vehicle/world/track_map.hpp"
 
@@ -38,7 +38,7 @@ class MatchRun {
   race::MatchSheet sheet() const;
 
  private:
-  bool is_inside(const traffic::CarPose& pose) const;
+  bool is_inside(const plant::CarPose& pose) const;
   race::JudgedCar judged(const Field& field, std::size_t car) const;
   std::optional<race::JudgedContact> contact(const Field& field) const;
   void order_ghost(Field& field);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hil/bench/recorded/drive_again.hpp"
 
+#include <array>
 #include <bit>
 
 #include "protocol/bits/sha256.hpp"
@@ -45,6 +46,10 @@ bool is_recorded(telemetry::Group group) {
   static constexpr telemetry::GroupSet kDown = telemetry::groups_of(telemetry::Direction::kDown);
   return kDown.has(group);
 }
+
+using telemetry::Group;
+constexpr std::array kOpponents{Group::kOpponent1, Group::kOpponent2, Group::kOpponent3,
+                                Group::kOpponent4};
 
 bool same_bits(double a, double b) {
   return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b);
@@ -106,6 +111,10 @@ RecordedState DriveAgain::state_at(const pipeline::Outputs& out, Instant at) {
   const telemetry::Values other = mapped(other_measurements()).values;
   for (telemetry::FieldIndex i = 0; i < telemetry::kFieldCount; ++i)
     if (!same_bits(snapshot.values[i], other[i])) measured_.set(i);
+  for (const Group group : kOpponents) {
+    const auto [first, count] = telemetry::fields_of(group);
+    for (telemetry::FieldIndex i = first; i < first + count; ++i) measured_.set(i);
+  }
   RecordedState state{.at = at, .values = snapshot.values, .groups = {}};
   for (const telemetry::GroupRow& row : telemetry::kGroupTable)
     if (is_recorded(row.group) && snapshot.ever(row.group)) state.groups.add(row.group);

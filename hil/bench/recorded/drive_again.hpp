@@ -6,7 +6,8 @@
 //   invariants
 //          the same build with the same files gives the same result, to the bit. Only what the
 //          process measures of itself (times, sockets, the radio) is not reproduced. Those fields
-//          are found by a second telemetry snapshot with different measurements
+//          are found by a second telemetry snapshot with different measurements; the other cars
+//          are among them, because detections are not recorded
 //   errors Problem: a tick that a car of this build cannot have had
 // SPDX-License-Identifier: Apache-2.0
 #pragma once

@@ -7,7 +7,8 @@ namespace pitwall::tracking_bench {
 namespace {
 
 constexpr double kStep_m = 2.0, kWindow_m = 80.0;
-constexpr int kPasses = 3;  // of a moving mean
+constexpr int kPasses = 3;                           // of a moving mean
+constexpr double kLength_m = 4.92, kWidth_m = 1.89;  // of a car
 
 std::vector<double> smoothed(const std::vector<double>& in, int half) {
   const auto n = static_cast<int>(in.size());
@@ -52,16 +53,16 @@ RaceLanes::Rates RaceLanes::rates(const Motion& motion, const world::TrackPoint&
   return r;
 }
 
-sensors::TrueCar RaceLanes::placed(const Motion& motion) const {
+plant::CarPose RaceLanes::placed(const Motion& motion) const {
   const Middle mid = middle(motion.s_m);
   const world::TrackPoint at = track_->at(motion.s_m);
   const world::TrackPoint p = track_->offset(motion.s_m, mid.offset_m + motion.lane_m);
   const Rates r = rates(motion, at, mid);
-  sensors::TrueCar car;
+  plant::CarPose car;
   car.x_m = p.x_m, car.y_m = p.y_m;
   car.yaw_rad = wrap_pi(at.yaw_rad + std::atan2(r.across_mps, r.along_mps));
-  car.vx_mps = motion.speed_mps * std::cos(car.yaw_rad);
-  car.vy_mps = motion.speed_mps * std::sin(car.yaw_rad);
+  car.vx_mps = motion.speed_mps, car.vy_mps = 0.0;
+  car.length_m = kLength_m, car.width_m = kWidth_m;
   return car;
 }
 

@@ -24,7 +24,7 @@ class RaceLanes {
  public:
   explicit RaceLanes(const world::TrackMap& track);
 
-  sensors::TrueCar placed(const Motion& motion) const;
+  plant::CarPose placed(const Motion& motion) const;
   // Speed and station after a while; the lane is the driver's.
   void advance(Motion& motion, double dt_s) const;
 

@@ -24,12 +24,12 @@ TEST(RaceTraffic, CarsMoveAtTheirSpeedInTheirDirection) {
   const Scene scene = race_scene();
   RaceTraffic traffic(scene.traffic, 1);
   for (int i = 0; i < 5'000; ++i) {
-    std::vector<sensors::TrueCar> before;
+    std::vector<plant::CarPose> before;
     for (std::size_t c = 0; c < traffic.size(); ++c)
       before.push_back(lanes().placed(traffic.motion(c)));
     for (int k = 0; k < 10; ++k) traffic.step(lanes(), kDt);
     for (std::size_t c = 0; c < traffic.size(); ++c) {
-      const sensors::TrueCar after = lanes().placed(traffic.motion(c));
+      const plant::CarPose after = lanes().placed(traffic.motion(c));
       const double dx_m = after.x_m - before[c].x_m, dy_m = after.y_m - before[c].y_m;
       const double speed_mps = std::hypot(after.vx_mps, after.vy_mps);
       ASSERT_NEAR(speed_mps, traffic.motion(c).speed_mps, 1e-9);
@@ -69,7 +69,7 @@ TEST(RaceTraffic, TheHourIsARaceWithoutContact) {
         ASSERT_TRUE(is_apart) << a << ' ' << b << " at " << i * 0.002 << " s: " << m.s_m - other.s_m
                               << ' ' << m.lane_m - other.lane_m;
       }
-      const sensors::TrueCar car = lanes().placed(m);
+      const plant::CarPose car = lanes().placed(m);
       const world::Curvilinear place = track.project(car.x_m, car.y_m, track.wrap_station(m.s_m));
       const world::TrackPoint wall = track.at(place.s_m);
       ASSERT_LT(place.n_m, wall.width_left_m);

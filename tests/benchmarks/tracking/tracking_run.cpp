@@ -13,7 +13,7 @@
 namespace pitwall::tracking_bench {
 namespace {
 
-using sensors::TrueCar;
+using plant::CarPose;
 using world::EgoState, world::Opponent, world::Opponents;
 
 constexpr Duration kTick = milliseconds(10), kDt = milliseconds(2);
@@ -27,7 +27,7 @@ class OwnView {
     wander_.begin(noise_);
   }
 
-  EgoState at(Instant now, const TrueCar& car, const Motion& motion) {
+  EgoState at(Instant now, const CarPose& car, const Motion& motion) {
     wander_.advance(noise_, kTick.seconds(), sigma_.correlation_s);
     const auto& w = wander_.value;
     EgoState ego;
@@ -53,8 +53,8 @@ class OwnView {
 };
 
 struct Moment {
-  TrueCar ours;
-  std::vector<TrueCar> others;
+  CarPose ours;
+  std::vector<CarPose> others;
 
   sensors::TrueCars cars() const { return {ours, others}; }
 };
@@ -77,8 +77,8 @@ struct TrackError {
   double position_m() const { return std::hypot(along_m, across_m); }
 };
 
-TrackError error_of(const Opponent& track, const TrueCar& car, const EgoState& ego,
-                    const TrueCar& ours) {
+TrackError error_of(const Opponent& track, const CarPose& car, const EgoState& ego,
+                    const CarPose& ours) {
   const Offset known = in_body(track.x_m, track.y_m, ego.x_m, ego.y_m, ego.yaw_rad);
   const Offset is = in_body(car.x_m, car.y_m, ours.x_m, ours.y_m, ours.yaw_rad);
   return {.along_m = known.along_m - is.along_m,
@@ -107,7 +107,7 @@ class Scorer {
     if ((now - Instant{}).seconds() < kWarmUp_s) return;
     std::vector<Spot> objects, tracks;
     for (std::size_t i = 0; i < moment.others.size(); ++i) {
-      const TrueCar& car = moment.others[i];
+      const CarPose& car = moment.others[i];
       const double distance_m = std::hypot(car.x_m - moment.ours.x_m, car.y_m - moment.ours.y_m);
       const bool is_required = distance_m <= kRequired_m && seen_[i].since_s < kInSight_s;
       const auto id = static_cast<std::uint32_t>(i);
@@ -137,7 +137,7 @@ class Scorer {
 
   // All sensors have been blind since blind_for.
   void end_of_blindness(const Moment& moment, const EgoState& ego, const Opponents& known) {
-    for (const TrueCar& car : moment.others) {
+    for (const CarPose& car : moment.others) {
       std::optional<double> nearest_m;
       for (const Opponent& track : known.cars) {
         const double d_m = error_of(track, car, ego, moment.ours).position_m();
@@ -176,7 +176,7 @@ class Scorer {
         sight.since_s = 0.0, sight.is_forgotten = false;
         break;
       }
-      const TrueCar& car = moment.others[i];
+      const CarPose& car = moment.others[i];
       const double ahead_m =
           in_body(car.x_m, car.y_m, moment.ours.x_m, moment.ours.y_m, moment.ours.yaw_rad).along_m;
       if (sight.side * ahead_m < 0.0 && now > Instant{}) ++row_->passes;

@@ -115,15 +115,15 @@ TEST(Field, TheRivalIsTheNearestOnTheTrack) {
   EXPECT_FALSE((Race{{}}.field.rival_of(0))) << "a car that is alone has none";
 }
 
-TEST(Field, TheSensorsOfACarSeeAllOthersInMap) {
+TEST(Field, TheSensorsOfACarSeeAllOthers) {
   Race race{{ghost_at(30.0, 20.0, 20.0)}};
   race.run(1'000.0, 20.0, milliseconds(10));
   const auto others = race.field.others_of(0);
   ASSERT_EQ(others.size(), 1u);
-  const traffic::CarPose& pose = race.field.car(1).pose;
+  const plant::CarPose& pose = race.field.car(1).pose;
   EXPECT_EQ(others[0].x_m, pose.x_m);
-  EXPECT_NEAR(others[0].vx_mps, 20.0 * std::cos(pose.yaw_rad), 0.01);
-  EXPECT_NEAR(others[0].vy_mps, 20.0 * std::sin(pose.yaw_rad), 0.01);
+  EXPECT_EQ(others[0].yaw_rad, pose.yaw_rad);
+  EXPECT_NEAR(others[0].vx_mps, 20.0, 0.01);
   EXPECT_EQ(race.field.others_of(1).size(), 1u);
 }
 

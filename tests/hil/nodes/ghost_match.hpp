@@ -74,7 +74,7 @@ class GhostMatch {
     for (std::uint8_t car = 0; car < rules::kCars; ++car) {
       traffic::Surroundings around;
       if (const auto shown = shown_to(state_, car)) {
-        const traffic::CarPose &own = poses[car], &other = poses[1U - car];
+        const plant::CarPose &own = poses[car], &other = poses[1U - car];
         const traffic::DriverOrder order = traffic::order_of(
             drivers_[car].manner, drivers_[car].defence,
             {.role = car == state_.match.attacker ? rules::Role::kAttacker : rules::Role::kDefender,
@@ -94,7 +94,7 @@ class GhostMatch {
   }
 
   JudgedCar judged(std::size_t car) const {
-    const traffic::CarPose& pose = cars_[car].pose;
+    const plant::CarPose& pose = cars_[car].pose;
     return {.station_m = pose.s_m,
             .speed_mps = traffic::speed_mps(pose),
             .length_m = pose.length_m,
@@ -104,7 +104,7 @@ class GhostMatch {
 
   // Whoever is behind drove into the other one.
   std::optional<JudgedContact> contact() const {
-    const traffic::CarPose &a = cars_[0].pose, &b = cars_[1].pose;
+    const plant::CarPose &a = cars_[0].pose, &b = cars_[1].pose;
     if (std::hypot(a.x_m - b.x_m, a.y_m - b.y_m) > 10.0) return std::nullopt;
     const auto gap = traffic::gap_between(traffic::rectangle_of(a), traffic::rectangle_of(b));
     if (gap.distance_m > 0.0) return std::nullopt;

@@ -14,6 +14,7 @@
 namespace pitwall::sensors {
 namespace {
 
+using plant::CarPose;
 using world::Detection, world::DetectionFrame, world::DetectionSource;
 
 constexpr double kSigmas = 5.0;
@@ -38,14 +39,22 @@ DetectionSensor exact(DetectionSource source) {
   return s;
 }
 
-TrueCar car_at(double x_m, double y_m, double yaw_rad = 0.0, double vx_mps = 0.0,
-               double vy_mps = 0.0) {
-  return {.x_m = x_m, .y_m = y_m, .yaw_rad = yaw_rad, .vx_mps = vx_mps, .vy_mps = vy_mps};
+// Velocity in Map.
+CarPose car_at(double x_m, double y_m, double yaw_rad = 0.0, double east_mps = 0.0,
+               double north_mps = 0.0) {
+  const double c = std::cos(yaw_rad), s = std::sin(yaw_rad);
+  return {.x_m = x_m,
+          .y_m = y_m,
+          .yaw_rad = yaw_rad,
+          .vx_mps = c * east_mps + s * north_mps,
+          .vy_mps = c * north_mps - s * east_mps,
+          .length_m = 4.92,
+          .width_m = 1.89};
 }
 
 struct Sight {
-  TrueCar ours = car_at(0.0, 0.0);
-  std::vector<TrueCar> others{};
+  CarPose ours = car_at(0.0, 0.0);
+  std::vector<CarPose> others{};
 };
 
 std::vector<DetectionFrame> frames_of(const std::vector<DetectionSensor>& sensors,
@@ -358,8 +367,8 @@ TEST(Detections, ASeedRepeatsAndOneSensorChangesNoOther) {
 TEST(Detections, ACopyOfTheStateGoesOnAlike) {
   const DetectionSensors sensors = av21_detection_sensors();
   DetectionState state = make_detections(sensors, 3, Instant{});
-  const TrueCar ours = car_at(0, 0);
-  const std::vector<TrueCar> others{car_at(20.0, 0.0)};
+  const CarPose ours = car_at(0, 0);
+  const std::vector<CarPose> others{car_at(20.0, 0.0)};
   Arrivals out;
   for (int i = 0; i < 100; ++i, out.clear())
     step_detections(sensors, state, {ours, others}, Instant{} + i * kStep, out);
@@ -381,7 +390,7 @@ TEST(Detections, WhatFindsNoRoomArrivesWithTheNextCall) {
   fast.cadence = {milliseconds(10), milliseconds(5), 0.0};
   ASSERT_TRUE(sensors.push(fast));
   DetectionState state = make_detections(sensors, 3, Instant{});
-  const TrueCar ours = car_at(0, 0);
+  const CarPose ours = car_at(0, 0);
   Arrivals out;
   for (int i = 0; i < 26; ++i)
     step_detections(sensors, state, {ours, {}}, Instant{} + i * kStep, out);

@@ -13,9 +13,9 @@ namespace {
 constexpr double kLength_m = 4.9, kWidth_m = 1.9;
 
 // Position and speed of a car over time, on a straight road along x.
-using Path = std::function<CarPose(double t_s)>;
+using Path = std::function<plant::CarPose(double t_s)>;
 
-CarPose car_at(double x_m, double y_m, double vx_mps, double vy_mps = 0.0) {
+plant::CarPose car_at(double x_m, double y_m, double vx_mps, double vy_mps = 0.0) {
   return {.x_m = x_m,
           .y_m = y_m,
           .yaw_rad = 0.0,
@@ -56,7 +56,7 @@ struct Place {
   double turn_rad = 0.0, x_m = 0.0, y_m = 0.0;
 };
 
-CarPose placed(CarPose car, const Place& place) {
+plant::CarPose placed(plant::CarPose car, const Place& place) {
   const double c = std::cos(place.turn_rad), s = std::sin(place.turn_rad);
   const double x_m = car.x_m, y_m = car.y_m;
   car.x_m = place.x_m + c * x_m - s * y_m;
@@ -174,7 +174,7 @@ TEST(ContactCause, OfASlowApproachIsTheOneThatApproaches) {
 
 TEST(ContactCause, IsNeverTheStandingCar) {
   const Path spun = [](double) {
-    CarPose car = car_at(100.0, 0.3, 0.0);
+    plant::CarPose car = car_at(100.0, 0.3, 0.0);
     car.yaw_rad = 2.0;
     return car;
   };
@@ -193,7 +193,7 @@ TEST(ContactCause, NeedsAContact) {
 }
 
 TEST(ContactCause, ATurningCarMovesItsCorners) {
-  CarPose car = car_at(0.0, 0.0, 10.0);
+  plant::CarPose car = car_at(0.0, 0.0, 10.0);
   car.yaw_rad = from_deg(90.0);
   car.yaw_rate_rad_per_s = 2.0;
   const Vector2 nose = velocity_at(car, {0.0, 2.0});

@@ -64,7 +64,7 @@ const GhostState& first(const std::vector<GhostState>& states, Condition&& condi
   return states.back();
 }
 
-Vector2 velocity(const CarPose& p) {
+Vector2 velocity(const plant::CarPose& p) {
   const double c = std::cos(p.yaw_rad), s = std::sin(p.yaw_rad);
   return {c * p.vx_mps - s * p.vy_mps, s * p.vx_mps + c * p.vy_mps};
 }
@@ -140,7 +140,7 @@ TEST(Ghost, MovesSmoothlyWithinItsLimitsWhateverTheScript) {
     const Ghost ghost = built(draw_plan(seed));
     const auto states = driven(ghost, 40.0, [](double t_s) { return 30.0 + 50.0 * t_s; });
     for (std::size_t i = 1; i < states.size(); ++i) {
-      const CarPose &a = states[i - 1].pose, &b = states[i].pose;
+      const plant::CarPose &a = states[i - 1].pose, &b = states[i].pose;
       const double dt_s = kTick.seconds(),
                    change_mps = speed_of(states[i]) - speed_of(states[i - 1]);
       ASSERT_LE(change_mps, 4.0 * dt_s + 1e-9) << seed << " at " << time_of(states[i]);
@@ -180,7 +180,8 @@ TEST(Ghost, TheSameSeedGivesTheSameBits) {
   GhostPlan plan = draw_plan(3);
   plan.drift.sigma_m = 0.3;
   const Ghost ghost = built(plan);
-  const CarPose once = driven(ghost, 30.0).back().pose, again = driven(ghost, 30.0).back().pose;
+  const plant::CarPose once = driven(ghost, 30.0).back().pose,
+                       again = driven(ghost, 30.0).back().pose;
   EXPECT_EQ(std::memcmp(&once, &again, sizeof once), 0);
   plan.seed = 99;
   EXPECT_NE(driven(built(plan), 30.0).back().pose.n_m, once.n_m);

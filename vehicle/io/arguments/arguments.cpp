@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 
+#include "protocol/dds/domain.hpp"
 #include "protocol/telemetry/packet/body.hpp"
 #include "protocol/telemetry/session/association.hpp"
 #include "vehicle/io/arguments/clock_option.hpp"
@@ -36,8 +37,12 @@ std::variant<Arguments, int> parse_arguments(int argc, const char* const* argv) 
   app.add_option("--summary", args.summary_file, "write counters and timing here at the end");
   app.add_option("--record", args.record_folder,
                  "keep state and bus frames in this folder: MCAP, and an LCM log beside it");
-  app.add_option("--sensors", args.sensors_file,
-                 "sensors that come over ROS 2 topics: file of topics, types and expected rates");
+  CLI::Option* const sensors = app.add_option(
+      "--sensors", args.sensors_file,
+      "sensors that come over ROS 2 topics: file of topics, types and expected rates");
+  app.add_option("--sensors-domain", args.sensors_domain, "ROS domain, instead of that file's")
+      ->check(CLI::Range(0, dds::kDomainMax))
+      ->needs(sensors);
   app.add_option("--guardian", args.guardian,
                  "name of the record shared with pitwall-guardian (a file in /dev/shm, or a path)");
   app.add_flag("--simulation", args.simulation, "say in the telemetry that this is a simulation");

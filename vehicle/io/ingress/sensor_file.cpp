@@ -12,7 +12,37 @@ namespace pitwall::io {
 namespace {
 
 constexpr double kRateMin_hz = 0.1, kRateMax_hz = 2'000.0;
-constexpr std::array<std::string_view, 4> kTypes{"PointCloud2", "Image", "NavSatFix", "Imu"};
+constexpr std::array<std::string_view, 7> kTypes{
+    "PointCloud2",      "Image",    "NavSatFix", "Imu", "Detection3DArray",
+    "Detection2DArray", "RadarScan"};
+constexpr const char* kExpectedTypes =
+    "expected one of: PointCloud2, Image, NavSatFix, Imu, Detection3DArray, Detection2DArray, "
+    "RadarScan";
+
+constexpr std::int64_t kUnitMax = 15;
+constexpr double kHalfTurn_deg = 180.0;
+constexpr double kPixelsMax = 100'000.0;
+constexpr double kHeightMin_m = 0.3, kHeightMax_m = 5.0;
+constexpr double kAmplitudeMax_db = 300.0;
+
+DetectionRow read_detections(yaml::StrictMap& map, SensorType type) {
+  DetectionRow row;
+  row.unit = static_cast<std::uint8_t>(map.integer_or("unit", 0, 0, kUnitMax));
+  row.frame = map.text_or("frame", row.frame);
+  if (type == SensorType::kDetection3DArray) return row;
+  row.facing_rad = from_deg(map.number_or("facing_deg", 0.0, -kHalfTurn_deg, kHalfTurn_deg));
+  if (type == SensorType::kDetection2DArray) {
+    row.focal_px = map.number("focal_px", 1.0, kPixelsMax);
+    row.centre_px = map.number("centre_px", -kPixelsMax, kPixelsMax);
+    row.height_m = map.number("height_m", kHeightMin_m, kHeightMax_m);
+    return row;
+  }
+  const std::vector<double> db =
+      map.numbers("amplitude_db", 2, 2, -kAmplitudeMax_db, kAmplitudeMax_db);
+  if (db[1] <= db[0]) map.fail("amplitude_db", "expected the smaller one first");
+  row.amplitude_0_db = db[0], row.amplitude_1_db = db[1];
+  return row;
+}
 
 SensorRow read_row(yaml::StrictMap& map) {
   SensorRow row{.name = map.text("name"), .topic = map.text("topic")};
@@ -24,10 +54,10 @@ SensorRow read_row(yaml::StrictMap& map) {
   if (const auto topic = ros::dds_topic(row.topic); !topic) map.fail("topic", topic.error().what);
   const std::string type = map.text("type");
   const auto found = std::ranges::find(kTypes, type);
-  if (found == kTypes.end())
-    map.fail("type", "expected one of: PointCloud2, Image, NavSatFix, Imu");
+  if (found == kTypes.end()) map.fail("type", kExpectedTypes);
   row.type = static_cast<SensorType>(found - kTypes.begin());
   row.rate_hz = map.number("rate_hz", kRateMin_hz, kRateMax_hz);
+  if (detects_cars(row.type)) row.detections = read_detections(map, row.type);
   return row;
 }
 
@@ -41,6 +71,9 @@ SensorFile read(yaml::StrictMap& map) {
     for (const SensorRow& other : file.sensors) {
       if (other.name == sensor.name) row.fail("name", "another sensor has this name");
       if (other.topic == sensor.topic) row.fail("topic", "another sensor has this topic");
+      if (detects_cars(sensor.type) && other.type == sensor.type &&
+          other.detections.unit == sensor.detections.unit)
+        row.fail("unit", "another sensor of this type has this unit");
     }
     file.sensors.push_back(sensor);
   }

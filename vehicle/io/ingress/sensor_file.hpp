@@ -5,29 +5,60 @@
 //     peers: [192.168.10.7]           # optional; hosts that multicast does not reach
 //     sensors:
 //       - {name: lidar, topic: /luminar_front/points, type: PointCloud2, rate_hz: 20}
+//       - {name: boxes, topic: /perception/lidar, type: Detection3DArray, rate_hz: 20}
+//       - {name: images, topic: /perception/camera, type: Detection2DArray, rate_hz: 20,
+//          frame: front_camera, facing_deg: 0, focal_px: 2000, centre_px: 960, height_m: 1.2}
+//       - {name: echoes, topic: /perception/radar, type: RadarScan, rate_hz: 20,
+//          amplitude_db: [-10, 30]}
 //
+// A row of detections may have: unit (0; which one of its type), frame (base_link), and where it is
+// a camera or a radar facing_deg (0; counter-clockwise from ahead). detection_codec.hpp says what
+// the numbers mean.
 //   invariants
-//          names and topics are unique; telemetry reports `lidar`, `camera` and `radar` to the pit
-//          wall
+//          names and topics are unique, and so are the units of one type of detections; telemetry
+//          reports `lidar`, `camera` and `radar` to the pit wall
 //   errors Problem with file, line and column
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
 #include "protocol/dds/domain.hpp"
 #include "protocol/vocabulary/result.hpp"
+#include "protocol/vocabulary/units.hpp"
 
 namespace pitwall::io {
 
-enum class SensorType : std::uint8_t { kPointCloud2, kImage, kNavSatFix, kImu };
+enum class SensorType : std::uint8_t {
+  kPointCloud2,
+  kImage,
+  kNavSatFix,
+  kImu,
+  kDetection3DArray,  // of a LiDAR
+  kDetection2DArray,  // of a camera
+  kRadarScan
+};
+
+// How the messages of a sensor that detects cars are read.
+struct DetectionRow {
+  std::uint8_t unit = 0;
+  std::string frame = "base_link";                          // header.frame_id of its messages
+  double facing_rad = 0.0;                                  // camera, radar
+  double focal_px = kUnset, centre_px = kUnset;             // camera
+  double height_m = kUnset;                                 // camera: of a car
+  double amplitude_0_db = kUnset, amplitude_1_db = kUnset;  // radar: confidence 0 and 1
+};
 
 struct SensorRow {
   std::string name, topic;
   SensorType type = SensorType::kPointCloud2;
   double rate_hz = 0.0;  // expected rate
+  DetectionRow detections{};
 };
+
+constexpr bool detects_cars(SensorType type) { return type >= SensorType::kDetection3DArray; }
 
 struct SensorFile {
   dds::DomainConfig domain;

@@ -8,8 +8,11 @@
 #include "protocol/json/json_text.hpp"
 #include "protocol/ros/cdr.hpp"
 #include "protocol/ros/describe.hpp"
+#include "protocol/ros/messages/radar.hpp"
+#include "protocol/ros/messages/vision.hpp"
 #include "protocol/ros/names.hpp"
 #include "protocol/transport/clock.hpp"
+#include "vehicle/io/ingress/stamp.hpp"
 
 namespace pitwall::io {
 namespace {
@@ -17,14 +20,19 @@ namespace {
 // As sensor drivers send: what is late is not worth sending again.
 constexpr dds::Quality kSensorData{.reliable = false, .latched = false, .depth = 5};
 
-Duration age_of(const ros::Header& header, UtcTime now) {
-  return Duration{now.ns - header.stamp.sec * kNanosecondsPerSecond -
-                  static_cast<std::int64_t>(header.stamp.nanosec)};
-}
-
 // Left out where it is not known.
 void add_figure(json::Object& out, const char* name, double value) {
   if (!std::isnan(value)) out.number(name, std::round(value * 1e3) * 1e-3);
+}
+
+void add_counts(json::Object& out, const DetectionCounts& c) {
+  out.number("refused", c.refused)
+      .number("in_future", c.in_future)
+      .number("too_old", c.too_old)
+      .number("foreign_frames", c.foreign_frames)
+      .number("too_many", c.too_many)
+      .number("no_room", c.no_room)
+      .number("bad_detections", c.bad_detections);
 }
 
 // Bytes of one value, by PointField's datatype.
@@ -89,25 +97,43 @@ struct SensorIngress::Sensor {
     arrivals.note(transport::monotonic_now(), ours ? std::optional{age} : std::nullopt);
   }
 
-  template <class M>
-  Result<bool, Problem> open() {
-    auto& mailbox = mailboxes.emplace<Mailbox<M>>();
+  void receive(DetectionInbox& inbox, dds::Bytes cdr) {
+    const Instant now = transport::monotonic_now();
+    if (const auto age = inbox.receive(cdr, transport::utc_now(), now)) arrivals.note(now, *age);
+  }
+
+  template <class M, class Place>
+  Result<bool, Problem> open(Place& place) {
     const dds::TopicType topic{*ros::dds_topic(row.topic), ros::dds_type(M::kType),
                                ros::type_hash(ros::describe<M>())};
     return domain->read_from(topic, kSensorData,
-                             [this, &mailbox](dds::Bytes cdr) { receive(mailbox, cdr); });
+                             [this, &place](dds::Bytes cdr) { receive(place, cdr); });
+  }
+  template <class M>
+  Result<bool, Problem> open_newest() {
+    return open<M>(places.emplace<Mailbox<M>>());
+  }
+  template <class M>
+  Result<bool, Problem> open_all() {
+    return open<M>(places.emplace<DetectionInbox>(row.type, row.detections));
   }
 
   Result<bool, Problem> open_by_type() {
     switch (row.type) {
       case SensorType::kPointCloud2:
-        return open<ros::PointCloud2>();
+        return open_newest<ros::PointCloud2>();
       case SensorType::kImage:
-        return open<ros::Image>();
+        return open_newest<ros::Image>();
       case SensorType::kNavSatFix:
-        return open<ros::NavSatFix>();
+        return open_newest<ros::NavSatFix>();
       case SensorType::kImu:
-        return open<ros::Imu>();
+        return open_newest<ros::Imu>();
+      case SensorType::kDetection3DArray:
+        return open_all<ros::Detection3DArray>();
+      case SensorType::kDetection2DArray:
+        return open_all<ros::Detection2DArray>();
+      case SensorType::kRadarScan:
+        return open_all<ros::RadarScan>();
     }
     CHECK(false);
   }
@@ -115,11 +141,13 @@ struct SensorIngress::Sensor {
   SensorRow row;
   Arrivals arrivals;
   std::variant<std::monostate, Mailbox<ros::PointCloud2>, Mailbox<ros::Image>,
-               Mailbox<ros::NavSatFix>, Mailbox<ros::Imu>>
-      mailboxes;
+               Mailbox<ros::NavSatFix>, Mailbox<ros::Imu>, DetectionInbox>
+      places;
   std::atomic<std::uint64_t> refused{0}, bad_stamps{0};
   std::unique_ptr<dds::Domain> domain;  // last: its threads use all of the above
 };
+
+SensorIngress::SensorIngress() { frames_.reserve(kFramesMost); }
 
 SensorIngress::~SensorIngress() = default;
 
@@ -152,22 +180,39 @@ ArrivalFigures SensorIngress::figures(const std::string& name, Instant now) cons
 
 SensorCounts SensorIngress::counts(std::size_t i) const {
   const Sensor& sensor = *sensors_[i];
-  const std::uint64_t overwritten = std::visit(
-      [](const auto& mailbox) -> std::uint64_t {
-        if constexpr (requires { mailbox.overwritten(); }) return mailbox.overwritten();
-        return 0;
+  SensorCounts counts{.samples = sensor.arrivals.count(),
+                      .foreign_types = sensor.domain->figures().foreign_types,
+                      .refused = sensor.refused,
+                      .bad_stamps = sensor.bad_stamps};
+  std::visit(
+      [&counts](const auto& place) {
+        if constexpr (requires { place.overwritten(); }) counts.overwritten = place.overwritten();
       },
-      sensor.mailboxes);
-  return {.samples = sensor.arrivals.count(),
-          .overwritten = overwritten,
-          .refused = sensor.refused,
-          .foreign_types = sensor.domain->figures().foreign_types,
-          .bad_stamps = sensor.bad_stamps};
+      sensor.places);
+  if (const auto* const inbox = std::get_if<DetectionInbox>(&sensor.places))
+    counts.detections = inbox->counts();
+  return counts;
+}
+
+std::span<const world::DetectionFrame> SensorIngress::take_detections() {
+  frames_.clear();
+  while (frames_.size() < kFramesMost) {
+    DetectionInbox* first = nullptr;
+    for (const auto& sensor : sensors_) {
+      auto* const inbox = std::get_if<DetectionInbox>(&sensor->places);
+      if (inbox == nullptr || inbox->front() == nullptr) continue;
+      if (first == nullptr || inbox->front()->received < first->front()->received) first = inbox;
+    }
+    if (first == nullptr) break;
+    frames_.push_back(*first->front());
+    first->pop();
+  }
+  return frames_;
 }
 
 template <class M>
 const M* SensorIngress::take(std::size_t i) {
-  auto* const mailbox = std::get_if<Mailbox<M>>(&sensors_[i]->mailboxes);
+  auto* const mailbox = std::get_if<Mailbox<M>>(&sensors_[i]->places);
   return mailbox == nullptr ? nullptr : mailbox->take();
 }
 template const ros::PointCloud2* SensorIngress::take(std::size_t);
@@ -186,11 +231,13 @@ std::string SensorIngress::json(Instant now) const {
     add_figure(sensor, "rate_hz", f.rate_hz);
     add_figure(sensor, "gap_ms", f.gap_ms);
     add_figure(sensor, "latency_ms", f.latency_ms);
-    sensor.number("samples", c.samples)
-        .number("overwritten", c.overwritten)
-        .number("refused", c.refused)
-        .number("foreign_types", c.foreign_types)
-        .number("bad_stamps", c.bad_stamps);
+    sensor.number("samples", c.samples).number("foreign_types", c.foreign_types);
+    if (detects_cars(row(i).type))
+      add_counts(sensor, c.detections);
+    else
+      sensor.number("overwritten", c.overwritten)
+          .number("refused", c.refused)
+          .number("bad_stamps", c.bad_stamps);
     out.json(sensor.str());
   }
   return out.str();

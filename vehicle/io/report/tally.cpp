@@ -168,7 +168,8 @@ std::string link_json(const world::LinkObservation& link) {
 std::string summary_json(const StepTally& tally, const FrameTotals& frames,
                          const world::BusHealth& bus, const LossTally& losses,
                          const std::string& radio, const std::string& receivers,
-                         const std::string& recorder, const std::string& sensors) {
+                         const std::string& recorder, const std::string& sensors,
+                         const std::string& tracking) {
   json::Object out;
   out.number("ticks", tally.steps());
   out.number("missed_deadlines", tally.missed_deadlines());
@@ -195,6 +196,7 @@ std::string summary_json(const StepTally& tally, const FrameTotals& frames,
       .json("receivers", receivers)
       .json("recorder", recorder)
       .json("sensors", sensors)
+      .json("tracking", tracking)
       .number("step_p50_us", tally.quantile_us(0.5))
       .number("step_p99_us", tally.quantile_us(0.99))
       .number("step_max_us", tally.max_us());

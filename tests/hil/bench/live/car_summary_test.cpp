@@ -9,6 +9,7 @@
 #include "vehicle/io/receiver_port.hpp"
 #include "vehicle/io/report/radio_summary.hpp"
 #include "vehicle/io/report/tally.hpp"
+#include "vehicle/io/report/tracking_summary.hpp"
 
 namespace pitwall::bench {
 namespace {
@@ -126,6 +127,29 @@ TEST_F(CarSummaryFile, IsReadAsTheCarWroteIt) {
   EXPECT_EQ(car->refused_by_kind[8],
             (std::pair<std::string, std::uint64_t>{"implausible_slew", 9}));
   EXPECT_EQ(car->gate_verdicts.size(), safety::kVerdicts);
+}
+
+TEST_F(CarSummaryFile, ItsDetectionsAndTheCarsThatItTracksAreReadAsItHadThem) {
+  tracking::Counters counters;
+  counters.frames = 9, counters.too_far = 3;
+  world::Opponents opponents;
+  ASSERT_TRUE(opponents.cars.push(
+      {.id = 1, .x_m = -1.5, .y_m = 2.5, .speed_mps = 40.0, .measured_at = opponents.at}));
+  const std::string sensors = R"([{"name": "image", "samples": 1000, "refused": 1000},
+      {"name": "lidar", "samples": 1, "refused": 2, "in_future": 4, "too_old": 8,
+       "foreign_frames": 16, "too_many": 32, "no_room": 64, "bad_detections": 128},
+      {"name": "radar", "samples": 256, "bad_detections": 0}])";
+  const auto car = read_car_summary(
+      write(io::summary_json({}, some_totals(), some_health(), {}, "{}", "[]", "{}", sensors,
+                             io::tracking_json(counters, opponents))));
+  ASSERT_TRUE(car) << to_string(car.error());
+  EXPECT_EQ(car->tracking.size(), 14U);
+  EXPECT_EQ(car->tracking[0], (std::pair<std::string, std::uint64_t>{"frames", 9}));
+  ASSERT_EQ(car->opponents.size(), 1U);
+  EXPECT_EQ(car->opponents[0].x_m, -1.5);
+  EXPECT_EQ(car->opponents[0].y_m, 2.5);
+  EXPECT_EQ(car->opponents[0].speed_mps, 40.0);
+  EXPECT_EQ(detections_received(*car), 256U + 63U) << "what found no room did not reach the loop";
 }
 
 TEST_F(CarSummaryFile, ItsReceiversAreReadAsTheCarHadThem) {

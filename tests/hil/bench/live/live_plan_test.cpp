@@ -5,6 +5,8 @@
 
 #include <algorithm>
 
+#include "protocol/transport/file.hpp"
+
 namespace pitwall::bench {
 namespace {
 
@@ -121,6 +123,24 @@ TEST(LivePlan, BaysOfOneMachineShareNoPortAndNoMemory) {
   std::ranges::sort(taken);
   EXPECT_EQ(std::ranges::adjacent_find(taken), taken.end());
   EXPECT_EQ(in_bay(first, 0).report_port, first.report_port);
+}
+
+TEST(LivePlan, SensorsOfABayAreInARosDomainOfTheirOwn) {
+  const auto folder = transport::TemporaryFolder::create("pitwall-live-plan-");
+  ASSERT_TRUE(folder);
+  const std::string file = folder->path() + "/sensors.yaml";
+  ASSERT_TRUE(transport::write_file(
+      file, "domain: 7\nsensors: [{name: a, topic: /a, type: Imu, rate_hz: 9}]\n"));
+  LivePlan p = plan();
+  EXPECT_FALSE(add_sensors(p, ""));
+  EXPECT_FALSE(says(member(members_of(p), Role::kCar).command, "--sensors"));
+  EXPECT_FALSE(add_sensors(p, file));
+  EXPECT_EQ(after(member(members_of(p), Role::kCar).command, "--sensors"), file);
+  for (int bay = 0; bay < kBaysMax; ++bay)
+    EXPECT_EQ(after(member(members_of(in_bay(p, bay)), Role::kCar).command, "--sensors-domain"),
+              std::to_string(7 + bay));
+  const auto none = add_sensors(p, folder->path() + "/none.yaml");
+  ASSERT_TRUE(none);
 }
 
 TEST(LivePlan, AllLiveByTheTimeOfTheBenchOrByTheWallClock) {

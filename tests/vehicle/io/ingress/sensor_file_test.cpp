@@ -69,5 +69,54 @@ TEST(SensorFile, AMistakeIsNamed) {
   EXPECT_EQ(why("sensors:\n" + good), "taken");
 }
 
+TEST(SensorFile, ASensorThatDetectsCarsSaysHowItIsRead) {
+  const auto file = read(R"(
+sensors:
+  - {name: lidar, topic: /a, type: Detection3DArray, rate_hz: 20}
+  - {name: camera, topic: /b, type: Detection2DArray, rate_hz: 20, unit: 2, frame: left_camera,
+     facing_deg: 90, focal_px: 900, centre_px: 640, height_m: 1.2}
+  - {name: radar, topic: /c, type: RadarScan, rate_hz: 15, facing_deg: -90, amplitude_db: [-5, 35]}
+)");
+  ASSERT_TRUE(file) << to_string(file.error());
+  const DetectionRow &lidar = file->sensors[0].detections, &camera = file->sensors[1].detections,
+                     &radar = file->sensors[2].detections;
+  EXPECT_EQ(file->sensors[0].type, SensorType::kDetection3DArray);
+  EXPECT_EQ(lidar.frame, "base_link");
+  EXPECT_EQ(lidar.unit, 0);
+  EXPECT_EQ(file->sensors[1].type, SensorType::kDetection2DArray);
+  EXPECT_EQ(camera.unit, 2);
+  EXPECT_EQ(camera.frame, "left_camera");
+  EXPECT_EQ(camera.facing_rad, from_deg(90.0));
+  EXPECT_EQ(camera.focal_px, 900.0);
+  EXPECT_EQ(camera.centre_px, 640.0);
+  EXPECT_EQ(camera.height_m, 1.2);
+  EXPECT_EQ(file->sensors[2].type, SensorType::kRadarScan);
+  EXPECT_EQ(radar.facing_rad, from_deg(-90.0));
+  EXPECT_EQ(radar.amplitude_0_db, -5.0);
+  EXPECT_EQ(radar.amplitude_1_db, 35.0);
+}
+
+TEST(SensorFile, AMistakeInASensorThatDetectsCarsIsNamed) {
+  const auto row = [](const std::string& name, const std::string& type, const std::string& more) {
+    return "  - {name: " + name + ", topic: /" + name + ", type: " + type + ", rate_hz: 20" + more +
+           "}\n";
+  };
+  const std::string lidar = row("a", "Detection3DArray", "");
+  const std::string camera = ", focal_px: 900, centre_px: 640, height_m: 1.2";
+  const auto says = [](const std::string& rows) { return why("sensors:\n" + rows); };
+  EXPECT_EQ(says(lidar + row("b", "Detection3DArray", ", unit: 1")), "taken");
+  EXPECT_EQ(says(lidar + row("b", "Detection3DArray", "")),
+            "unit: another sensor of this type has this unit");
+  EXPECT_EQ(says(lidar + row("b", "RadarScan", ", amplitude_db: [0, 30]")), "taken");
+  EXPECT_NE(says(row("a", "RadarScan", "")), "taken") << "no amplitudes";
+  EXPECT_EQ(says(row("a", "RadarScan", ", amplitude_db: [30, 30]")),
+            "amplitude_db: expected the smaller one first");
+  EXPECT_EQ(says(row("a", "Detection2DArray", camera)), "taken");
+  EXPECT_NE(says(row("a", "Detection2DArray", "")), "taken") << "no optics";
+  EXPECT_NE(says(row("a", "Detection2DArray", camera + ", facing_deg: 181")), "taken");
+  EXPECT_NE(says(row("a", "Detection3DArray", ", unit: 16")), "taken");
+  EXPECT_NE(says(row("a", "Imu", ", unit: 1")), "taken") << "it detects no cars";
+}
+
 }  // namespace
 }  // namespace pitwall::io

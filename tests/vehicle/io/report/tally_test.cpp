@@ -172,9 +172,10 @@ TEST(Summary, IsReadBackWithEveryKey) {
   for (std::size_t i = 0; i < safety::kVerdicts; ++i) frames.gate_verdicts[i] = 1000 + i;
   const auto losses = std::make_unique<LossTally>();
   losses->add(some_health());
-  const std::string text = summary_json(*tally, frames, some_health(), *losses,
-                                        R"({"sessions": 51})", R"([{"bytes": 61}, {"bytes": 62}])",
-                                        R"({"records": 71})", R"([{"samples": 81}])");
+  const std::string text =
+      summary_json(*tally, frames, some_health(), *losses, R"({"sessions": 51})",
+                   R"([{"bytes": 61}, {"bytes": 62}])", R"({"records": 71})",
+                   R"([{"samples": 81}])", R"({"frames": 91})");
   const auto document = yaml::load_text(text, "summary.json");  // JSON is YAML
   ASSERT_TRUE(document) << to_string(document.error()) << text;
   const auto all = yaml::read(*document, [](yaml::StrictMap& map) {
@@ -205,6 +206,7 @@ TEST(Summary, IsReadBackWithEveryKey) {
     std::vector<yaml::StrictMap> sensors = map.maps("sensors");
     EXPECT_EQ(sensors.size(), 1U);
     for (const yaml::StrictMap& sensor : sensors) expect_counts(sensor, {{"samples", 81}});
+    expect_counts(map.map("tracking"), {{"frames", 91}});
     EXPECT_NEAR(map.number("step_p50_us", 0, 1e9), 51.0, 1.0);
     EXPECT_NEAR(map.number("step_p99_us", 0, 1e9), 100.0, 1.0);
     EXPECT_EQ(map.number("step_max_us", 0, 1e9), 100.0);

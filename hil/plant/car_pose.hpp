@@ -7,7 +7,7 @@
 
 #include "protocol/vocabulary/units.hpp"
 
-namespace pitwall::traffic {
+namespace pitwall::plant {
 
 struct CarPose {
   double x_m = kUnset, y_m = kUnset, yaw_rad = kUnset;
@@ -16,4 +16,4 @@ struct CarPose {
   double length_m = kUnset, width_m = kUnset;
 };
 
-}  // namespace pitwall::traffic
+}  // namespace pitwall::plant
