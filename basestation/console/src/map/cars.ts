@@ -59,7 +59,31 @@ export function drawTrail(
   pen.globalAlpha = 1;
 }
 
-export function drawOwn(pen: Pen, own: Own, into: Projection, colours: Palette): void {
+/** The ink of a car of a base that has several, by its place among them from 1. */
+export const inkOfCar = (order: number, colours: Palette): string =>
+  colours.cars[(order - 1) % colours.cars.length];
+
+/** The number of a car beside its arrow. */
+function numbered(pen: Pen, car: Pose, number: number, into: Projection): void {
+  const { x, y } = into.toPixel(car.x, car.y);
+  const across = into.toAngle(car.yaw - Math.PI / 2);
+  pen.font = "700 16px Barlow, sans-serif";
+  pen.textAlign = "center";
+  pen.textBaseline = "middle";
+  pen.fillText(`${number}`, x + 22 * Math.cos(across), y + 22 * Math.sin(across));
+}
+
+/** `order` and `number` where the base has several cars. */
+export function drawOwn(
+  pen: Pen,
+  own: Own,
+  into: Projection,
+  colours: Palette,
+  among: { order: number; number: number } | null = null,
+): void {
+  const ink = among ? inkOfCar(among.order, colours) : colours.ego;
+  pen.fillStyle = own.quality >= Quality.stale ? colours.stale : ink;
+  if (among) numbered(pen, own, among.number, into);
   arrow(pen, own, into);
   if (own.quality >= Quality.stale) {
     pen.setLineDash([3, 3]);
@@ -69,7 +93,7 @@ export function drawOwn(pen: Pen, own: Own, into: Projection, colours: Palette):
     pen.setLineDash([]);
     return;
   }
-  pen.fillStyle = colours.ego;
+  pen.fillStyle = ink;
   pen.strokeStyle = colours.ground;
   pen.lineWidth = 2;
   pen.fill();
@@ -97,18 +121,13 @@ export function drawMates(
   colours: Palette,
 ): void {
   for (const mate of mates) {
-    const { x, y } = into.toPixel(mate.x, mate.y);
-    const ink = mate.stale ? colours.stale : colours.cars[(mate.order - 1) % colours.cars.length];
+    const ink = mate.stale ? colours.stale : inkOfCar(mate.order, colours);
     arrow(pen, mate, into, kMateSize);
     pen.lineWidth = colours.stroke;
     pen.strokeStyle = mate.stale ? ink : colours.ground;
     pen.fillStyle = ink;
     if (!mate.stale) pen.fill();
     pen.stroke();
-    const across = into.toAngle(mate.yaw - Math.PI / 2);
-    pen.font = "700 16px Barlow, sans-serif";
-    pen.textAlign = "center";
-    pen.textBaseline = "middle";
-    pen.fillText(`${mate.number}`, x + 22 * Math.cos(across), y + 22 * Math.sin(across));
+    numbered(pen, mate, mate.number, into);
   }
 }

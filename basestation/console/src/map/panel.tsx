@@ -63,6 +63,14 @@ class Ground {
   }
 }
 
+/** Which of the cars of the base is shown; null where it is the only one. */
+function amongCars(): { order: number; number: number } | null {
+  const { cars, shownCar, hasSeveral } = session;
+  if (!hasSeveral.value) return null;
+  const { value: car } = shownCar;
+  return { order: cars.value.indexOf(car) + 1, number: car.number ?? 0 };
+}
+
 function paintMap(canvas: HTMLCanvasElement, ground: Ground, course: Course | null): void {
   const pen = canvas.getContext("2d");
   if (!pen || canvas.clientWidth === 0) return;
@@ -82,7 +90,7 @@ function paintMap(canvas: HTMLCanvasElement, ground: Ground, course: Course | nu
     drawMates(pen, others, into, palette);
     drawList(pen, tracked, others, palette);
   }
-  if (car) drawOwn(pen, car, into, palette);
+  if (car) drawOwn(pen, car, into, palette, amongCars());
 }
 
 function paintStrip(canvas: HTMLCanvasElement, course: Course): void {

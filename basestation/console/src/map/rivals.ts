@@ -7,6 +7,7 @@
 import type { Palette } from "../theme/theme";
 import { fixed } from "../view/format";
 import { speedUnit } from "../view/speed_unit";
+import { inkOfCar } from "./cars";
 import type { Projection } from "./course";
 import type { Mate, Rival } from "./scene";
 
@@ -162,7 +163,7 @@ export function drawList(
   });
   mates.forEach((mate, i) => {
     const row = kListPx * (rivals.length + i + 1);
-    const ink = colours.cars[(mate.order - 1) % colours.cars.length];
+    const ink = inkOfCar(mate.order, colours);
     line(row, mate.stale ? colours.stale : ink, {
       mark: `car ${mate.number}`,
       gap: Number.isFinite(mate.gap) ? gapText(mate.gap) : "",
