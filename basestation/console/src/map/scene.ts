@@ -12,7 +12,8 @@ import { isLive, read, shownMs } from "../view/timeline";
 import { Judgement, Quality, judgementOf } from "../wire/status";
 import type { Course, Point, Pose } from "./course";
 
-const kRivals = 4;
+/** As many as the car tells of. */
+export const kRivals = 4;
 /** Without a detection for longer, the car's tracker only carries the rival on. */
 export const kCoastsAfterS = 0.5;
 /** The circle around a rival: so many standard deviations of its place, in the worst direction. */
