@@ -108,20 +108,26 @@ void Field::judge_pair(std::size_t first, std::size_t second, Instant now) {
   const auto contact = traffic::contact_between({one.pose, traces_[first], one.told_to_slow},
                                                 {other.pose, traces_[second], other.told_to_slow},
                                                 track_.at(one.pose.s_m).yaw_rad, now);
-  if (contact) contacts_.push_back({first, second, *contact, one.pose.s_m});
+  if (contact) contacts_.push_back({first, second, *contact, one.pose.s_m, one.pose, other.pose});
 }
 
 std::optional<CarContact> Field::contact_of(std::size_t car) const {
   for (const FieldContact& c : contacts_) {
     if (c.first != car && c.second != car) continue;
-    const std::size_t other = c.first == car ? c.second : c.first;
+    const bool is_first = c.first == car;
+    const std::size_t other = is_first ? c.second : c.first;
     return CarContact{.at = c.contact.at,
                       .with = names_[other],
+                      .with_number = numbers_[other],
                       .kind = c.contact.kind,
+                      .rule = c.contact.rule,
                       .is_caused = c.is_caused_by(car),
                       .is_caused_by_other = c.is_caused_by(other),
                       .closing_mps = c.contact.closing_mps,
-                      .s_m = c.s_m};
+                      .s_m = c.s_m,
+                      .point_m = c.contact.gap.point_m,
+                      .own = is_first ? c.first_pose : c.second_pose,
+                      .other = is_first ? c.second_pose : c.first_pose};
   }
   return std::nullopt;
 }

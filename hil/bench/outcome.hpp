@@ -7,6 +7,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 
@@ -35,15 +36,19 @@ inline bool has_contact(const Outcome& outcome) { return outcome.last && outcome
 
 void follow(Outcome& outcome, const VehiclePlace& now);
 
-// Contact with another car, which ends a run too.
+// Contact with another car, which ends a run too. Poses at that moment.
 struct CarContact {
   Instant at{};
-  std::string with;  // name of the other car
+  std::string with;              // name of the other car
+  std::uint8_t with_number = 0;  // as race control has it
   traffic::ContactKind kind = traffic::ContactKind::kFromSide;
+  traffic::ContactRule rule = traffic::ContactRule::kApproached;
   bool is_caused = false;           // by this car, alone or with the other one
   bool is_caused_by_other = false;  // likewise
   double closing_mps = kUnset;
   double s_m = kUnset;  // station on the track
+  traffic::Vector2 point_m{};
+  traffic::CarPose own{}, other{};
 };
 
 // Returns one sentence with place, speed and cause.

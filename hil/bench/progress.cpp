@@ -252,6 +252,10 @@ void Progress::print_event(Instant at, std::string_view kind, const std::string&
 }
 
 void Progress::ended(const RunResult& result) {
+  if (has_contact(result.outcome))
+    print_event(result.outcome.last->at, "contact", to_text(result.outcome));
+  if (result.car_contact)
+    print_event(result.car_contact->at, "contact", to_text(*result.car_contact));
   print_(Object{}
              .text("type", "result")
              .flag("passed", result.passed())

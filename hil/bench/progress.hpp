@@ -2,7 +2,7 @@
 //   plan    once, before the first tick: scenario, seed, duration, planned events, expectations
 //   at      every kEvery of scenario time: speed, mode, flag, laps, cross-track error by bracket,
 //           state of each expectation, reactions
-//   event   as it happens: begin or end of a fault, flag, mode, lap, action on a process
+//   event   as it happens: begin or end of a fault, flag, mode, lap, action on a process, contact
 //   result  once, at the end: the whole RunResult; or failure, with the reason
 //   in      the run at each tick, in order of time; its result or the problem that ended it
 //   invariants

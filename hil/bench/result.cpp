@@ -175,14 +175,32 @@ std::string to_text(const RunResult& r) {
 }
 
 std::string to_json(const CarContact& contact) {
+  const auto car = [](const traffic::CarPose& pose) {
+    return json::Object{}
+        .number("x_m", pose.x_m)
+        .number("y_m", pose.y_m)
+        .number("yaw_rad", pose.yaw_rad)
+        .number("speed_mps", traffic::speed_mps(pose))
+        .number("n_m", pose.n_m)
+        .number("length_m", pose.length_m)
+        .number("width_m", pose.width_m)
+        .str();
+  };
   return json::Object{}
+      .text("text", to_text(contact))
       .number("at_s", contact.at.seconds())
       .number("s_m", contact.s_m)
+      .number("x_m", contact.point_m.x)
+      .number("y_m", contact.point_m.y)
       .text("with", contact.with)
+      .number("with_number", contact.with_number)
       .text("kind", traffic::name_of(contact.kind))
+      .text("rule", traffic::name_of(contact.rule))
       .number("closing_mps", contact.closing_mps)
       .flag("caused", contact.is_caused)
       .flag("caused_by_other", contact.is_caused_by_other)
+      .json("own", car(contact.own))
+      .json("other", car(contact.other))
       .str();
 }
 

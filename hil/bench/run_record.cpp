@@ -169,6 +169,10 @@ void RunRecord::event(Instant at, std::string_view name, std::string_view text) 
   log_.event(at, name, text);
 }
 
+void RunRecord::contact(const CarContact& contact) {
+  event(contact.at, "contact", to_json(contact));
+}
+
 void RunRecord::verdict(Instant at, const grading::Verdict& verdict) {
   event(at, verdict.pass ? "pass" : "fail", to_json(verdict));
 }

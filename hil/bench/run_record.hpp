@@ -6,7 +6,8 @@
 //            /bus_losses   missing frames that the car detected
 //            /others       only with other cars: each of them in truth, at 100 Hz
 //            /opponents    likewise: those that the car tracks, as it has them
-//            /events       flags, modes, laps, verdicts ("pass", "fail": to_json(Verdict))
+//            /events       flags, modes, laps, contacts (with a car: to_json(CarContact)), verdicts
+//                          ("pass", "fail": to_json(Verdict))
 //   metadata run: scenario, seed, mode, duration, database, bus, track file, faults (JSON list)
 //   invariants
 //            the same scenario, build and seed give the same bytes
@@ -174,6 +175,7 @@ class RunRecord {
   // All cars of the field but this one.
   void others(const Field& field, std::size_t own, Instant at);
   void event(Instant at, std::string_view name, std::string_view text);
+  void contact(const CarContact& contact);
   void verdict(Instant at, const grading::Verdict& verdict);
   // Writes the summary; after it digest() is that of the whole file.
   bool close();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hil/report/page.hpp"
 
+#include "hil/report/contact_section.hpp"
 #include "hil/report/ground_charts.hpp"
 #include "hil/report/page_assets.hpp"
 #include "hil/report/tables.hpp"
@@ -31,6 +32,7 @@ std::string page(const RunData& run, const world::TrackMap* track, const std::st
   out += section("Expectations", verdict_table(run));
   if (run.result && run.result->match)
     out += section("Match sheet", match_table(*run.result->match));
+  if (run.contact) out += section("Contact with another car", contact_section(run));
   out += section("Where, and how far from the line",
                  beside(map_chart(run, track, no_walls),
                         bracket_chart(statistics) + bracket_table(statistics)));

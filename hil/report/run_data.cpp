@@ -39,6 +39,7 @@ class LogReading {
     const double t_s = static_cast<double>(message.logged_ns) * 1e-9;
     const bool taken = channel.topic == "/truth"        ? keep(channel, message, t_s, data_.truth)
                        : channel.topic == "/car"        ? keep(channel, message, t_s, data_.car)
+                       : channel.topic == "/others"     ? keep(channel, message, t_s, data_.others)
                        : channel.topic == "/bus_losses" ? keep(channel, message, t_s, data_.losses)
                        : channel.topic == "/can"        ? keep_frame(channel, message, t_s)
                        : channel.topic == "/events"     ? keep_event(message, t_s)
@@ -90,12 +91,49 @@ class LogReading {
     const auto json = JsonValue::parse(text, "event");
     if (!json || !json->is_object()) return false;
     Event event{json->text("name"), json->text("text")};
+    if (event.name == "contact") take_contact(event);
     if (event.name == "pass" || event.name == "fail") {
       data_.verdicts.push_back(verdict_of(event));
     } else {
       data_.events.push_back({t_s, std::move(event)});
     }
     return true;
+  }
+
+  // One with a wall is a sentence, one with a car an object with that sentence in it.
+  void take_contact(Event& event) {
+    const auto json = JsonValue::parse(event.text, "contact");
+    if (!json || !json->is_object()) return;
+    event.text = json->text("text");
+    data_.contact = contact_of(*json);
+  }
+
+  static ContactRow contact_of(const JsonValue& json) {
+    const auto car = [&json](const char* key) {
+      ContactRow::Car out;
+      if (const JsonValue* v = json.find(key))
+        out = {.x_m = v->number("x_m"),
+               .y_m = v->number("y_m"),
+               .yaw_rad = v->number("yaw_rad"),
+               .speed_mps = v->number("speed_mps"),
+               .n_m = v->number("n_m"),
+               .length_m = v->number("length_m"),
+               .width_m = v->number("width_m")};
+      return out;
+    };
+    return {.t_s = json.number("at_s"),
+            .s_m = json.number("s_m"),
+            .x_m = json.number("x_m"),
+            .y_m = json.number("y_m"),
+            .closing_mps = json.number("closing_mps"),
+            .with = json.text("with"),
+            .kind = json.text("kind"),
+            .rule = json.text("rule"),
+            .with_number = json.number("with_number"),
+            .is_caused = json.flag("caused"),
+            .is_caused_by_other = json.flag("caused_by_other"),
+            .own = car("own"),
+            .other = car("other")};
   }
 
   static VerdictRow verdict_of(const Event& event) {
@@ -237,10 +275,11 @@ double last_of(const std::vector<At<S>>& rows) {
 
 Outcome RunData::outcome() const {
   if (!infrastructure.empty()) return Outcome::kInfrastructure;
-  const bool contact = std::ranges::any_of(verdicts, [](const VerdictRow& verdict) {
-    return verdict.place == bench::kContactVerdict && !verdict.pass;
+  const bool is_contact = std::ranges::any_of(verdicts, [](const VerdictRow& verdict) {
+    return !verdict.pass &&
+           (verdict.place == bench::kContactVerdict || verdict.place == bench::kCarContactVerdict);
   });
-  if (contact) return Outcome::kContact;
+  if (is_contact) return Outcome::kContact;
   return std::ranges::all_of(verdicts, &VerdictRow::pass) ? Outcome::kPass : Outcome::kFail;
 }
 
@@ -253,6 +292,7 @@ RunData read_run(std::span<const std::uint8_t> log, const std::string& log_name)
   RunData run = LogReading{log}.read();
   sort_by_time(run.truth);
   sort_by_time(run.car);
+  sort_by_time(run.others);
   sort_by_time(run.can);
   sort_by_time(run.losses);
   sort_by_time(run.events);

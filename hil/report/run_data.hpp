@@ -57,6 +57,19 @@ struct VerdictRow {
   double margin = kUnset, first_violation_s = kUnset;  // margin is NaN if there is no number
 };
 
+// Contact of the car with another one; NaN where the log has no such value.
+struct ContactRow {
+  struct Car {
+    double x_m = kUnset, y_m = kUnset, yaw_rad = kUnset;
+    double speed_mps = kUnset, n_m = kUnset, length_m = kUnset, width_m = kUnset;
+  };
+  double t_s = kUnset, s_m = kUnset, x_m = kUnset, y_m = kUnset, closing_mps = kUnset;
+  std::string with, kind, rule;
+  double with_number = kUnset;
+  bool is_caused = false, is_caused_by_other = false;
+  Car own{}, other{};
+};
+
 // From the result file; NaN if the file has no such value.
 struct ResultFigures {
   std::string refused_to_arm;
@@ -78,18 +91,21 @@ struct LogHealth {
   std::uint64_t undecodable = 0;  // messages that do not fit the schema of their channel
 };
 
-// kContact: the car hit a wall, and the scenario does not name that contact.
+// kContact: the car hit a wall, and the scenario does not name that contact, or it caused a contact
+// with another car.
 enum class Outcome : std::uint8_t { kPass, kFail, kInfrastructure, kContact };
 
 struct RunData {
   Facts facts;
   std::vector<At<bench::TruthSample>> truth;
   std::vector<At<bench::CarSample>> car;  // empty: not recorded
+  std::vector<At<bench::OtherSample>> others;
   std::vector<At<BusFrame>> can;
   std::vector<At<bench::LossSample>> losses;
   std::vector<At<Event>> events;  // all except verdicts
   std::vector<FaultSpan> faults;
   std::vector<VerdictRow> verdicts;
+  std::optional<ContactRow> contact;  // with another car
   std::optional<ResultFigures> result;
   std::string digest;  // SHA-256 of the log
   LogHealth health;

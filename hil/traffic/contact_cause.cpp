@@ -10,6 +10,11 @@ namespace {
 
 constexpr double kBothShare = 0.5;  // rule 3: the slower movement counts from this share
 
+struct Decision {
+  Cause cause;
+  ContactRule rule;
+};
+
 Cause cause_of(bool first, bool second) {
   if (first && second) return Cause::kBoth;
   if (first) return Cause::kFirst;
@@ -70,23 +75,25 @@ double side_with_room(const CarBefore& first, const CarBefore& second, Instant n
   return 0.0;
 }
 
-Cause cause_from_behind(const CarBefore& first, const CarBefore& second, bool first_ahead,
-                        Instant now) {
-  if (brake_tested(first_ahead ? first : second, now)) return cause_of(first_ahead, !first_ahead);
+Decision cause_from_behind(const CarBefore& first, const CarBefore& second, bool first_ahead,
+                           Instant now) {
+  if (brake_tested(first_ahead ? first : second, now))
+    return {cause_of(first_ahead, !first_ahead), ContactRule::kBrakeTest};
   if (const double left = side_with_room(first, second, now); left != 0.0)
     if (const Cause moved = who_moved(first, second, left, now); moved != Cause::kNone)
-      return moved;
-  return cause_of(!first_ahead, first_ahead);
+      return {moved, ContactRule::kTookRoom};
+  return {cause_of(!first_ahead, first_ahead), ContactRule::kCarBehind};
 }
 
-Cause cause_from_side(const CarBefore& first, const CarBefore& second, const Gap& gap,
-                      Vector2 to_left, Instant now) {
+Decision cause_from_side(const CarBefore& first, const CarBefore& second, const Gap& gap,
+                         Vector2 to_left, Instant now) {
   const double left = std::copysign(1.0, dot(gap.normal, to_left));
-  if (const Cause moved = who_moved(first, second, left, now); moved != Cause::kNone) return moved;
+  if (const Cause moved = who_moved(first, second, left, now); moved != Cause::kNone)
+    return {moved, ContactRule::kLeftLine};
   const double first_mps = left * dot(velocity_at(first.pose, gap.point_m), to_left);
   const double second_mps = -left * dot(velocity_at(second.pose, gap.point_m), to_left);
   const double share_mps = kBothShare * std::max({first_mps, second_mps, 0.0});
-  return cause_of(first_mps >= share_mps, second_mps >= share_mps);
+  return {cause_of(first_mps >= share_mps, second_mps >= share_mps), ContactRule::kApproached};
 }
 
 }  // namespace
@@ -108,15 +115,17 @@ std::optional<Contact> contact_between(const CarBefore& first, const CarBefore& 
   const Vector2 along{std::cos(road_yaw_rad), std::sin(road_yaw_rad)}, to_left{-along.y, along.x};
   const bool first_stood = stood(first, now), second_stood = stood(second, now);
   const double ahead = dot(gap.normal, along);  // of the second car
+  Decision decision{cause_of(!first_stood, !second_stood), ContactRule::kStandingCar};
   if (first_stood || second_stood) {
     contact.kind = ContactKind::kStandingCar;
-    contact.cause = cause_of(!first_stood, !second_stood);
   } else if (std::abs(ahead) > std::abs(dot(gap.normal, to_left))) {
     contact.kind = ContactKind::kFromBehind;
-    contact.cause = cause_from_behind(first, second, ahead < 0.0, now);
+    decision = cause_from_behind(first, second, ahead < 0.0, now);
   } else {
-    contact.cause = cause_from_side(first, second, gap, to_left, now);
+    decision = cause_from_side(first, second, gap, to_left, now);
   }
+  contact.cause = decision.cause;
+  contact.rule = decision.rule;
   return contact;
 }
 
@@ -142,6 +151,24 @@ const char* name_of(Cause cause) {
       return "second";
     case Cause::kBoth:
       return "both";
+  }
+  return "?";
+}
+
+const char* name_of(ContactRule rule) {
+  switch (rule) {
+    case ContactRule::kStandingCar:
+      return "rule 1: a car that stood causes nothing";
+    case ContactRule::kCarBehind:
+      return "rule 2: the car behind must pass safely";
+    case ContactRule::kBrakeTest:
+      return "rule 2a: the car ahead braked hard without need";
+    case ContactRule::kTookRoom:
+      return "rule 2b: who moved into the path of the other";
+    case ContactRule::kLeftLine:
+      return "rule 3: who left its line towards the other";
+    case ContactRule::kApproached:
+      return "rule 3: nobody left its line, who moved across the road";
   }
   return "?";
 }

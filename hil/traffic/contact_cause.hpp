@@ -1,8 +1,8 @@
 // Contact of two cars and who caused it, by the rules of racing.
 //   in     the true poses of both cars, what they did in the kTraceSpan before, the direction of
 //          the road there. Both traces have been recorded at the same times
-//   out    the contact, if the rectangles of the cars touch; its kind, its closing speed and its
-//          cause
+//   out    the contact, if the rectangles of the cars touch; its kind, its closing speed, its cause
+//          and the rule that decided it
 //   rules  in this order; "before" is within kTraceSpan before the contact
 //          1. A car that stood all the time before causes nothing: the other one does.
 //          2. From behind (the cars touch rather along the road than across it): the car behind
@@ -47,6 +47,15 @@ inline constexpr double kStands_mps = 1.0;  // slower than a walk
 
 enum class ContactKind : std::uint8_t { kFromBehind, kFromSide, kStandingCar };
 enum class Cause : std::uint8_t { kNone, kFirst, kSecond, kBoth };
+// In the order of the rules; rule 3 with and without a change of offset.
+enum class ContactRule : std::uint8_t {
+  kStandingCar,
+  kCarBehind,
+  kBrakeTest,
+  kTookRoom,
+  kLeftLine,
+  kApproached
+};
 
 struct CarBefore {
   plant::CarPose pose{};
@@ -58,6 +67,7 @@ struct Contact {
   Instant at{};
   ContactKind kind = ContactKind::kFromSide;
   Cause cause = Cause::kNone;
+  ContactRule rule = ContactRule::kApproached;
   Gap gap{};
   double closing_mps = kUnset;  // of the touched parts, along the normal; positive: approaching
 };
@@ -70,5 +80,6 @@ Vector2 velocity_at(const plant::CarPose& car, Vector2 point_m);
 
 const char* name_of(ContactKind kind);
 const char* name_of(Cause cause);
+const char* name_of(ContactRule rule);  // a sentence with the number of the rule
 
 }  // namespace pitwall::traffic

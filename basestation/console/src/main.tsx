@@ -28,6 +28,7 @@ import { listenToAlarms, sounded } from "./frame/tones";
 import { forgetEarlier } from "./pages/plots/backfill";
 import { plotLayout, readPlotLayout } from "./pages/plots/layout";
 import { primaryLayout, readPrimaryLayout } from "./pages/primary/layout";
+import type { CarSession } from "./store/car_session";
 import { lookForCars, openCars, placeOf } from "./store/cars";
 import { fetchLayout } from "./store/layouts";
 import { lookForVisitor } from "./store/login";
@@ -41,8 +42,7 @@ import type { Track } from "./wire/messages";
 
 const kAskAgainMs = 2000;
 
-async function fetchTrack(): Promise<void> {
-  const car = session.shownCar.value;
+async function fetchTrack(car: CarSession): Promise<void> {
   try {
     const answer = await fetch(placeOf("api/track", car));
     car.track.value = answer.status === 200 ? ((await answer.json()) as Track) : null;
@@ -73,14 +73,17 @@ void fetchLayouts();
 void lookForVisitor();
 setInterval(() => session.connected.value || void lookForVisitor(), kAskAgainMs);
 
-// A base that was started anew may know other cars and another track, and has forgotten our
-// questions; another car has another past.
+// A base that was started anew may know other cars, and has forgotten our questions; another car
+// has another past.
 effect(() => {
   if (!session.connected.value) return;
   forgetEarlier();
   void lookForCars();
-  void fetchTrack();
   void fetchLaterPages();
+});
+// The map has all cars of the base that are on its track.
+effect(() => {
+  for (const car of session.cars.value) if (car.connected.value) void fetchTrack(car);
 });
 // What was chosen among one car's alarms is nothing of another's.
 effect(() => {

@@ -5,9 +5,10 @@
 // SPDX-License-Identifier: Apache-2.0
 import { describe, expect, test } from "vitest";
 import { findScenarios, seedOf } from "../src/pages/hil/chooser";
+import { causeText } from "../src/pages/hil/contact";
 import { axisOf, happened, lanesOf, percent, progressOf } from "../src/pages/hil/lanes";
 import { Bench, kKeptEvents } from "../src/store/bench";
-import type { BenchEvent, BenchPlan, BenchRun, BenchScenario } from "../src/wire/bench";
+import type { BenchEvent, BenchPlan, BenchRun, BenchScenario, CarContact } from "../src/wire/bench";
 
 const event = (run: number, t_s: number, kind = "flag"): BenchEvent => ({
   run,
@@ -44,6 +45,17 @@ const plan: BenchPlan = {
   operator: [{ what: "limit 30", at_s: 40 }],
   expect: [],
 };
+
+test("the cause of a contact is one car, both or neither", () => {
+  const contact = { with: "slow", with_number: 2 } as CarContact;
+  const words = [
+    [true, false],
+    [false, true],
+    [true, true],
+    [false, false],
+  ].map(([caused, caused_by_other]) => causeText({ ...contact, caused, caused_by_other }));
+  expect(words).toEqual(["THIS CAR", "slow (2)", "BOTH CARS", "NEITHER"]);
+});
 
 describe("what is kept of a server", () => {
   test("events of the newest run only", () => {

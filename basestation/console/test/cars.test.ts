@@ -7,7 +7,7 @@ import { afterEach, beforeEach, describe, expect, test, vi } from "vitest";
 import { CarSession } from "../src/store/car_session";
 import { askedCar, placeOf, readCars, showNextCar } from "../src/store/cars";
 import * as session from "../src/store/session";
-import { isHolder, keepAuthority, lastStop, send, stop } from "../src/store/uplink";
+import { isHolder, keepAuthority, lastStop, send, stop, stopAll } from "../src/store/uplink";
 import { newcomer } from "../src/frame/tones";
 import {
   compared,
@@ -134,6 +134,27 @@ describe("the car that is shown", () => {
     session.cars.value = [blue];
     expect(session.shownCar.value).toBe(blue);
     expect(session.hasSeveral.value).toBe(false);
+  });
+});
+
+describe("a stop of all cars", () => {
+  test("is told to each on its own connection, whichever is shown", () => {
+    for (const shown of [blue, red]) {
+      session.showCar(shown);
+      stopAll();
+    }
+    const one = '{"type":"stop","kind":"controlled"}';
+    expect(sent.get("ws://base/ws?car=7")).toEqual([one, one]);
+    expect(sent.get("ws://base/ws?car=8")).toEqual([one, one]);
+    expect(lastStop.value).toMatchObject({ kind: "controlled", sent: true });
+  });
+
+  test("reaches the others where one has no connection, and each knows whether it was sent", () => {
+    Socket.newest.get("ws://base/ws?car=7")!.readyState = 3;
+    stopAll();
+    expect(blue.lastStop.value?.sent).toBe(false);
+    expect(red.lastStop.value?.sent).toBe(true);
+    expect(sent.get("ws://base/ws?car=8")).toHaveLength(1);
   });
 });
 

@@ -3,10 +3,11 @@
  * is old; what the base only reckons, and the line, go where nobody knows them any more.
  */
 // SPDX-License-Identifier: Apache-2.0
-import { describe, expect, test } from "vitest";
+import { afterEach, describe, expect, test } from "vitest";
 import { kTrack } from "../../../tests/system/console/drive.mjs";
 import { Course } from "../src/map/course";
-import { ghost, lineOffset, own, rivals, trail } from "../src/map/scene";
+import { ghost, kSigmas, lineOffset, mates, own, rivals, trail } from "../src/map/scene";
+import { CarSession } from "../src/store/car_session";
 import { Fields } from "../src/store/fields";
 import { History } from "../src/store/history";
 import * as session from "../src/store/session";
@@ -29,6 +30,8 @@ const kValues: Record<string, number> = {
   "opponent_1.station": 140,
   "opponent_1.offset": -1,
   "opponent_1.speed": 55,
+  "opponent_1.age": 0.1,
+  "opponent_1.position_sigma": 0.4,
 };
 const course = new Course(kTrack as never);
 
@@ -112,6 +115,81 @@ test("up to four rivals are placed, those that have an identity and a station", 
   several["opponent_3.station"] = NaN;
   const fewer = rivals(heard(Quality.fresh, false, several), course);
   expect(fewer.map(({ identity }) => identity)).toEqual([7, 3]);
+});
+
+test("a rival has its speed, its circle, and coasts once no detection confirms it", () => {
+  const rivalAt = (age: number, sigma = 0.4) =>
+    rivals(
+      heard(Quality.fresh, false, {
+        ...kValues,
+        "opponent_1.age": age,
+        "opponent_1.position_sigma": sigma,
+      }),
+      course,
+    )[0];
+  expect(rivalAt(0.25)).toMatchObject({ speed: 55, seenS: 0.25, coasts: false });
+  expect(rivalAt(0.25).radius).toBeCloseTo(kSigmas * 0.4, 6);
+  expect(rivalAt(0.5).coasts).toBe(false);
+  expect(rivalAt(0.75).coasts).toBe(true);
+  expect(rivalAt(NaN, NaN)).toMatchObject({ coasts: false, radius: 0 });
+});
+
+describe("the other cars of the base", () => {
+  const kTold = { "ego.x": 30, "ego.y": 40, "ego.yaw": 1, "ego.vx": 61, "track.station": 160 };
+  /** Two cars on the track, of which the other told this at 1000 ms. */
+  function together(told: Record<string, number> = kTold, track = kTrack.name): CarSession {
+    const [here, other] = [session.shownCar.value, new CarSession(8)];
+    here.number = 7;
+    session.cars.value = [here, other];
+    const paths = Object.keys(told);
+    const info = paths.map((path, id): FieldInfo => {
+      const [group, name] = path.split(".");
+      const range = { min: -1e6, max: 1e6, resolution: 0.1, period_ms: 100 };
+      return { id, path, group, name, title: path, unit: "", kind: "real", ...range };
+    });
+    other.takeCatalogue({ fields: info, commands: [], race: null } as never);
+    other.history.value = new History(paths.length, 16);
+    paths.forEach((path, id) => other.fields.value.write(id, Quality.fresh, 0, told[path], 1000));
+    other.history.value.append(other.fields.value, 1000);
+    other.track.value = { ...kTrack, name: track } as never;
+    other.connected.value = true;
+    other.clock.heard(1000, performance.now());
+    const fields = heard(Quality.fresh);
+    here.track.value = kTrack as never;
+    here.history.value = new History(fields.info.length, 16);
+    here.history.value.append(fields, 1000);
+    return other;
+  }
+  afterEach(() => (session.cars.value = [session.shownCar.value]));
+
+  test("are where they told, with number, gap and speed, without the one that is shown", () => {
+    together();
+    expect(mates(course)).toEqual([
+      { x: 30, y: 40, yaw: 1, number: 8, order: 2, gap: 60, speed: 61, stale: false },
+    ]);
+  });
+
+  test("are old once their base or they themselves are silent", () => {
+    const other = together();
+    other.clock.heard(1000, performance.now() - 60_000);
+    expect(mates(course)[0].stale).toBe(true);
+    together().connected.value = false;
+    expect(mates(course)[0].stale).toBe(true);
+  });
+
+  test("are on the road where they have no pose", () => {
+    together({ ...kTold, "ego.x": NaN, "track.offset": 2 });
+    expect(mates(course)[0]).toMatchObject(course.place(160, 2));
+  });
+
+  test("are not on the map of another track, nor without a place", () => {
+    together(kTold, "elsewhere");
+    expect(mates(course)).toEqual([]);
+    together({ ...kTold, "track.station": NaN });
+    expect(mates(course)).toEqual([]);
+    together({ "ego.vx": 61 });
+    expect(mates(course)).toEqual([]);
+  });
 });
 
 describe("the trail", () => {

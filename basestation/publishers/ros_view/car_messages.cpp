@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 #include "basestation/state/vehicle_state.hpp"
 
@@ -19,7 +18,6 @@ constexpr double kValidityGood = 1.0, kValidityDeadReckoning = 2.0;  // of telem
 constexpr std::size_t kSide = 6;                                     // of a covariance of a pose
 constexpr std::int8_t kNoFix = -1, kFix = 0, kSbasFix = 1, kGbasFix = 2;
 constexpr std::uint8_t kUnknown = 0, kApproximated = 1;  // covariance types
-constexpr std::int32_t kCube = 1, kText = 9, kAdd = 0, kDelete = 2;
 
 // A value of another group than the one that is told: NaN if it is too old to say anything of then.
 double beside(const Snapshot& state, FieldIndex f, Instant at) {
@@ -75,11 +73,6 @@ void set_covariance(ros::NavSatFix& fix, double sigma_m, double height_sigma_m) 
   if (std::isnan(sigma_m)) return;
   fix.position_covariance[kEast] = fix.position_covariance[kNorth] = sigma_m * sigma_m;
   fix.position_covariance[kUp] = variance_of(height_sigma_m);
-}
-
-// Where the group of an opponent has this field of opponent_1.
-double of_opponent(const Snapshot& state, std::size_t i, FieldIndex of_first) {
-  return state.values[of_first + i * telemetry::fields_of(Group::kOpponent1).count];
 }
 
 }  // namespace
@@ -182,47 +175,6 @@ ros::NavSatFix CarMessages::receiver_fix(const Snapshot& state, std::size_t unit
   fix.latitude = fix.longitude = fix.altitude = kUnset;
   set_covariance(fix, of_unit(field("gnss0.sigma")), of_unit(field("gnss0.height_sigma")));
   return fix;
-}
-
-ros::MarkerArray CarMessages::opponents(const Snapshot& state, const state::Course& course,
-                                        Instant now) const {
-  constexpr double kLength_m = 4.9, kWidth_m = 1.9, kHeight_m = 1.2;  // Dallara IL-15
-  ros::MarkerArray all;
-  for (std::size_t i = 0; i < kOpponents; ++i) {
-    const auto group = static_cast<Group>(telemetry::index_of(Group::kOpponent1) + i);
-    const double s_m = of_opponent(state, i, field("opponent_1.station"));
-    const double offset_m = of_opponent(state, i, field("opponent_1.offset"));
-    const bool known = state.ever(group) && now - state.at(group) <= state::kStaleAfter &&
-                       std::isfinite(s_m) && std::isfinite(offset_m);
-    ros::Marker box;
-    box.header = header(known ? state.at(group) : now, frames_.map);
-    box.ns = "opponents";
-    box.id = static_cast<std::int32_t>(i);
-    box.type = kCube;
-    box.action = known ? kAdd : kDelete;
-    if (known) {
-      const state::CoursePose at = course.at(s_m, offset_m);
-      box.pose = {.position = {at.x_m, at.y_m, 0.5 * kHeight_m},
-                  .orientation = quaternion_of(0.0, 0.0, at.yaw_rad)};
-      box.scale = {kLength_m, kWidth_m, kHeight_m};
-      box.color = {0.9F, 0.3F, 0.1F, 0.9F};
-    }
-    ros::Marker text = box;
-    text.ns = "opponents_text";
-    text.type = kText;
-    if (known) {
-      std::array<char, 64> line{};
-      std::snprintf(line.data(), line.size(), "%.0f: %.1f m/s",
-                    of_opponent(state, i, field("opponent_1.identity")),
-                    of_opponent(state, i, field("opponent_1.speed")));
-      text.text = line.data();
-      text.pose.position.z = 2.0 * kHeight_m;
-      text.scale = {0.0, 0.0, kHeight_m};
-    }
-    all.markers.push_back(std::move(box));
-    all.markers.push_back(std::move(text));
-  }
-  return all;
 }
 
 ros::Path raceline(const state::Course& course, const ros::Header& header) {

@@ -19,14 +19,12 @@
 #include "basestation/state/course.hpp"
 #include "protocol/ros/messages/nav.hpp"
 #include "protocol/ros/messages/sensor.hpp"
-#include "protocol/ros/messages/visualization.hpp"
 #include "protocol/telemetry/registry/registry.hpp"
 
 namespace pitwall::publishers::ros_view {
 
 inline constexpr double kUnknownVariance = 1e6;
 inline constexpr double kRacelineStep_m = 5.0;
-inline constexpr std::size_t kOpponents = 4;
 
 struct Frames {
   std::string map = "map", base = "base_link";
@@ -45,9 +43,6 @@ class CarMessages {
   std::optional<ros::Imu> imu(const telemetry::Snapshot& state) const;
   // `unit`: 0 (the top receiver) or 1.
   ros::NavSatFix receiver_fix(const telemetry::Snapshot& state, std::size_t unit) const;
-  // A box and a text for each known opponent; the markers of the others are deleted.
-  ros::MarkerArray opponents(const telemetry::Snapshot& state, const state::Course& course,
-                             Instant now) const;
 
   ros::Header header(Instant at, const std::string& frame) const;
   const Frames& frames() const { return frames_; }

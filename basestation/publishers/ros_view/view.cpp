@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "basestation/publishers/ros_view/group_message.hpp"
+#include "basestation/publishers/ros_view/opponent_markers.hpp"
 #include "protocol/ros/cdr.hpp"
 
 namespace pitwall::publishers::ros_view {
@@ -99,7 +100,7 @@ void View::car(const telemetry::Snapshot& state, telemetry::GroupSet fresh, Inst
   for (std::size_t i = 0; i < kOpponents; ++i)
     opponents |= fresh.has(static_cast<Group>(telemetry::index_of(Group::kOpponent1) + i));
   if (opponents && config_.course)
-    put(kOpponentsTopic, now, messages.opponents(state, *config_.course, now), sink);
+    put(kOpponentsTopic, now, opponent_markers(messages, state, *config_.course, now), sink);
   const auto& groups = group_messages();
   for (const telemetry::GroupRow& row : telemetry::kGroupTable) {
     if (!fresh.has(row.group) || row.direction != telemetry::Direction::kDown) continue;

@@ -232,7 +232,7 @@ void LiveCar::show_others(Field& field, std::size_t own, Instant at) {
 void LiveCar::note_others(std::size_t cars, const std::optional<CarContact>& contact) {
   result_.other_cars = cars;
   result_.car_contact = contact;
-  if (record_ && contact) record_->event(contact->at, "contact", to_text(*contact));
+  if (record_ && contact) record_->contact(*contact);
 }
 
 void LiveCar::settle() {

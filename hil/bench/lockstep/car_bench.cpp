@@ -106,7 +106,7 @@ void CarBench::show_others(Field& field, std::size_t own, Instant at) {
 void CarBench::note_others(std::size_t cars, const std::optional<CarContact>& contact) {
   result_.other_cars = cars;
   result_.car_contact = contact;
-  if (record_ && contact) record_->event(contact->at, "contact", to_text(*contact));
+  if (record_ && contact) record_->contact(*contact);
 }
 
 void CarBench::note_attempt(Instant now, const std::string& sentence) {

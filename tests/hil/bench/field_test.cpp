@@ -65,7 +65,11 @@ TEST(Field, WhoDrivesIntoASlowerCarCausesTheContact) {
   const auto contact = race.field.contact_of(0);
   ASSERT_TRUE(contact);
   EXPECT_EQ(contact->with, "ghost 9");
+  EXPECT_EQ(contact->with_number, 9);
   EXPECT_EQ(contact->kind, traffic::ContactKind::kFromBehind);
+  EXPECT_EQ(contact->rule, traffic::ContactRule::kCarBehind);
+  EXPECT_NEAR(traffic::speed_mps(contact->own), 30.0, 0.1);
+  EXPECT_NEAR(traffic::speed_mps(contact->other), 20.0, 0.1);
   EXPECT_TRUE(contact->is_caused);
   EXPECT_FALSE(contact->is_caused_by_other);
   // 30 m less a length, at 10 m/s.
@@ -76,6 +80,8 @@ TEST(Field, WhoDrivesIntoASlowerCarCausesTheContact) {
   EXPECT_TRUE(race.field.contact_of(1)->is_caused_by_other);
   EXPECT_FALSE(race.field.contact_of(1)->is_caused);
   EXPECT_EQ(race.field.contact_of(1)->with, "own");
+  EXPECT_EQ(race.field.contact_of(1)->own.s_m, contact->other.s_m);
+  EXPECT_EQ(race.field.contact_of(1)->other.s_m, contact->own.s_m);
   EXPECT_LE(race.field.least_gap_m(0), 0.0);
 }
 

@@ -122,6 +122,30 @@ TEST(Progress, AFailureIsALine) {
   EXPECT_EQ(parsed(lines[1]).text("what"), "vcan0: error: no frame of the car");
 }
 
+TEST(Progress, AContactIsAnEventBeforeTheResult) {
+  std::vector<std::string> lines;
+  Progress progress{short_drive(), "live", [&](const std::string& line) { lines.push_back(line); }};
+  RunResult result;
+  result.other_cars = 1;
+  result.car_contact = CarContact{.at = Instant{} + seconds(7), .with = "slow"};
+  progress.ended(result);
+  ASSERT_EQ(lines.size(), 3U);
+  EXPECT_EQ(parsed(lines[1]).text("type"), "event");
+  EXPECT_EQ(parsed(lines[1]).text("kind"), "contact");
+  EXPECT_EQ(parsed(lines[1]).number("t_s"), 7.0);
+  EXPECT_EQ(parsed(lines[1]).text("text"), to_text(*result.car_contact));
+  const JsonValue last = parsed(lines[2]);
+  ASSERT_NE(last.find("result"), nullptr);
+  ASSERT_NE(last.find("result")->find("car_contact"), nullptr);
+  EXPECT_EQ(last.find("result")->find("car_contact")->text("with"), "slow");
+  result.car_contact.reset();
+  follow(result.outcome, {.at = Instant{} + seconds(6), .speed_mps = 20.0, .contact = true});
+  progress.ended(result);
+  ASSERT_EQ(lines.size(), 5U);
+  EXPECT_EQ(parsed(lines[3]).text("kind"), "contact") << "with a wall";
+  EXPECT_EQ(parsed(lines[3]).text("text"), to_text(result.outcome));
+}
+
 // What nobody can read any more is counted instead of told.
 TEST(Progress, EventsHaveABound) {
   scenario::Scenario scenario = short_drive();

@@ -121,6 +121,23 @@ TEST_F(RunVerb, AWallEndsTheRunAndIsFour) {
             4);
 }
 
+// A car that stands on our line: nothing avoids it yet.
+TEST_F(RunVerb, AContactWithACarThatOursCausesIsFourAndOnThePageOfTheReport) {
+  const std::string parked =
+      spoilt("five_ghosts.yaml", "cars:\n",
+             "cars:\n  - {name: parked, number: 9, kind: ghost, start: {s_m: 150, speed_mps: 0}, "
+             "offset_m: 0, speed: {mps: 0}}\n");
+  const ProgramOutput output = run({"run", parked, "--report", path("report")});
+  EXPECT_EQ(output.code, 4) << output.out << output.err;
+  const std::string html = text_of("report/report.html");
+  for (const char* part :
+       {"<title>five_ghosts CONTACT</title>", "Contact with another car",
+        "<dt>caused by</dt><dd>this car</dd>", "rule 1: a car that stood causes nothing",
+        "parked (number 9)", "data-plot=\"contact\""})
+    EXPECT_NE(html.find(part), std::string::npos) << part;
+  EXPECT_EQ(html.find("data-absent=\"contact\""), std::string::npos);
+}
+
 TEST_F(RunVerb, ARunThatEndsTooEarlyToShowAnythingDoesNotPass) {
   const ProgramOutput output = run({"run", kLaunchAndStop, "--duration", "5"});
   EXPECT_NE(output.code, 0);

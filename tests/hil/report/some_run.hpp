@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -23,6 +24,7 @@ struct LogOrder {
   double duration_s = 10.0;
   bool with_car = true, with_failure = false, with_frames = true, close = true;
   double speed_mps = 31.0, error_m = 0.25;
+  bool with_contact = false;  // at the end, with a slower car ahead that this one causes
 };
 
 inline grading::Verdict some_verdict(bool pass) {
@@ -56,6 +58,36 @@ inline bench::TruthSample truth_at(double t_s, const LogOrder& order) {
   return v;
 }
 
+// Number 6 stands where this car arrives at the end; its nose is at the tail of that one.
+inline bench::OtherSample other_at(const LogOrder& order) {
+  const bench::TruthSample at = truth_at(order.duration_s, order);
+  return {.number = 6,
+          .x_m = at.x_m + 4.9,
+          .y_m = at.y_m,
+          .yaw_rad = 0.0,
+          .vx_mps = 0.0,
+          .vy_mps = 0.0,
+          .s_m = at.s_m + 4.9,
+          .n_m = 0.0};
+}
+
+inline bench::CarContact some_contact(const LogOrder& order) {
+  const bench::TruthSample at = truth_at(order.duration_s, order);
+  const bench::OtherSample other = other_at(order);
+  bench::CarContact c{.at = at_s(order.duration_s), .with = "<b>slow</b>", .with_number = 6};
+  c.kind = traffic::ContactKind::kStandingCar;
+  c.rule = traffic::ContactRule::kStandingCar;
+  c.is_caused = true;
+  c.closing_mps = order.speed_mps;
+  c.s_m = at.s_m;
+  c.point_m = {at.x_m + 2.45, at.y_m};
+  c.own = {.x_m = at.x_m, .y_m = at.y_m, .yaw_rad = 0.0, .vx_mps = order.speed_mps, .vy_mps = 0.0};
+  c.other = {.x_m = other.x_m, .y_m = other.y_m, .yaw_rad = 0.0, .vx_mps = 0.0, .vy_mps = 0.0};
+  c.own.n_m = -0.5, c.other.n_m = 0.25;
+  for (traffic::CarPose* car : {&c.own, &c.other}) car->length_m = 4.9, car->width_m = 1.9;
+  return c;
+}
+
 inline Bytes log_of(const LogOrder& order) {
   Bytes file;
   recording::EventLog log({{"scenario", order.scenario},
@@ -77,6 +109,8 @@ inline Bytes log_of(const LogOrder& order) {
   const auto truth = log.channel<bench::TruthSample>("/truth");
   const auto car = log.channel<bench::CarSample>("/car");
   const auto losses = log.channel<bench::LossSample>("/bus_losses");
+  std::optional<recording::SampleChannel<bench::OtherSample>> others;
+  if (order.with_contact) others = log.channel<bench::OtherSample>("/others");
   log.start();
   log.event(at_s(0.5), "flag", "green");
   for (int tick = 0; tick * 0.01 <= order.duration_s; ++tick) {
@@ -89,8 +123,11 @@ inline Bytes log_of(const LogOrder& order) {
     bench::CanSample frame{.from = 1, .id = 1300, .data = {}};
     while (frame.data.size() < 8) CHECK(frame.data.push(0xA5));
     if (order.with_frames) log.sample(can, at_s(t_s), frame);
+    if (others) log.sample(*others, at_s(t_s), other_at(order));
   }
   log.sample(losses, at_s(5.0), {.id = 1300, .detector = 1, .frames = 2, .due_s = 4.9});
+  if (order.with_contact)
+    log.event(at_s(order.duration_s), "contact", bench::to_json(some_contact(order)));
   for (const bool pass : {true, false}) {
     if (!pass && !order.with_failure) continue;
     log.event(at_s(order.duration_s), pass ? "pass" : "fail", bench::to_json(some_verdict(pass)));

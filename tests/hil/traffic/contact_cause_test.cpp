@@ -90,28 +90,31 @@ Cause exchanged(Cause cause) {
 }
 
 // The verdict, and the laws that every verdict obeys.
-void expect_cause(const Case& c, ContactKind kind, Cause cause) {
+void expect_cause(const Case& c, ContactKind kind, Cause cause, ContactRule rule) {
   const auto contact = contact_of(c);
   ASSERT_TRUE(contact);
   EXPECT_EQ(contact->kind, kind) << name_of(contact->kind);
   EXPECT_EQ(contact->cause, cause) << name_of(contact->cause);
+  EXPECT_EQ(contact->rule, rule) << name_of(contact->rule);
   EXPECT_GT(contact->closing_mps, 0.0);
   const auto other_way = contact_of({c.second, c.first, c.told_to_slow});
   ASSERT_TRUE(other_way);
   EXPECT_EQ(other_way->cause, exchanged(cause)) << name_of(other_way->cause);
   EXPECT_EQ(other_way->kind, kind);
+  EXPECT_EQ(other_way->rule, rule);
   EXPECT_EQ(other_way->at, contact->at);
   EXPECT_NEAR(other_way->closing_mps, contact->closing_mps, 1e-9);
   const auto elsewhere = contact_of(c, {.turn_rad = 2.2, .x_m = 40.0, .y_m = -90.0});
   ASSERT_TRUE(elsewhere);
   EXPECT_EQ(elsewhere->cause, cause) << name_of(elsewhere->cause);
   EXPECT_EQ(elsewhere->kind, kind);
+  EXPECT_EQ(elsewhere->rule, rule);
   EXPECT_NEAR(elsewhere->closing_mps, contact->closing_mps, 1e-9);
 }
 
 TEST(ContactCause, IsTheCarBehindThatDrivesIntoTheOne) {
   const Case c{straight(0.0, 0.0, 60.0), straight(40.0, 0.5, 50.0)};
-  expect_cause(c, ContactKind::kFromBehind, Cause::kFirst);
+  expect_cause(c, ContactKind::kFromBehind, Cause::kFirst, ContactRule::kCarBehind);
   const auto contact = contact_of(c);
   EXPECT_NEAR(contact->closing_mps, 10.0, 1e-9);
   EXPECT_NEAR(contact->at.seconds(), (40.0 - kLength_m) / 10.0, 0.01);
@@ -119,57 +122,57 @@ TEST(ContactCause, IsTheCarBehindThatDrivesIntoTheOne) {
 
 TEST(ContactCause, IsTheCarAheadThatTestsItsBrakes) {
   expect_cause({straight(0.0, 0.0, 60.0), braking(10.0, 60.0, 2.0, 8.0)}, ContactKind::kFromBehind,
-               Cause::kSecond);
+               Cause::kSecond, ContactRule::kBrakeTest);
 }
 
 // The rear car has kTraceSpan to react: brakes for 1.4 s, the car ahead caused it; for 1.7 s, not.
 TEST(ContactCause, IsNotTheBrakingCarIfTheOtherHadTime) {
   const auto gap_for = [](double brakes_s) { return kLength_m + 0.5 * 8.0 * brakes_s * brakes_s; };
   expect_cause({straight(0.0, 0.0, 60.0), braking(gap_for(1.4), 60.0, 3.0, 8.0)},
-               ContactKind::kFromBehind, Cause::kSecond);
+               ContactKind::kFromBehind, Cause::kSecond, ContactRule::kBrakeTest);
   expect_cause({straight(0.0, 0.0, 60.0), braking(gap_for(1.7), 60.0, 3.0, 8.0)},
-               ContactKind::kFromBehind, Cause::kFirst);
+               ContactKind::kFromBehind, Cause::kFirst, ContactRule::kCarBehind);
 }
 
 TEST(ContactCause, IsNotTheCarThatOnlyLiftsOrWasToldToSlow) {
   const double gap_m = kLength_m + 0.5 * 4.0 + 0.013;  // met between two ticks
   expect_cause({straight(0.0, 0.0, 60.0), braking(gap_m, 60.0, 3.0, 4.0)}, ContactKind::kFromBehind,
-               Cause::kFirst);
+               Cause::kFirst, ContactRule::kCarBehind);
   expect_cause({straight(0.0, 0.0, 60.0), braking(10.0, 60.0, 2.0, 8.0), true},
-               ContactKind::kFromBehind, Cause::kFirst);
+               ContactKind::kFromBehind, Cause::kFirst, ContactRule::kCarBehind);
 }
 
 // The attacker has a clear lane until the car ahead takes it, 0.5 s before.
 TEST(ContactCause, IsTheCarThatTakesTheRoomAheadOfTheOther) {
   const double meets_s = (40.0 - kLength_m) / 10.0;
   expect_cause({straight(0.0, 0.0, 60.0), moving_aside(40.0, 2.2, 50.0, meets_s - 0.5, -2.0)},
-               ContactKind::kFromBehind, Cause::kSecond);
+               ContactKind::kFromBehind, Cause::kSecond, ContactRule::kTookRoom);
   // The attacker leaves its clear lane itself.
   expect_cause({moving_aside(0.0, 2.2, 60.0, meets_s - 0.5, -2.0), straight(40.0, 0.0, 50.0)},
-               ContactKind::kFromBehind, Cause::kFirst);
+               ContactKind::kFromBehind, Cause::kFirst, ContactRule::kTookRoom);
   expect_cause({moving_aside(0.0, 2.2, 60.0, meets_s - 0.5, -2.0),
                 moving_aside(40.0, 0.0, 50.0, meets_s - 0.5, 1.0)},
-               ContactKind::kFromBehind, Cause::kBoth);
+               ContactKind::kFromBehind, Cause::kBoth, ContactRule::kTookRoom);
 }
 
 TEST(ContactCause, IsTheCarThatMovesIntoTheOneBesideIt) {
   expect_cause({moving_aside(0.0, 3.0, 60.0, 1.0, -1.0), straight(1.0, 0.0, 60.0)},
-               ContactKind::kFromSide, Cause::kFirst);
+               ContactKind::kFromSide, Cause::kFirst, ContactRule::kLeftLine);
   expect_cause({straight(0.0, 3.0, 60.0), moving_aside(1.0, 0.0, 60.0, 1.0, 1.0)},
-               ContactKind::kFromSide, Cause::kSecond);
+               ContactKind::kFromSide, Cause::kSecond, ContactRule::kLeftLine);
 }
 
 TEST(ContactCause, IsBothWhereBothMoved) {
   expect_cause({moving_aside(0.0, 3.0, 60.0, 1.0, -0.6), moving_aside(1.0, 0.0, 60.0, 1.0, 0.7)},
-               ContactKind::kFromSide, Cause::kBoth);
+               ContactKind::kFromSide, Cause::kBoth, ContactRule::kLeftLine);
 }
 
 // Neither has moved by kMoved_m in the time before: the faster one across the road counts.
 TEST(ContactCause, OfASlowApproachIsTheOneThatApproaches) {
   expect_cause({moving_aside(0.0, 2.0, 60.0, 0.0, -0.1), moving_aside(1.0, 0.0, 60.0, 0.0, 0.02)},
-               ContactKind::kFromSide, Cause::kFirst);
+               ContactKind::kFromSide, Cause::kFirst, ContactRule::kApproached);
   expect_cause({moving_aside(0.0, 2.0, 60.0, 0.0, -0.1), moving_aside(1.0, 0.0, 60.0, 0.0, 0.08)},
-               ContactKind::kFromSide, Cause::kBoth);
+               ContactKind::kFromSide, Cause::kBoth, ContactRule::kApproached);
 }
 
 TEST(ContactCause, IsNeverTheStandingCar) {
@@ -178,9 +181,10 @@ TEST(ContactCause, IsNeverTheStandingCar) {
     car.yaw_rad = 2.0;
     return car;
   };
-  expect_cause({straight(0.0, 0.0, 40.0), spun}, ContactKind::kStandingCar, Cause::kFirst);
+  expect_cause({straight(0.0, 0.0, 40.0), spun}, ContactKind::kStandingCar, Cause::kFirst,
+               ContactRule::kStandingCar);
   expect_cause({braking(75.0, 20.0, 0.0, 8.0), straight(-60.0, 0.0, 30.0)},
-               ContactKind::kStandingCar, Cause::kSecond);
+               ContactKind::kStandingCar, Cause::kSecond, ContactRule::kStandingCar);
 }
 
 TEST(ContactCause, NeedsAContact) {

@@ -115,6 +115,18 @@ function wrongProtocol(protocols) {
   });
 }
 
+/** Of four opponents the first is known: a cube, an arrow, a disk and a text. */
+function opponentsAreDrawn(markers) {
+  expect(markers.length === 16, `${markers.length} markers`);
+  const known = markers.filter(({ action }) => action === 0);
+  expect(known.map(({ type }) => type).join() === "1,0,3,9", `types ${known.map((m) => m.type)}`);
+  const [box, arrow, disk, text] = known;
+  expect(box.header.frame_id === "map", `frame ${box.header.frame_id}`);
+  expect(Math.abs(arrow.scale.x - 40) < 0.1, `an arrow of ${arrow.scale.x} m`);
+  expect(Math.abs(disk.scale.x - 2) < 0.1, `a disk of ${disk.scale.x} m`);
+  expect(text.text === "3: 40.0 m/s", `the text ${text.text}`);
+}
+
 async function whatTheCarSays(viewer) {
   viewer.subscribe();
   const topics = ["/car/ego", "/car/mode", "/car/tyres", "/base/hello", "/base/link"];
@@ -128,6 +140,8 @@ async function whatTheCarSays(viewer) {
   const off = Number(viewer.messages.get("/car/ego").timestamp) / 1e6 - Date.now();
   expect(Math.abs(off) < 5000, `messages have the time of now, not ${off} ms off`);
   expect(viewer.messages.get("/raceline").value.poses.length > 100, "the race line is latched");
+  const markers = await until("the opponents", () => viewer.messages.get("/opponents"));
+  opponentsAreDrawn(markers.value.markers);
   await until("the server's time", () => viewer.times.length > 2);
   expect(viewer.messages.get("/base/hello").value.mode === "HIL", "it is told as a simulation");
 }
@@ -237,6 +251,9 @@ async function replay() {
   const ego = await until("a state", () => viewer.messages.get("/car/ego"));
   expect(ego.timestamp >= to && ego.timestamp <= ns(end), "messages have the recording's time");
   expect(Math.abs(ego.value.vx - 50.5) < 0.1, "and its values");
+  const seen = await until("an opponent", () => viewer.messages.get("/car/opponent_1"));
+  expect(Math.abs(seen.value.station - 400) < 0.1, `it was at ${seen.value.station} m`);
+  expect(Math.abs(seen.value.position_sigma - 0.5) < 0.03, "as surely as it was known");
   await until("the end", () => viewer.states.some(({ status }) => status === 3));
   viewer.client.advertise({ topic: "/cmd", encoding: "json", schemaName: "cmd" });
   await viewer.refusal(/read only/);

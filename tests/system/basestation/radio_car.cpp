@@ -58,8 +58,14 @@ class Car {
     values[field("flags.vehicle")] = values[field("flags.vehicle_acted_on")] = kAttacker;
     values[field("flags.conflict")] = 0;
     values[field("flags.heartbeat_age")] = 0.05;
-    for (const Group group :
-         {Group::kMode, Group::kFlags, Group::kEgo, Group::kTrack, Group::kTyres}) {
+    values[field("opponent_1.identity")] = 3;
+    values[field("opponent_1.station")] = 400.0;
+    values[field("opponent_1.offset")] = -2.0;
+    values[field("opponent_1.speed")] = 40.0;
+    values[field("opponent_1.age")] = 0.1;
+    values[field("opponent_1.position_sigma")] = 0.5;
+    for (const Group group : {Group::kMode, Group::kFlags, Group::kEgo, Group::kTrack,
+                              Group::kTyres, Group::kOpponent1}) {
       snapshot_.at(group) = now;
     }
   }

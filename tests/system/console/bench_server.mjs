@@ -3,13 +3,29 @@
  */
 // SPDX-License-Identifier: Apache-2.0
 import { spawn } from "node:child_process";
-import { cpSync, mkdirSync } from "node:fs";
+import { cpSync, mkdirSync, readFileSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { kRoot } from "./packages.mjs";
 import { until } from "./stage.mjs";
 
 const kBench = process.env.PITWALL_HIL ?? join(kRoot, "build/release/hil/pitwall-hil");
-export const kScenarios = ["launch_and_stop.yaml", "red_flag_stop.yaml"];
+const kCopied = ["launch_and_stop.yaml", "red_flag_stop.yaml"];
+/** And the one of writeParked(). */
+export const kScenarios = [...kCopied, "parked_car.yaml"];
+
+/** A car that stands on our line, which nothing avoids yet. */
+function writeParked(path) {
+  const ghosts = readFileSync(join(kRoot, "hil/scenarios/five_ghosts.yaml"), "utf8");
+  const parked =
+    "{name: parked, number: 9, kind: ghost, start: {s_m: 150, speed_mps: 0}, offset_m: 0, " +
+    "speed: {mps: 0}}";
+  writeFileSync(
+    path,
+    ghosts
+      .replace("name: five_ghosts", "name: parked_car")
+      .replace("cars:\n", `cars:\n  - ${parked}\n`),
+  );
+}
 
 export const socketOf = (programs) => join(programs.folder, "server");
 
@@ -17,7 +33,8 @@ export const socketOf = (programs) => join(programs.folder, "server");
 export function startBenchServer(programs, ...more) {
   const scenarios = join(programs.folder, "scenarios");
   mkdirSync(scenarios, { recursive: true });
-  for (const name of kScenarios) cpSync(join(kRoot, "hil/scenarios", name), join(scenarios, name));
+  for (const name of kCopied) cpSync(join(kRoot, "hil/scenarios", name), join(scenarios, name));
+  writeParked(join(scenarios, "parked_car.yaml"));
   const runs = join(programs.folder, "runs");
   programs.bench = spawn(
     kBench,

@@ -57,6 +57,22 @@ test("a scenario is found, started with a seed and seen through to its verdict",
   assert.deepEqual(faults, []);
 });
 
+test("a contact with another car is told with its cause, its rule and its place", async () => {
+  const { page, faults } = await benchPage(stage);
+  await page.fill(".chooser .filter", "parked");
+  await until(page, "one", () => document.querySelectorAll(".scenarios li").length === 1);
+  await page.click(".starter button");
+  await stateIs(page, "contact", kRunMs);
+  await until(page, "the contact", () => document.querySelector(".contact"));
+  assert.equal(await page.textContent(".contact .sum b"), "THIS CAR");
+  const panel = await page.textContent(".contact");
+  assert.match(panel, /rule 1: a car that stood causes nothing/);
+  assert.match(panel, /parked \(9\)/);
+  assert.match(panel, /station14[0-9] m/, "a length before the middle of the other");
+  assert.match(await page.textContent(".told-list"), /contact with parked/);
+  assert.deepEqual(faults, []);
+});
+
 test("a run is stopped, and a server that dies is shown until there is one again", async () => {
   const { page, faults } = await benchPage(stage);
   await page.fill(".chooser .filter", "red flag");

@@ -71,6 +71,8 @@ const kBaseFields = {
 };
 const kFirstBaseField = 16_384;
 const kFramesPerSecond = 25;
+/** By which each car drives behind the one before it. */
+const kBehindS = 3;
 
 /** The catalogue as a base would serve it: the registry out of the real program, and its own. */
 export function catalogue(program = process.env.PITWALL_BASE ?? kProgram) {
@@ -193,9 +195,10 @@ export class Double {
     this.overrides.set(path, { value, judgement, quality });
   }
 
-  entries() {
+  entries(car = 0) {
     const silentMs = this.carAlive ? 0 : this.nowMs() - this.silentSince;
-    const values = valuesAt((this.nowMs() - silentMs) / 1000 - 80, this.streams);
+    const drivenS = (this.nowMs() - silentMs) / 1000 - 80 - kBehindS * car;
+    const values = valuesAt(drivenS, this.streams);
     return this.catalogue.fields.map((field) => {
       const own = this.overrides.get(field.path);
       const value = own?.value ?? values[field.path];
@@ -226,22 +229,23 @@ export class Double {
   }
 
   tick() {
-    const frame = wire.snapshot(this.entries(), {
-      sequence: ++this.sequence,
-      dropped: this.dropped,
-      timeMs: this.nowMs(),
-    });
-    for (const socket of this.sockets.clients) socket.send(frame);
+    const head = { sequence: ++this.sequence, dropped: this.dropped, timeMs: this.nowMs() };
+    const frames = [];
+    for (const socket of this.sockets.clients) {
+      const car = socket.car ?? 0;
+      socket.send((frames[car] ??= wire.snapshot(this.entries(car), head)));
+    }
     if (this.checklist && this.sequence % kFramesPerSecond === 0) {
       this.say(this.checklist(this.nowMs()));
     }
     for (const listener of this.frameListeners) listener(this.nowMs());
   }
 
-  /** Every car of the double drives the same drive. */
+  /** Every car of the double drives the same drive, one behind the other. */
   greet(socket, request) {
     const asked = new URL(request.url, "http://localhost").searchParams.get("car");
     const car = this.cars.find(({ number }) => String(number) === asked) ?? this.cars[0];
+    socket.car = Math.max(this.cars.indexOf(car), 0);
     const texts = [
       {
         ...this.hello,
@@ -253,7 +257,7 @@ export class Double {
       ...(this.greetings ?? []),
     ];
     for (const text of texts) socket.send(JSON.stringify(text));
-    socket.send(wire.snapshot(this.entries(), { timeMs: this.nowMs() }));
+    socket.send(wire.snapshot(this.entries(socket.car), { timeMs: this.nowMs() }));
     socket.on("message", (data) => this.take(socket, JSON.parse(String(data))));
   }
 

@@ -113,19 +113,22 @@ function motion(t, speed) {
   };
 }
 
+/** The third is not seen for some of the time, and its place becomes unsure. */
 function rivals(t, speed) {
   const values = {};
+  const unseenS = Math.max(0.1, (t % 6) - 2);
   [
-    [12, 78, 4.5],
-    [31, -46, 1.0],
-  ].forEach(([identity, gap, offset], i) => {
+    [12, 78, 4.5, 0.05],
+    [31, -46, 1.0, 0.05],
+    [45, 140, -1.5, unseenS],
+  ].forEach(([identity, gap, offset, age], i) => {
     const group = `opponent_${i + 1}.`;
     values[`${group}identity`] = identity;
     values[`${group}station`] = (speed * t + gap + 6 * Math.sin(t / 5) + kLengthM) % kLengthM;
     values[`${group}offset`] = offset;
     values[`${group}speed`] = speed + 1.2 * Math.cos(t / 5);
-    values[`${group}age`] = 0.05;
-    values[`${group}position_sigma`] = 0.3;
+    values[`${group}age`] = age;
+    values[`${group}position_sigma`] = 0.3 + 1.5 * age;
   });
   return values;
 }

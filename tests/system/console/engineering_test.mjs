@@ -326,3 +326,29 @@ test("the finder finds by name and by path, shows both and the value with its un
       document.querySelector('[aria-label="chart coolant temperature"] canvas'),
   );
 });
+
+test("the race page has each tracked rival, and says what was not heard lately", async () => {
+  const { page } = await stage.open({ hash: "#/race" });
+  const table = () =>
+    [...document.querySelectorAll('[aria-label="tracked rivals"] tbody tr')].map((row) =>
+      [...row.querySelectorAll(".value")].map((e) => [
+        e.querySelector(".digits").textContent,
+        e.dataset.quality,
+      ]),
+    );
+  await until(page, "three rivals", () => {
+    const names = document.querySelectorAll('[aria-label="tracked rivals"] th .digits');
+    return [...names].map((e) => e.textContent).join() === "12,31,45,\u2013";
+  });
+  const [first, second, third, fourth] = await page.evaluate(table);
+  assert.equal(first[2][0], "4.5", "the offset");
+  assert.equal(second[4][0], "0.1", "the time since its detection");
+  assert.ok(Number(third[5][0]) >= 0.4, `a sigma of ${third[5][0]}`);
+  assert.equal(fourth[1][1], "never");
+  stage.double.silence();
+  await until(page, "old values", () =>
+    [...document.querySelectorAll('[aria-label="tracked rivals"] td .value')].every((e) =>
+      ["stale", "never"].includes(e.dataset.quality),
+    ),
+  );
+});

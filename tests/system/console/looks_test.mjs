@@ -13,7 +13,7 @@ import { cvdDistance, contrast, parseColour } from "./colour.mjs";
 import { kAxe } from "./packages.mjs";
 import { doubleStage, kDeskSizes, kPages, kScreenshots, kSizes, kThemes } from "./stage.mjs";
 import { show, until } from "./stage.mjs";
-import { checklist, greetings, kRecordings, stopped, troubles } from "./story.mjs";
+import { checklist, contactRun, greetings, kRecordings, stopped, troubles } from "./story.mjs";
 
 const kLabelPx = 14;
 const kTouchPx = 44;
@@ -205,6 +205,7 @@ const texts = () => {
     const status =
       e.closest(
         '[data-judgement="warning"], [data-judgement="bad"], .count, ' +
+          '.car-tab[data-alarmed="true"], ' +
           ".alarm-line, .alarm .state, .gate, .fallen, .stop, .mode-word, .flood, .behind, " +
           '.verdict, [data-standing="failed"], ' +
           '[data-quality="stale"], [data-quality="never"]',
@@ -269,6 +270,57 @@ for (const theme of kThemes) {
       assert.deepEqual(weakTexts(drawn), [], `${name}: contrast`);
       assert.deepEqual(await page.evaluate(graveFaults), [], `${name}: axe`);
     }
+    assert.deepEqual(faults, []);
+  });
+}
+
+test("a contact with another car: by whom, by which rule, where, in every theme", async () => {
+  stage.double.greetings.push(...contactRun());
+  for (const theme of kThemes) {
+    const { page, faults, context } = await stage.open({ theme });
+    await page.evaluate(kAxe);
+    await show(page, "hil");
+    await until(page, "the contact", () => document.querySelector(".contact"));
+    assert.equal(await page.textContent(".contact .sum b"), "THIS CAR");
+    const panel = await page.textContent(".contact");
+    const rule = "rule 2: the car behind must pass safely";
+    for (const part of [rule, "slow (2)", "1204 m", "53.62 s"])
+      assert.ok(panel.includes(part), `${part} in ${panel}`);
+    assert.match(await page.textContent(".told-list"), /caused by this car/);
+    await page.screenshot({ path: join(kScreenshots, `hil_contact_${theme}.png`) });
+    assert.deepEqual(weakTexts(await page.evaluate(texts)), [], `${theme}: contrast`);
+    assert.deepEqual(await page.evaluate(smallTexts, kLabelPx), [], theme);
+    assert.deepEqual(await page.evaluate(graveFaults), [], `${theme}: axe`);
+    assert.deepEqual(faults, []);
+    await context.close();
+  }
+});
+
+for (const theme of kThemes) {
+  test(`two cars of one base: both on the map, a stop for all, in the ${theme} theme`, async () => {
+    stage.double.cars = [
+      { number: 7, name: "Caracara" },
+      { number: 8, name: "Shrike" },
+    ];
+    const { page, faults } = await stage.open({ theme });
+    await until(page, "the other car", () => globalThis.pitwall.session.cars.value[1]?.track.value);
+    await page.evaluate(kAxe);
+    await page.evaluate(watchCanvas);
+    await page.waitForTimeout(1500);
+    await page.screenshot({ path: join(kScreenshots, `primary_two_${theme}.png`) });
+    const drawn = (await page.evaluate(() => globalThis.drawnPx)).map(([, text]) => text);
+    for (const text of ["7", "8", "car 8", "#12", "#45"]) assert.ok(drawn.includes(text), text);
+    assert.deepEqual(await page.evaluate(cutOff), []);
+    assert.deepEqual(weakTexts(await page.evaluate(texts)), [], "contrast");
+    assert.deepEqual(await page.evaluate(smallTexts, kLabelPx), []);
+    assert.deepEqual(await page.evaluate(graveFaults), [], "axe");
+    const box = await page.locator(".stop.all").boundingBox();
+    assert.ok(box.height >= kCommandPx && box.width >= kTouchPx, `${box.width} x ${box.height}`);
+    await page.click(".stop.all");
+    await page.keyboard.press("Control+Shift+X");
+    const stops = () => stage.double.received.filter(({ type }) => type === "stop");
+    for (let n = 0; n < 50 && stops().length < 4; ++n) await page.waitForTimeout(20);
+    assert.deepEqual(stops(), Array(4).fill({ type: "stop", kind: "controlled" }));
     assert.deepEqual(faults, []);
   });
 }

@@ -29,6 +29,16 @@ const drawnNow = () =>
     ]),
   );
 
+/** Keeps every text that is drawn on a canvas from now on. */
+const watchCanvas = () => {
+  globalThis.drawn = new Set();
+  const { fillText } = CanvasRenderingContext2D.prototype;
+  CanvasRenderingContext2D.prototype.fillText = function (text, ...rest) {
+    globalThis.drawn.add(text);
+    return fillText.call(this, text, ...rest);
+  };
+};
+
 /** What differs between two maps of fields. */
 const different = (live, again) =>
   Object.keys(live)
@@ -94,11 +104,14 @@ test("the same moment of the log has the same fields, live and from the file", a
   const address = await stage.programs.startReplay(join(stage.programs.folder, "recording"));
   await page.goto(`${address}/`);
   await until(page, "the replay", () => globalThis.pitwall?.session.playback.value);
+  await page.evaluate(watchCanvas);
   for (const { atMs, rows } of moments) {
     await seek(page, atMs);
     const again = await page.evaluate(fieldsNow);
     assert.deepEqual(different(rows, again.rows), [], `at ${atMs} ms`);
   }
+  assert.equal(moments.at(-1).rows["opponent_1.station"][0], 400);
+  await until(page, "the opponent on the map", () => globalThis.drawn.has("#3"));
   await seek(page, lost.atMs);
   assert.deepEqual(different(lost.rows, (await page.evaluate(fieldsNow)).rows), []);
   let left = ["not drawn"];

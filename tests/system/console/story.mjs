@@ -332,6 +332,40 @@ export function bench() {
   ];
 }
 
+/** The run of bench() once it has ended in a contact with another car. */
+export function contactRun() {
+  const of = (type, line) => ({ type: `bench_${type}`, server: "server 1", of: line });
+  const text =
+    "contact with slow, from behind, at 53.62 s, s 1204 m, closing at 6.9 m/s; caused by this car";
+  const { of: run } = bench().find(({ type }) => type === "bench_run");
+  return [
+    of("event", { type: "event", run: 4, t_s: 53.62, kind: "contact", text }),
+    of("result", {
+      type: "result",
+      run: 4,
+      passed: false,
+      timely: true,
+      reactions: [],
+      result: {
+        car_contact: {
+          at_s: 53.62,
+          s_m: 1204.3,
+          with: "slow",
+          with_number: 2,
+          kind: "from behind",
+          rule: "rule 2: the car behind must pass safely",
+          closing_mps: 6.9,
+          caused: true,
+          caused_by_other: false,
+          own: { speed_mps: 41.2, n_m: -0.4 },
+          other: { speed_mps: 34.3, n_m: -0.9 },
+        },
+      },
+    }),
+    of("run", { ...run, state: "contact" }),
+  ];
+}
+
 /** What a console hears on connecting, after hello and catalogue. */
 export function greetings(double) {
   const now = double.nowMs();

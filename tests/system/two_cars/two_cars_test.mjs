@@ -1,6 +1,7 @@
 /**
  * Two cars on one base: each has its own link, authority, alarms, recording and tab; what is said
- * on the console of one is never the other's; one that falls silent leaves the other as it was; and
+ * on the console of one is never the other's, but a stop of all stops all, and the map shows all;
+ * one that falls silent leaves the other as it was; and
  * a car that speaks with its own keys at the other's radio is not heard there.
  */
 // SPDX-License-Identifier: Apache-2.0
@@ -134,6 +135,56 @@ test("a stop stops the car that stands on it, and no other", async () => {
   await clients[8].until("car 8 to be told", () => /stop 2/.test(programs.carSaid[8]));
   assert.equal(programs.carSaid[7], "");
   assert.equal(clients[7].texts.filter((t) => t.type === "audit" && /stop/.test(t.what)).length, 0);
+});
+
+test("a stop of all stops each, without authority, and each has its line of audit", async () => {
+  const audited = (number) =>
+    clients[number].texts.filter((t) => t.type === "audit" && /stop/.test(t.what));
+  const before = { 7: audited(7).length, 8: audited(8).length };
+  await page.click(".stop.all");
+  for (const number of [7, 8]) {
+    await clients[number].until(
+      `a line of car ${number}`,
+      () => audited(number).length > before[number],
+    );
+    assert.equal(audited(number).at(-1).what, "controlled stop");
+  }
+  await clients[7].until("car 7 to be told", () => /stop 1/.test(programs.carSaid[7]));
+  assert.equal(programs.carSaid[7].match(/stop/g).length, 1, "and only once");
+});
+
+test("the map of one car shows the other, each in its place", async () => {
+  await show(page, "primary");
+  await until(
+    page,
+    "the other car",
+    () => {
+      const { cars, shownCar } = globalThis.pitwall.session;
+      return cars.value.every((car) => car.track.value?.name === shownCar.value.track.value?.name);
+    },
+    undefined,
+    kPatienceMs,
+  );
+  await page.evaluate(() => {
+    globalThis.drawn = new Set();
+    const { fillText } = CanvasRenderingContext2D.prototype;
+    CanvasRenderingContext2D.prototype.fillText = function (text, ...rest) {
+      globalThis.drawn.add(text);
+      return fillText.call(this, text, ...rest);
+    };
+  });
+  for (const [shownOne, other] of [
+    [8, 7],
+    [7, 8],
+  ]) {
+    await tab(shownOne).click();
+    await page.evaluate(() => globalThis.drawn.clear());
+    await until(page, `car ${other}`, (name) => globalThis.drawn.has(name), `car ${other}`);
+    assert.equal(
+      await page.evaluate((name) => globalThis.drawn.has(name), `car ${shownOne}`),
+      false,
+    );
+  }
 });
 
 test("alarms are of one car, and its tab tells them on the other's page", async () => {

@@ -1,7 +1,7 @@
 /**
  * The cars of this base over everything else, where there are several: of each its number, name,
- * world, link and alarms, whichever is shown. The line below has the colour and the pattern of the
- * one that is shown, on every page.
+ * world, link, stop and alarms, whichever is shown. The line below has the colour and the pattern
+ * of the one that is shown, on every page.
  */
 // SPDX-License-Identifier: Apache-2.0
 import { useRef } from "preact/hooks";
@@ -58,6 +58,14 @@ function LinkWord({ car }: { car: CarSession }) {
   );
 }
 
+/** A stop that the car is in, or one that this console could not send to it. */
+function StopWord({ car }: { car: CarSession }) {
+  const stop = car.stopState.value;
+  const unsent = car.lastStop.value?.sent === false;
+  if (!stop && !unsent) return null;
+  return <b class="tab-stop">{stop ? "STOPPED" : "STOP NOT SENT"}</b>;
+}
+
 function Counts({ car }: { car: CarSession }) {
   return (
     <span class="tab-counts">
@@ -86,6 +94,7 @@ function Tab({ car }: { car: CarSession }) {
       <span class="tab-name">{hello?.name ?? ""}</span>
       <span class="tab-mode">{kModes[hello?.mode ?? "NONE"]}</span>
       <LinkWord car={car} />
+      <StopWord car={car} />
       <Counts car={car} />
     </button>
   );

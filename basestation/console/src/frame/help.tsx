@@ -6,6 +6,7 @@ import { helpShown, kDoubleEscapeMs, kKeys } from "./keys";
 import { LoggedIn } from "./login";
 import { kPages } from "./pages";
 import { kEmergencyHoldMs } from "./stop_rail";
+import { hasSeveral } from "../store/session";
 import { runsText } from "../view/format";
 
 export function Help() {
@@ -34,6 +35,14 @@ export function Help() {
               </th>
               <td>emergency stop (or hold the button {kEmergencyHoldMs} ms)</td>
             </tr>
+            {hasSeveral.value && (
+              <tr class="stops">
+                <th scope="row">
+                  <kbd>Ctrl Shift X</kbd>
+                </th>
+                <td>controlled stop of all cars</td>
+              </tr>
+            )}
             <tr>
               <th scope="row">
                 <kbd>{runsText(kPages.map((page) => page.key))}</kbd>

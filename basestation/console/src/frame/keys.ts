@@ -1,12 +1,12 @@
 /**
  * The keyboard map. No single key ever sends a command to the car: a controlled stop is Escape
- * twice within 600 ms, an emergency stop the chord Ctrl+Shift+E.
+ * twice within 600 ms, an emergency stop the chord Ctrl+Shift+E, a stop of all cars Ctrl+Shift+X.
  */
 // SPDX-License-Identifier: Apache-2.0
 import { signal } from "@preact/signals";
 import * as session from "../store/session";
 import { showNextCar } from "../store/cars";
-import { isOperator, send, stop } from "../store/uplink";
+import { isOperator, send, stop, stopAll } from "../store/uplink";
 import { nextTheme } from "../theme/theme";
 import { inOrder, loudest, needsEyes } from "../view/alarm_order";
 import { nextSpeedUnit } from "../view/speed_unit";
@@ -121,6 +121,11 @@ function pressed(event: KeyboardEvent): void {
   if (event.ctrlKey && event.shiftKey && event.code === "KeyE") {
     event.preventDefault();
     if (!event.repeat) stop("emergency");
+    return;
+  }
+  if (event.ctrlKey && event.shiftKey && event.code === "KeyX" && session.hasSeveral.value) {
+    event.preventDefault();
+    if (!event.repeat) stopAll();
     return;
   }
   if (event.key === "Escape") {

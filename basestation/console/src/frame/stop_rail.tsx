@@ -1,12 +1,12 @@
 /**
  * The right edge, on every page: a controlled stop at one press, an emergency stop held for 400 ms.
  * A replay has no such rail, because there is nothing to stop. Where the base has several cars the
- * buttons say which one they stop: the one that is shown.
+ * buttons say which one they stop, the one that is shown, and one more stops all of them.
  */
 // SPDX-License-Identifier: Apache-2.0
 import { useRef } from "preact/hooks";
 import * as session from "../store/session";
-import { isOperator, lastStop, stop } from "../store/uplink";
+import { isOperator, lastStop, stop, stopAll } from "../store/uplink";
 import { CarChip } from "./car_tabs";
 import { HoldButton } from "../view/hold_button";
 import { kEachFrame, usePainter } from "../view/painting";
@@ -34,6 +34,23 @@ function Outcome() {
     [store, slot],
   );
   return <p class="outcome" role="alert" ref={root} />;
+}
+
+/** Needs no authority, as each stop; possible as long as one base's session can send one. */
+function StopAll() {
+  const { value: cars } = session.cars;
+  return (
+    <button
+      type="button"
+      class="stop controlled all"
+      disabled={!cars.some((car) => car.isOperator.value)}
+      onClick={stopAll}
+    >
+      <strong>STOP ALL</strong>
+      <span>{cars.length} cars</span>
+      <kbd>Ctrl Shift X</kbd>
+    </button>
+  );
 }
 
 export function StopRail() {
@@ -68,6 +85,7 @@ export function StopRail() {
           {gone || !mode ? "NO BASE: no stop from here" : "viewer: no stop from here"}
         </p>
       )}
+      {whose && <StopAll />}
       <HoldButton
         holdMs={kEmergencyHoldMs}
         class="stop emergency"

@@ -1,19 +1,17 @@
 /**
- * Draws what moves: the own car filled, its ghost hollow with a circle of doubt, rivals as diamonds
- * with gap and closing speed, the trail in colour only where it was out of line.
+ * Draws the cars of this base: the one that is shown filled, its ghost hollow with a circle of
+ * doubt, the others smaller in their colours with their numbers; the trail in colour only where it
+ * was out of line.
  */
 // SPDX-License-Identifier: Apache-2.0
 import type { Palette } from "../theme/theme";
-import { fixed } from "../view/format";
-import { speedUnit } from "../view/speed_unit";
 import { Judgement, Quality } from "../wire/status";
 import type { Pose, Projection } from "./course";
-import type { Ghost, Own, Rival, TrailPoint } from "./scene";
+import type { Ghost, Mate, Own, TrailPoint } from "./scene";
 
 type Pen = CanvasRenderingContext2D;
 
-/** Height of a row of the list of rivals. */
-const kListPx = 22;
+const kMateSize = 0.8;
 const kArrow = [
   [13, 0],
   [-9, 8],
@@ -61,7 +59,31 @@ export function drawTrail(
   pen.globalAlpha = 1;
 }
 
-export function drawOwn(pen: Pen, own: Own, into: Projection, colours: Palette): void {
+/** The ink of a car of a base that has several, by its place among them from 1. */
+export const inkOfCar = (order: number, colours: Palette): string =>
+  colours.cars[(order - 1) % colours.cars.length];
+
+/** The number of a car beside its arrow. */
+function numbered(pen: Pen, car: Pose, number: number, into: Projection): void {
+  const { x, y } = into.toPixel(car.x, car.y);
+  const across = into.toAngle(car.yaw - Math.PI / 2);
+  pen.font = "700 16px Barlow, sans-serif";
+  pen.textAlign = "center";
+  pen.textBaseline = "middle";
+  pen.fillText(`${number}`, x + 22 * Math.cos(across), y + 22 * Math.sin(across));
+}
+
+/** `order` and `number` where the base has several cars. */
+export function drawOwn(
+  pen: Pen,
+  own: Own,
+  into: Projection,
+  colours: Palette,
+  among: { order: number; number: number } | null = null,
+): void {
+  const ink = among ? inkOfCar(among.order, colours) : colours.ego;
+  pen.fillStyle = own.quality >= Quality.stale ? colours.stale : ink;
+  if (among) numbered(pen, own, among.number, into);
   arrow(pen, own, into);
   if (own.quality >= Quality.stale) {
     pen.setLineDash([3, 3]);
@@ -71,7 +93,7 @@ export function drawOwn(pen: Pen, own: Own, into: Projection, colours: Palette):
     pen.setLineDash([]);
     return;
   }
-  pen.fillStyle = colours.ego;
+  pen.fillStyle = ink;
   pen.strokeStyle = colours.ground;
   pen.lineWidth = 2;
   pen.fill();
@@ -91,64 +113,21 @@ export function drawGhost(pen: Pen, ghost: Ghost, into: Projection, colours: Pal
   pen.setLineDash([]);
 }
 
-export const gapText = (gap: number): string => `${gap >= 0 ? "+" : ""}${fixed(gap, 0)} m`;
-
-export function closingText(closing: number): string {
-  if (!Number.isFinite(closing)) return "";
-  const { name, perMps } = speedUnit.value;
-  return `${closing >= 0 ? "+" : ""}${fixed(closing * perMps, 0)} ${name}`;
-}
-
-/** A diamond of a rival at a pixel; hollow once its report is stale. */
-export function diamond(
+/** The other cars of this base, each with its number beside it; hollow once it is not heard. */
+export function drawMates(
   pen: Pen,
-  x: number,
-  y: number,
-  size: number,
-  stale: boolean,
-  colours: Palette,
-): void {
-  pen.beginPath();
-  pen.moveTo(x, y - size);
-  pen.lineTo(x + size, y);
-  pen.lineTo(x, y + size);
-  pen.lineTo(x - size, y);
-  pen.closePath();
-  pen.lineWidth = colours.stroke;
-  if (stale) {
-    pen.strokeStyle = colours.stale;
-    pen.stroke();
-    return;
-  }
-  pen.fillStyle = colours.rival;
-  pen.fill();
-}
-
-/** Each rival by its number beside its diamond, and once more in the corner with gap and closing
-    speed, where close cars do not write over each other. */
-export function drawRivals(
-  pen: Pen,
-  rivals: readonly Rival[],
+  mates: readonly Mate[],
   into: Projection,
   colours: Palette,
 ): void {
-  pen.textBaseline = "middle";
-  rivals.forEach((rival, i) => {
-    const { x, y } = into.toPixel(rival.x, rival.y);
-    const ink = rival.stale ? colours.stale : colours.text;
-    diamond(pen, x, y, 8, rival.stale, colours);
-    const across = into.toAngle(rival.yaw + Math.PI / 2);
-    pen.font = "600 14px Barlow, sans-serif";
-    pen.textAlign = "center";
+  for (const mate of mates) {
+    const ink = mate.stale ? colours.stale : inkOfCar(mate.order, colours);
+    arrow(pen, mate, into, kMateSize);
+    pen.lineWidth = colours.stroke;
+    pen.strokeStyle = mate.stale ? ink : colours.ground;
     pen.fillStyle = ink;
-    pen.fillText(`#${rival.identity}`, x + 24 * Math.cos(across), y + 24 * Math.sin(across));
-    const row = kListPx + i * kListPx;
-    diamond(pen, 10, row, 6, rival.stale, colours);
-    pen.fillStyle = ink;
-    pen.font = "600 16px Barlow, sans-serif";
-    pen.textAlign = "left";
-    pen.fillText(`#${rival.identity}`, 24, row);
-    pen.fillText(gapText(rival.gap), 60, row);
-    pen.fillText(closingText(rival.closing), 124, row);
-  });
+    if (!mate.stale) pen.fill();
+    pen.stroke();
+    numbered(pen, mate, mate.number, into);
+  }
 }

@@ -11,16 +11,17 @@ import { kMapHz, usePainter } from "../view/painting";
 import { readPath } from "../view/timeline";
 import { Tile } from "../view/value";
 import { Quality } from "../wire/status";
-import { drawGhost, drawOwn, drawRivals, drawTrail } from "./cars";
+import { drawGhost, drawMates, drawOwn, drawTrail } from "./cars";
 import { Course, fit } from "./course";
 import type { Projection } from "./course";
 import { drawGround, drawLine } from "./ground";
-import { ghost, lineOffset, own, rivals, trail } from "./scene";
+import { drawList, drawRivals, kListPx } from "./rivals";
+import { ghost, kCoastsAfterS, kSigmas, lineOffset, mates, own, rivals, trail } from "./scene";
 import { drawStrip } from "./strip";
 
 const kMargin = 34;
-/** Where the map is higher than wide the list of two rivals has its place above it. */
-const kListRoomPx = 44;
+/** Where the map is higher than wide the list of four rivals has its place above it. */
+const kListRoomPx = 4 * kListPx;
 
 /** Fits a canvas to its box in device pixels; true where its size changed. */
 export function sizeCanvas(canvas: HTMLCanvasElement): boolean {
@@ -62,6 +63,14 @@ class Ground {
   }
 }
 
+/** Which of the cars of the base is shown; null where it is the only one. */
+function amongCars(): { order: number; number: number } | null {
+  const { cars, shownCar, hasSeveral } = session;
+  if (!hasSeveral.value) return null;
+  const { value: car } = shownCar;
+  return { order: cars.value.indexOf(car) + 1, number: car.number ?? 0 };
+}
+
 function paintMap(canvas: HTMLCanvasElement, ground: Ground, course: Course | null): void {
   const pen = canvas.getContext("2d");
   if (!pen || canvas.clientWidth === 0) return;
@@ -75,8 +84,13 @@ function paintMap(canvas: HTMLCanvasElement, ground: Ground, course: Course | nu
   drawTrail(pen, trail(store), into, palette, car === null || car.quality >= Quality.stale);
   const hollow = ghost(store);
   if (hollow) drawGhost(pen, hollow, into, palette);
-  if (course) drawRivals(pen, rivals(store, course), into, palette);
-  if (car) drawOwn(pen, car, into, palette);
+  if (course) {
+    const [tracked, others] = [rivals(store, course), mates(course)];
+    drawRivals(pen, tracked, into, palette);
+    drawMates(pen, others, into, palette);
+    drawList(pen, tracked, others, palette);
+  }
+  if (car) drawOwn(pen, car, into, palette, amongCars());
 }
 
 function paintStrip(canvas: HTMLCanvasElement, course: Course): void {
@@ -128,7 +142,12 @@ export function MapPanel() {
     <div class="map-body">
       <div class="map-box">
         <canvas ref={map} role="img" aria-label={`map of ${track?.name ?? "the track"}`} />
-        <div class="map-caption">{track ? track.name : "no track file"}</div>
+        <div class="map-caption">
+          {track ? track.name : "no track file"}
+          <small>
+            dashed: not seen for {kCoastsAfterS} s; ring: {kSigmas}&#8239;&sigma;
+          </small>
+        </div>
       </div>
       <canvas ref={strip} class="strip" role="img" aria-label="the road around the car" />
       <div class="tiles four">

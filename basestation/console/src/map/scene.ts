@@ -1,15 +1,23 @@
 /**
  * What moves on the track at the moment shown, out of the fields: the own car, where the base
- * thinks it is when the link is gone, the rivals with their gaps, and the way just driven.
+ * thinks it is when the link is gone, the rivals that it tracks, the other cars of this base, and
+ * the way just driven.
  */
 // SPDX-License-Identifier: Apache-2.0
 import type { Fields } from "../store/fields";
+import { kNothing } from "../store/reading";
+import type { Reading } from "../store/reading";
 import * as session from "../store/session";
-import { read, shownMs } from "../view/timeline";
+import { isLive, read, shownMs } from "../view/timeline";
 import { Judgement, Quality, judgementOf } from "../wire/status";
 import type { Course, Point, Pose } from "./course";
 
-const kRivals = 4;
+/** As many as the car tells of. */
+export const kRivals = 4;
+/** Without a detection for longer, the car's tracker only carries the rival on. */
+export const kCoastsAfterS = 0.5;
+/** The circle around a rival: so many standard deviations of its place, in the worst direction. */
+export const kSigmas = 2;
 const kTrailMs = 12_000;
 const kTrailPoints = 100;
 
@@ -21,18 +29,34 @@ export interface Ghost extends Pose {
   radius: number;
 }
 
+/** `seenS` is the time since its last detection, `radius` that of its circle in metres. */
 export interface Rival extends Pose {
   identity: number;
   station: number;
   offset: number;
   gap: number;
+  speed: number;
   closing: number;
+  seenS: number;
+  radius: number;
+  coasts: boolean;
+  stale: boolean;
+}
+
+/** Another car of this base; `order` is that of the cars, from 1. */
+export interface Mate extends Pose {
+  number: number;
+  order: number;
+  gap: number;
+  speed: number;
   stale: boolean;
 }
 
 export interface TrailPoint extends Point {
   judgement: Judgement;
 }
+
+const scratch: Reading = { ...kNothing };
 
 const valueOf = (store: Fields, path: string): { value: number; quality: Quality } => {
   const { value, quality } = read(store.slot(path));
@@ -75,17 +99,52 @@ export function rivals(store: Fields, course: Course): Rival[] {
     const offset = valueOf(store, `opponent_${n}.offset`);
     if (identity.quality === Quality.never || !Number.isFinite(station.value)) continue;
     if (!(identity.value > 0)) continue;
+    const rivalSpeed = valueOf(store, `opponent_${n}.speed`).value;
+    const seenS = valueOf(store, `opponent_${n}.age`).value;
     found.push({
       ...course.place(station.value, offset.value || 0),
       identity: identity.value,
       station: station.value,
       offset: offset.value || 0,
       gap: course.gap(here, station.value),
-      closing: valueOf(store, `opponent_${n}.speed`).value - speed,
+      speed: rivalSpeed,
+      closing: rivalSpeed - speed,
+      seenS,
+      radius: kSigmas * valueOf(store, `opponent_${n}.position_sigma`).value || 0,
+      coasts: seenS > kCoastsAfterS,
       stale: station.quality >= Quality.stale,
     });
   }
   return found;
+}
+
+/** The other cars of the base on the same track, as each of them told at the moment shown: by its
+    pose, or by its station where it has no pose. */
+export function mates(course: Course): Mate[] {
+  const here = valueOf(session.fields.value, "track.station").value;
+  const localMs = performance.now();
+  return session.cars.value.flatMap((car, i): Mate[] => {
+    if (car === session.shownCar.value || car.track.value?.name !== course.track.name) return [];
+    const history = car.history.value;
+    const at = history.find(shownMs());
+    const told = (path: string) => ({ ...history.read(car.fields.value.slot(path), at, scratch) });
+    const [x, y, station] = [told("ego.x"), told("ego.y"), told("track.station")];
+    const isPlaced = Number.isFinite(x.value + y.value);
+    if (station.quality === Quality.never || !Number.isFinite(station.value)) return [];
+    const silent = isLive.value && car.clock.isSilent(localMs);
+    return [
+      {
+        ...(isPlaced
+          ? { x: x.value, y: y.value, yaw: told("ego.yaw").value || 0 }
+          : course.place(station.value, told("track.offset").value || 0)),
+        number: car.number ?? 0,
+        order: i + 1,
+        gap: course.gap(here, station.value),
+        speed: told("ego.vx").value,
+        stale: silent || !car.connected.value || station.quality >= Quality.stale,
+      },
+    ];
+  });
 }
 
 /** The last seconds of the own car, oldest first, with what the base judged of its cross-track. */

@@ -5,7 +5,7 @@
 // SPDX-License-Identifier: Apache-2.0
 import type { Palette } from "../theme/theme";
 import type { Course } from "./course";
-import { closingText, diamond, gapText } from "./cars";
+import { closingText, doubt, gapText, kite, outlined, seenText } from "./rivals";
 import type { Rival } from "./scene";
 
 type Pen = CanvasRenderingContext2D;
@@ -83,9 +83,10 @@ export function drawStrip(
   }
   pen.fillStyle = colours.dim;
   rungs(pen, x, state.station, height);
-  drawCars(pen, state, colours, x, y, width);
+  drawCars(pen, state, colours, x, y, width, { x: x(1) - x(0), y: y(0) - y(1) });
 }
 
+/** The captions, those of neighbours above and below, lie under the marks of all. */
 function drawCars(
   pen: Pen,
   state: StripState,
@@ -93,18 +94,27 @@ function drawCars(
   x: (s: number) => number,
   y: (offset: number) => number,
   width: number,
+  perMetre: { x: number; y: number },
 ): void {
-  for (const rival of state.rivals) {
-    if (rival.gap < -kBehindM || rival.gap > kAheadM) continue;
-    const [px, py] = [x(state.station + rival.gap), y(rival.offset)];
-    diamond(pen, px, py, 7, rival.stale, colours);
-    pen.fillStyle = colours.text;
-    pen.font = "600 14px Barlow, sans-serif";
-    pen.textAlign = "center";
-    pen.textBaseline = "bottom";
-    const caption = `#${rival.identity} ${gapText(rival.gap)} ${closingText(rival.closing)}`;
+  const seen = state.rivals
+    .filter(({ gap }) => gap >= -kBehindM && gap <= kAheadM)
+    .toSorted((a, b) => a.gap - b.gap)
+    .map((rival) => ({ rival, px: x(state.station + rival.gap), py: y(rival.offset) }));
+  pen.fillStyle = colours.text;
+  pen.font = "600 14px Barlow, sans-serif";
+  pen.textAlign = "center";
+  seen.forEach(({ rival, px, py }, i) => {
+    const above = i % 2 === 0;
+    const said = seenText(rival) || closingText(rival.closing);
+    const caption = `#${rival.identity} ${gapText(rival.gap)} ${said}`;
     const half = pen.measureText(caption).width / 2;
-    pen.fillText(caption, Math.min(Math.max(px, half), width - half), py - 9);
+    const at = Math.min(Math.max(px, half), width - half);
+    pen.textBaseline = above ? "bottom" : "top";
+    outlined(pen, caption, at, above ? py - 9 : py + 10, colours);
+  });
+  for (const { rival, px, py } of seen) {
+    doubt(pen, px, py, rival, perMetre, colours);
+    kite(pen, px, py, 0, rival, colours, 7);
   }
   const [px, py] = [x(state.station), y(state.offset)];
   pen.beginPath();

@@ -1,7 +1,7 @@
 /**
  * What the operator's hands send to the base: to the car that is shown, on that car's own
- * connection. In a replay nothing is sent: there the base has no way to the car, and the console
- * does not pretend.
+ * connection, or a stop to all of them, to each on its own. In a replay nothing is sent: there the
+ * base has no way to the car, and the console does not pretend.
  */
 // SPDX-License-Identifier: Apache-2.0
 import { computed } from "@preact/signals";
@@ -16,6 +16,9 @@ export const isHolder = computed(() => session.shownCar.value.isHolder.value);
 
 export const send = (message: { type: string } & Record<string, unknown>): boolean =>
   session.shownCar.value.send(message);
+
+/** A controlled stop of every car of the base. */
+export const stopAll = (): void => session.cars.value.forEach((car) => car.stop("controlled"));
 
 export const stop = (kind: StopKind): void => session.shownCar.value.stop(kind);
 

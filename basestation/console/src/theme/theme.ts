@@ -36,6 +36,8 @@ export interface Palette {
   asphalt: string;
   corner: string;
   rival: string;
+  /** Of the cars of a base, in its order. */
+  cars: string[];
   series: string[];
   stroke: number;
 }
@@ -59,6 +61,7 @@ export function colours(): Palette {
     asphalt: get("asphalt"),
     corner: get("corner"),
     rival: get("rival"),
+    cars: [1, 2, 3, 4].map((n) => get(`car-${n}`)),
     series: [1, 2, 3, 4, 5, 6].map((n) => get(`series-${n}`)),
     stroke: Number(get("stroke")) || 2,
   };

@@ -115,11 +115,33 @@ export interface BenchVerdict {
   reason?: string;
 }
 
+export interface CarInContact {
+  speed_mps: number | null;
+  /** Offset on the track, left positive. */
+  n_m: number | null;
+}
+
+/** Of the run's car with another one, judged by the bench. */
+export interface CarContact {
+  at_s: number;
+  s_m: number;
+  with: string;
+  with_number: number;
+  kind: string;
+  rule: string;
+  closing_mps: number | null;
+  caused: boolean;
+  caused_by_other: boolean;
+  own: CarInContact;
+  other: CarInContact;
+}
+
 export interface BenchResult {
   run: number;
   passed: boolean;
   timely: boolean;
   reactions: Reaction[];
+  result?: { car_contact?: CarContact | null };
 }
 
 export interface OfServer<T> {

@@ -138,19 +138,6 @@ TEST(CarMessages, TheFusedFixLiesWhereTheCarIs) {
   EXPECT_DOUBLE_EQ(fix->position_covariance[4], 0.0625);
 }
 
-TEST(CarMessages, AKnownOpponentIsABoxAndTheOthersAreDeleted) {
-  const auto markers = kMessages.opponents(sample_state(), testing::circle(), kNow).markers;
-  ASSERT_EQ(markers.size(), 2 * kOpponents);
-  EXPECT_EQ(markers[0].action, 0);
-  EXPECT_EQ(markers[0].type, 1);
-  EXPECT_NEAR(std::hypot(markers[0].pose.position.x, markers[0].pose.position.y), 298.0, 0.05);
-  EXPECT_EQ(markers[1].text, "9: 60.0 m/s");
-  for (std::size_t i = 2; i < markers.size(); ++i) EXPECT_EQ(markers[i].action, 2) << i;
-  Snapshot late = sample_state();
-  late.at(Group::kOpponent1) = kNow - seconds(3);
-  EXPECT_EQ(kMessages.opponents(late, testing::circle(), kNow).markers[0].action, 2);
-}
-
 TEST(CarMessages, TheRacelineIsClosed) {
   const ros::Path path = raceline(testing::circle(), kMessages.header(kNow, "map"));
   ASSERT_GT(path.poses.size(), 300U);

@@ -9,6 +9,7 @@ import type { BenchRun } from "../../wire/bench";
 import { kDash, lapText } from "../../view/format";
 import { speedUnit } from "../../view/speed_unit";
 import { ChooserPanel } from "./chooser";
+import { ContactPanel } from "./contact";
 import { ErrorPanel, ExpectationPanel, ReactionPanel } from "./grades";
 import { TimelinePanel } from "./timeline";
 import "./hil.css";
@@ -94,9 +95,11 @@ function Newest() {
       </section>
     );
   }
+  const contact = result.value?.result?.car_contact;
   return (
     <>
       <RunPanel run={run.value} />
+      {contact && <ContactPanel contact={contact} />}
       {plan.value && (
         <TimelinePanel plan={plan.value} nowS={at.value?.t_s ?? 0} events={events.value} />
       )}

@@ -11,6 +11,7 @@ import { Bar } from "../../view/bar";
 import { Line, Tile } from "../../view/value";
 import { Notices } from "../link/notices";
 import { FuelPanel } from "../primary/fuel_panel";
+import { OpponentPanel } from "./opponents";
 import "./race.css";
 
 const kGapShownM = 120;
@@ -117,12 +118,6 @@ function GapPanel() {
         <span class="label">behind</span>
         <Bar path="derived.gap_behind" label="gap behind" max={kGapShownM} ticks={ticks} />
       </div>
-      <div class="lines two">
-        <Line label="nearest opponent" path="opponent_1.identity" />
-        <Line label="seen before" path="opponent_1.age" decimals={2} />
-        <Line label="its speed" path="opponent_1.speed" decimals={0} />
-        <Line label="its offset" path="opponent_1.offset" decimals={1} />
-      </div>
       <h3>by race control</h3>
       <div class="lines two">
         <Line label="competitor" path="rival.number" />
@@ -154,6 +149,7 @@ export function RacePage() {
             <Line label="state" path="derived.fuel_state" />
           </div>
         </section>
+        <OpponentPanel />
         <Notices />
       </div>
     </main>
