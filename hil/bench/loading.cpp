@@ -104,7 +104,7 @@ Result<std::vector<LoadedStack>, Problem> stacks_of(const scenario::Scenario& ru
     auto setup = load_car(scenario, track, *car, folder);
     if (!setup) return Unexpected{setup.error()};
     setup->params.outbound.vehicle_number = static_cast<std::uint8_t>(other.number);
-    stacks.push_back({other.name, std::move(scenario), *std::move(setup)});
+    stacks.push_back({other.name, other.number, std::move(scenario), *std::move(setup)});
   }
   return stacks;
 }

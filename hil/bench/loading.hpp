@@ -17,6 +17,7 @@ namespace pitwall::bench {
 // Another car with a full stack: the flags, track and duration of the run, a start of its own.
 struct LoadedStack {
   std::string name;
+  int number = 0;
   scenario::Scenario scenario;
   pipeline::Setup setup;
 };

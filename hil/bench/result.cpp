@@ -4,9 +4,11 @@
 #include <algorithm>
 #include <cmath>
 #include <string_view>
+#include <utility>
 
 #include "hil/bench/contact.hpp"
 #include "protocol/json/json_text.hpp"
+#include "protocol/vocabulary/check.hpp"
 #include "protocol/vocabulary/text.hpp"
 
 namespace pitwall::bench {
@@ -94,6 +96,7 @@ std::string real_time_json(const RealTime& t) {
       .number("step_p50_us", t.step_p50_us)
       .number("step_p99_us", t.step_p99_us)
       .number("step_max_us", t.step_max_us)
+      .number("ticks", t.ticks)
       .number("missed_deadlines", t.missed_deadlines)
       .str();
 }
@@ -105,9 +108,9 @@ std::string done_json(const std::vector<CompletedAction>& done) {
   return out.str();
 }
 
-std::string remarks_json(const std::vector<std::string>& remarks) {
+std::string texts_json(const std::vector<std::string>& texts) {
   json::Array out;
-  for (const std::string& remark : remarks) out.text(remark);
+  for (const std::string& text : texts) out.text(text);
   return out.str();
 }
 
@@ -117,27 +120,26 @@ std::string match_text(const race::MatchSheet& sheet) {
   return out + "match: " + race::result_text(sheet) + "\n";
 }
 
-}  // namespace
-
-bool RunResult::passed() const {
-  for (const grading::Verdict& verdict : verdicts)
-    if (!verdict.pass) return false;
-  return true;
-}
-
-bool RunResult::failed_by_contact() const {
-  return std::ranges::any_of(verdicts, [](const grading::Verdict& verdict) {
+bool has_failed_contact(const RunResult& result) {
+  return std::ranges::any_of(result.verdicts, [](const grading::Verdict& verdict) {
     return (verdict.name == kContactVerdict || verdict.name == kCarContactVerdict) && !verdict.pass;
   });
 }
 
-std::string to_text(const RunResult& r) {
-  std::string out = formatted("SIMULATION %s, %s: %.1f s simulated", r.scenario.c_str(),
-                              r.mode.c_str(), r.simulated_s);
-  if (std::isfinite(r.wall_s))
-    out += formatted(" in %.2f s (%.1f x real time)", r.wall_s, r.simulated_s / r.wall_s);
-  out += "\n\n" + grading::to_table(r.cross_track) + "\n";
-  out += formatted("laps %u, flying %u", r.laps.finished, r.laps.flying);
+void add_missed(const RunResult& result, std::vector<std::string>& reasons) {
+  if (!result.real_time || result.real_time->missed_share() <= RealTime::kMissedShareMax) return;
+  const RealTime& t = *result.real_time;
+  reasons.push_back((result.car.empty() ? "the car" : "car " + result.car) +
+                    formatted(" missed %.2f %% of its ticks (%llu of %llu), more than %.0f %%",
+                              100.0 * t.missed_share(),
+                              static_cast<unsigned long long>(t.missed_deadlines),
+                              static_cast<unsigned long long>(t.ticks + t.missed_deadlines),
+                              100.0 * RealTime::kMissedShareMax));
+}
+
+// One car: laps, end, traffic, refusals, verdicts.
+std::string drive_text(const RunResult& r) {
+  std::string out = formatted("laps %u, flying %u", r.laps.finished, r.laps.flying);
   if (r.laps.flying > 0)
     out += formatted(", best flying lap %.3f s, mean %.2f m/s (%.1f mph)", r.laps.best_flying_s,
                      r.laps.best_flying_mean_mps, to_mph(r.laps.best_flying_mean_mps));
@@ -170,6 +172,68 @@ std::string to_text(const RunResult& r) {
            (verdict.delay ? formatted("  after %.3f s", verdict.delay->seconds()) : std::string()) +
            (verdict.pass ? "" : "  " + verdict.reason) + "\n";
   if (!r.digest.empty()) out += "event log SHA-256 " + r.digest + "\n";
+  return out;
+}
+
+std::string others_json(const std::vector<RunResult>& others) {
+  json::Array out;
+  for (const RunResult& other : others) out.json(to_json(other));
+  return out.str();
+}
+
+}  // namespace
+
+double RealTime::missed_share() const {
+  const auto all = static_cast<double>(ticks + missed_deadlines);
+  return is_slowed || all == 0.0 ? 0.0 : static_cast<double>(missed_deadlines) / all;
+}
+
+bool RunResult::passed() const {
+  return std::ranges::all_of(verdicts, &grading::Verdict::pass) &&
+         std::ranges::all_of(others, &RunResult::passed);
+}
+
+bool RunResult::failed_by_contact() const {
+  return has_failed_contact(*this) || std::ranges::any_of(others, has_failed_contact);
+}
+
+std::vector<std::string> RunResult::not_judged() const {
+  std::vector<std::string> reasons;
+  if (!timely() && !passed()) reasons.push_back(late_text(*real_time));
+  add_missed(*this, reasons);
+  for (const RunResult& other : others) add_missed(other, reasons);
+  return reasons;
+}
+
+RunResult with_others(std::vector<RunResult> cars, std::span<const std::string> names) {
+  CHECK(cars.size() == names.size() + 1);
+  RunResult own = std::move(cars.front());
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    own.others.push_back(std::move(cars[i + 1]));
+    own.others.back().car = names[i];
+  }
+  return own;
+}
+
+std::string late_text(const RealTime& time) {
+  return formatted(
+      "the machine did not keep up: at %.2f s the bench was %.0f ms behind its clock, and "
+      "the car had no bus for as long",
+      time.behind_at.seconds(), time.behind_max.milliseconds());
+}
+
+std::string to_text(const RunResult& r) {
+  std::string out = formatted("SIMULATION %s, %s: %.1f s simulated", r.scenario.c_str(),
+                              r.mode.c_str(), r.simulated_s);
+  if (std::isfinite(r.wall_s))
+    out += formatted(" in %.2f s (%.1f x real time)", r.wall_s, r.simulated_s / r.wall_s);
+  out += "\n\n" + grading::to_table(r.cross_track) + "\n";
+  out += drive_text(r);
+  for (const RunResult& other : r.others)
+    out += "\ncar " + other.car + "\n" + drive_text(other) + "\n";
+  const std::vector<std::string> reasons = r.not_judged();
+  for (const std::string& reason : reasons) out += "not judged: " + reason + "\n";
+  if (!reasons.empty()) return out + "verdict: NOT JUDGED\n";
   if (r.failed_by_contact()) return out + "verdict: CONTACT\n";
   return out + (r.passed() ? "verdict: PASS\n" : "verdict: FAIL\n");
 }
@@ -239,12 +303,14 @@ std::string to_json(const grading::Verdict& v) {
 
 std::string to_json(const RunResult& r) {
   json::Object out;
-  out.text("scenario", r.scenario)
-      .text("mode", r.mode)
+  out.text("scenario", r.scenario);
+  if (!r.car.empty()) out.text("car", r.car);
+  out.text("mode", r.mode)
       .flag("simulation", true)
       .flag("passed", r.passed())
       .flag("failed_by_contact", r.failed_by_contact())
       .flag("timely", r.timely())
+      .json("not_judged", texts_json(r.not_judged()))
       .number("simulated_s", r.simulated_s)
       .number("wall_s", r.wall_s)
       .json("laps", laps_json(r.laps))
@@ -263,8 +329,9 @@ std::string to_json(const RunResult& r) {
       .number("bus_losses", r.bus_losses)
       .number("detections_lost", r.detections_lost);
   if (r.real_time) out.json("real_time", real_time_json(*r.real_time));
+  if (!r.others.empty()) out.json("others", others_json(r.others));
   return out.json("done", done_json(r.done))
-      .json("remarks", remarks_json(r.remarks))
+      .json("remarks", texts_json(r.remarks))
       .text("refused_to_arm", r.refused_to_arm)
       .text("sha256", r.digest)
       .json("verdicts", verdicts_json(r.verdicts))

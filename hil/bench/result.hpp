@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -44,12 +45,19 @@ struct RealTime {
   std::optional<transport::ClockWaits> waits;
   double stolen_ms = kUnset;  // time of all processors that the host of the virtual machine took
   std::vector<std::uint64_t> wake_late;  // the last bin holds all larger values
-  double step_p50_us = kUnset, step_p99_us = kUnset, step_max_us = kUnset;  // of the car
-  std::uint64_t missed_deadlines = 0;                                       // of the car
+  // Of the car.
+  double step_p50_us = kUnset, step_p99_us = kUnset, step_max_us = kUnset;
+  std::uint64_t ticks = 0, missed_deadlines = 0;
+  bool is_slowed = false;  // a fault of the scenario stops its process
+
+  // Share of its ticks that the car missed by no fault of the scenario; 0 if unknown.
+  double missed_share() const;
+  static constexpr double kMissedShareMax = 0.01;
 };
 
 struct RunResult {
   std::string scenario, mode;
+  std::string car{};                          // name of another car than ours
   double simulated_s = 0.0, wall_s = kUnset;  // wall time: NaN if not measured
   std::vector<grading::Verdict> verdicts;
   grading::CrossTrack cross_track;
@@ -70,17 +78,27 @@ struct RunResult {
   std::vector<CompletedAction> done;  // faults on processes, clock and disk that were carried out
   std::vector<std::string> remarks;   // further notes, e.g. that the log has a gap
   std::string digest;
+  std::vector<RunResult> others;  // of the other cars with a stack; each of these has none
 
+  // Of all cars with a stack.
   bool passed() const;
   // True for a contact with a wall that the scenario does not expect, or a harder one, and for one
-  // with another car that this car caused.
+  // with another car that the car caused; of any car with a stack.
   bool failed_by_contact() const;
   // True if the bench kept up with its clock. A bench that was late by more than kBehindMax gave
   // the car a bus without frames, and the car may fail without a fault of its own.
   static constexpr Duration kBehindMax = milliseconds(40);
   bool timely() const { return !real_time || real_time->behind_max <= kBehindMax; }
+  // Why the run has judged nothing, one sentence each: a bench that was late, if something failed;
+  // a car that missed more than kMissedShareMax of its ticks, even if nothing failed.
+  std::vector<std::string> not_judged() const;
 };
 
+// The result of our car with those of the other cars with a stack, whose names follow in order.
+RunResult with_others(std::vector<RunResult> cars, std::span<const std::string> names);
+
+// How late the bench was, in one sentence.
+std::string late_text(const RealTime& time);
 // Text report: a table of brackets, laps, traffic, one line per expectation.
 std::string to_text(const RunResult& result);
 std::string to_json(const CarContact& contact);

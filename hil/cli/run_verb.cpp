@@ -1,28 +1,25 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hil/cli/run_verb.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
-#include <initializer_list>
-#include <memory>
 #include <optional>
 #include <utility>
 #include <vector>
 
-#include "hil/bench/live/live.hpp"
-#include "hil/bench/live/machine.hpp"
-#include "hil/bench/live/run_keys.hpp"
+#include "hil/bench/live/live_plan.hpp"
 #include "hil/bench/loading.hpp"
 #include "hil/bench/lockstep/lockstep.hpp"
 #include "hil/can_bus/bus_verb.hpp"
 #include "hil/can_bus/own_hub.hpp"
-#include "hil/cli/clock_place.hpp"
 #include "hil/cli/command_line.hpp"
 #include "hil/cli/exit_code.hpp"
+#include "hil/cli/live/car_plans.hpp"
+#include "hil/cli/live/clock_place.hpp"
+#include "hil/cli/live/live_run.hpp"
+#include "hil/cli/live/programs.hpp"
 #include "hil/cli/report_verb.hpp"
-#include "hil/cli/timing_text.hpp"
 #include "protocol/transport/can/unix_bus.hpp"
 #include "protocol/transport/clock.hpp"
 #include "protocol/transport/file.hpp"
@@ -37,125 +34,26 @@ namespace fs = std::filesystem;
 // The bench's ends of a line out of a guest; without a guest they are ports of this machine.
 constexpr std::uint16_t kLineRadioPort = 23'427, kLineUplinkPort = 23'428;
 
-// A sink that appends to the file; an empty name gives an empty sink.
-Result<recording::Sink, Problem> sink_to(const std::string& path) {
-  if (path.empty()) return recording::Sink{};
-  auto file = transport::AppendWriter::open(path, transport::AppendWriter::Start::kTruncate);
-  if (!file) return Unexpected{file.error()};
-  const auto shared = std::make_shared<transport::AppendWriter>(*std::move(file));
-  return recording::Sink{
-      [shared](std::span<const std::uint8_t> bytes) { return shared->write(bytes); }};
-}
-
 Result<bench::RunResult, Problem> lockstep(const RunOptions& options, const bench::Loaded& loaded,
                                            const bench::Follow& follow) {
   const auto log = sink_to(options.log_file);
   if (!log) return Unexpected{log.error()};
+  std::vector<recording::Sink> other_logs;
+  for (const bench::LoadedStack& other : loaded.stacks) {
+    const auto of_other = sink_to(file_of(other.name, options.log_file));
+    if (!of_other) return Unexpected{of_other.error()};
+    other_logs.push_back(*of_other);
+  }
   const Instant begun = transport::monotonic_now();
   // Without a file the log is still made: its digest names the run.
   const recording::Sink sink =
       *log ? *log : recording::Sink{[](std::span<const std::uint8_t>) { return true; }};
-  auto result = bench::run_lockstep(loaded, {.log = sink, .follow = follow});
+  auto result = bench::run_lockstep(loaded, {.log = sink, .follow = follow}, other_logs);
   if (result) result->wall_s = (transport::monotonic_now() - begun).seconds();
   return result;
 }
 
-bool names(const scenario::Scenario& scenario, std::initializer_list<const char*> kinds) {
-  return std::ranges::any_of(scenario.faults, [&](const scenario::Fault& fault) {
-    return std::ranges::find(kinds, fault.kind) != kinds.end();
-  });
-}
-
-// A base station of our own where the scenario is about one, about the radio, or about a clock that
-// it has too.
-bool needs_base(const scenario::Scenario& scenario) {
-  return !scenario.radio.empty() || !scenario.operator_texts.empty() ||
-         names(scenario, {"base_killed", "base_paused", "clock_step", "radio_down", "radio_loss",
-                          "radio_delay", "base_station_silent"});
-}
-
-bench::LivePlan plan_of(const RunOptions& options, const scenario::Scenario& scenario) {
-  bench::LivePlan plan{.interface = options.interface,
-                       .folder = options.folder,
-                       .guardian_name = "pitwall-live",
-                       .paths = std::max<std::size_t>(1, scenario.radio.size()),
-                       .has_operator = !scenario.operator_texts.empty(),
-                       .keys = options.keys.empty() ? options.folder + "/keys" : options.keys,
-                       .candump = options.candump};
-  plan.radio[0].onward = options.radio_port;
-  plan.radio[0].uplink = options.uplink_port;
-  if (options.radio_port == 0 && needs_base(scenario))
-    plan.base = {beside("basestation/pitwall-base")};
-  if (options.attach) return plan;
-  plan.vehicle = {beside("vehicle/pitwall-vehicle"), "--car", scenario.car_file, "--track",
-                  scenario.track_file};
-  if (!options.record_folder.empty()) {
-    plan.vehicle.emplace_back("--record");
-    plan.vehicle.push_back(options.record_folder);
-  }
-  if (const std::string guardian = beside("vehicle/guardian/pitwall-guardian");
-      fs::exists(guardian) && !options.no_guardian)
-    plan.guardian = {guardian, "--car", scenario.car_file};
-  if (names(scenario, {"log_disk_full"})) plan.disk = options.folder + "/disk";
-  return plan;
-}
-
-// What is left on the disk that was full goes where it would have been.
-std::optional<Problem> copy_out(const std::string& from, const std::string& to) {
-  std::error_code error;
-  fs::copy_file(from, to, fs::copy_options::overwrite_existing, error);
-  return error ? std::optional{Problem{from, error.message()}} : std::nullopt;
-}
-
-Result<bench::RunResult, Problem> live(const RunOptions& options, const bench::Loaded& loaded,
-                                       const bench::Follow& follow) {
-  std::error_code error;
-  fs::create_directories(options.folder, error);
-  if (error) return Unexpected{Problem{options.folder, error.message()}};
-  bench::LivePlan plan = plan_of(options, loaded.scenario);
-  if (auto problem = bench::add_sensors(plan, options.sensors_file)) return Unexpected{*problem};
-  plan = bench::in_bay(std::move(plan), options.bay);
-  std::optional<bench::RunKeys> keys;  // as long as the run
-  if (plan.has_base() && !(plan.attached() && options.keys.empty())) {
-    auto made = bench::keys_of_run(plan, options.keys);
-    if (!made) return Unexpected{made.error()};
-    plan.keys = keys.emplace(*std::move(made)).folder;
-  }
-  std::string log_file = options.log_file;
-  if (!plan.disk.empty()) {
-    if (const auto mounted = bench::mount_disk(plan.disk); !mounted)
-      return Unexpected{mounted.error()};
-    log_file = plan.disk + "/events.mcap";
-  }
-  auto log = sink_to(log_file);
-  if (!log) return Unexpected{log.error()};
-  plan.log = *std::move(log);
-  plan.follow = follow;
-  const ClockPlace clock = clock_place(options.clock, options.attach);
-  plan.clock = clock.file;
-  plan.clock_line = clock.line;
-  if (!clock.file.empty()) {
-    if (const auto used = transport::use_clock(clock.file); !used) return Unexpected{used.error()};
-  }
-  auto result = bench::run_live(loaded, plan);
-  if (clock.is_own) fs::remove(clock.file, error);
-  if (!result) return Unexpected{result.error()};
-  if (!plan.disk.empty() && !options.log_file.empty())
-    if (auto problem = copy_out(log_file, options.log_file)) return Unexpected{*problem};
-  if (!options.quiet)
-    std::printf("%s%s%s", timing_text(*result).c_str(), waits_text(*result->run.real_time).c_str(),
-                stolen_text(*result->run.real_time).c_str());
-  if (!result->run.timely()) result->run.remarks.push_back(late_text(*result->run.real_time));
-  return result->run;
-}
-
 }  // namespace
-
-std::string own_program() { return fs::read_symlink("/proc/self/exe").string(); }
-
-std::string beside(const std::string& program) {
-  return (fs::path(own_program()).parent_path().parent_path() / program).string();
-}
 
 std::vector<std::string> live_command(const RunOptions& options) {
   std::vector<std::string> command{own_program(), "run", options.scenario, "--live", "--here"};
@@ -191,7 +89,7 @@ namespace {
 
 Result<bench::RunResult, Problem> drive(const RunOptions& options, const bench::Loaded& loaded,
                                         const bench::Follow& follow) {
-  return options.live ? live(options, loaded, follow) : lockstep(options, loaded, follow);
+  return options.live ? run_live(options, loaded, follow) : lockstep(options, loaded, follow);
 }
 
 // A line that the disk does not take is lost; the run goes on.
@@ -223,12 +121,14 @@ Result<bool, Problem> cut(scenario::Scenario& scenario) {
   return Unexpected{Problem{"--duration", "ends before there is anything to judge"}};
 }
 
-// The exit code; the files that were asked for are written. What failed on a machine that did not
-// keep up has not been judged.
+// The exit code; the files that were asked for are written.
 Result<int, Problem> run_once(const RunOptions& options) {
   auto loaded = bench::load(options.scenario, "", options.mode());
   if (!loaded) return Unexpected{loaded.error()};
-  if (options.duration) loaded->scenario.duration = *options.duration;
+  if (options.duration) {
+    loaded->scenario.duration = *options.duration;
+    for (bench::LoadedStack& other : loaded->stacks) other.scenario.duration = *options.duration;
+  }
   if (options.cut) {
     if (const auto left = cut(loaded->scenario); !left) return Unexpected{left.error()};
   }
@@ -241,8 +141,8 @@ Result<int, Problem> run_once(const RunOptions& options) {
     const auto written = transport::write_file(options.json_file, bench::to_json(*result) + "\n");
     if (!written) return Unexpected{written.error()};
   }
+  if (!result->not_judged().empty()) return kExitUnusable;
   if (result->passed()) return kExitPass;
-  if (!result->timely()) return kExitUnusable;
   return result->failed_by_contact() ? kExitContact : kExitFailed;
 }
 
@@ -310,12 +210,19 @@ int run_where_the_bus_is(const RunOptions& options) {
   if (!options.live || options.here) return run_scenario(options);
 
   // Bad input is told before a machine is booted for it.
-  if (const auto loaded = bench::load(options.scenario, "", options.mode()); !loaded)
-    return report_failure(options, loaded.error());
-  if (transport::is_unix_bus(options.interface)) {  // needs no guest, only a hub
+  const auto loaded = bench::load(options.scenario, "", options.mode());
+  if (!loaded) return report_failure(options, loaded.error());
+  const auto plans = plans_of(options, *loaded);
+  if (!plans) return report_failure(options, plans.error());
+  if (transport::is_unix_bus(options.interface)) {  // needs no guest, only a hub for each bus
     const std::string clock = clock_place(options.clock, options.attach).file;
-    const auto hub = can_bus::OwnHub::start(own_program(), options.interface, clock);
-    return hub ? run_scenario(options) : refuse(hub.error());
+    std::vector<std::optional<can_bus::OwnHub>> hubs;
+    for (const bench::LivePlan& plan : *plans) {
+      auto hub = can_bus::OwnHub::start(own_program(), plan.interface, clock);
+      if (!hub) return refuse(hub.error());
+      hubs.push_back(*std::move(hub));
+    }
+    return run_scenario(options);
   }
   const auto exec = exec_arguments(options);
   if (!exec) return refuse(exec.error());
@@ -342,8 +249,11 @@ int run_verb(std::span<const std::string> args) {
   app.option("--clock", options.clock,
              "live: bench (its time stands while the machine holds a process up; the default), "
              "wall, or a FILE to keep bench time in, for a base station with the same --clock");
-  app.option("--interface", options.interface, "live: CAN interface");
-  const VerbOption log = app.option("--log", options.log_file, "write the event log (MCAP)");
+  app.option("--interface", options.interface,
+             "live: CAN interface, or unix:PATH; then other cars with a stack have unix:PATH.NAME");
+  const VerbOption log =
+      app.option("--log", options.log_file,
+                 "write the event log, FILE.mcap; of another car with a stack FILE.NAME.mcap");
   const VerbOption json = app.option("--json", options.json_file, "write the result as JSON");
   app.option("--report", options.report_folder,
              "write event log, result, page and JUnit file into this folder")

@@ -8,7 +8,7 @@
 #include "hil/cli/bench_server/bench_socket.hpp"
 #include "hil/cli/command_line.hpp"
 #include "hil/cli/exit_code.hpp"
-#include "hil/cli/run_verb.hpp"
+#include "hil/cli/live/programs.hpp"
 #include "protocol/transport/clock.hpp"
 
 namespace pitwall::cli {

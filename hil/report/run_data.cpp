@@ -19,6 +19,15 @@ namespace {
 using json::JsonValue;
 using recording::McapEnd;
 
+VerdictRow row_of(const JsonValue& verdict, bool pass) {
+  return {.text = verdict.text("text"),
+          .place = verdict.text("place"),
+          .reason = verdict.text("reason"),
+          .pass = pass,
+          .margin = verdict.number("margin"),
+          .first_violation_s = verdict.number("first_violation_s")};
+}
+
 class LogReading {
  public:
   explicit LogReading(std::span<const std::uint8_t> log) : reader_(log) {}
@@ -137,15 +146,10 @@ class LogReading {
   }
 
   static VerdictRow verdict_of(const Event& event) {
-    VerdictRow row{.text = event.text, .place = {}, .reason = {}, .pass = event.name == "pass"};
     const auto json = JsonValue::parse(event.text, "verdict");
-    if (!json || !json->is_object()) return row;
-    row.text = json->text("text");
-    row.place = json->text("place");
-    row.reason = json->text("reason");
-    row.margin = json->number("margin");
-    row.first_violation_s = json->number("first_violation_s");
-    return row;
+    if (!json || !json->is_object())
+      return {.text = event.text, .place = {}, .reason = {}, .pass = event.name == "pass"};
+    return row_of(*json, event.name == "pass");
   }
 
   void take_facts() {
@@ -261,6 +265,20 @@ ResultFigures figures_of(const JsonValue& json) {
   return figures;
 }
 
+// Another car has an event log of its own: here are its verdicts and its end.
+void add_other(RunData& run, const JsonValue& other) {
+  const std::string name = other.text("car") + ": ";
+  for (const JsonValue& verdict : other.items("verdicts")) {
+    run.verdicts.push_back(row_of(verdict, verdict.flag("pass")));
+    run.verdicts.back().text = name + run.verdicts.back().text;
+  }
+  std::vector<std::string>& remarks = run.result->remarks;
+  const JsonValue* const outcome = other.find("outcome");
+  if (outcome != nullptr && !outcome->text("text").empty())
+    remarks.push_back(name + outcome->text("text"));
+  for (const JsonValue& remark : other.items("remarks")) remarks.push_back(name + remark.text());
+}
+
 template <class S>
 void sort_by_time(std::vector<At<S>>& rows) {
   std::ranges::stable_sort(rows, {}, &At<S>::t_s);
@@ -310,12 +328,13 @@ void add_result(RunData& run, std::string_view text, const std::string& result_n
   if (json->text("sha256") != run.digest)
     return run.infrastructure.push_back(result_name + ": is the result of another event log");
   run.result = figures_of(*json);
+  const bool is_of_log = json->items("verdicts").size() == run.verdicts.size();
+  for (const JsonValue& other : json->items("others")) add_other(run, other);
   const bool all_passed = std::ranges::all_of(run.verdicts, &VerdictRow::pass);
-  if (json->items("verdicts").size() != run.verdicts.size() || json->flag("passed") != all_passed)
+  if (!is_of_log || json->flag("passed") != all_passed)
     run.infrastructure.push_back(result_name + ": its verdicts are not those of the event log");
-  if (!all_passed && json->find("timely") != nullptr && !json->flag("timely"))
-    run.infrastructure.push_back(result_name +
-                                 ": what failed was not judged, the machine did not keep up");
+  for (const JsonValue& reason : json->items("not_judged"))
+    run.infrastructure.push_back(result_name + ": not judged: " + reason.text());
 }
 
 const char* name_of(Outcome outcome) {

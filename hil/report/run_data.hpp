@@ -104,7 +104,7 @@ struct RunData {
   std::vector<At<bench::LossSample>> losses;
   std::vector<At<Event>> events;  // all except verdicts
   std::vector<FaultSpan> faults;
-  std::vector<VerdictRow> verdicts;
+  std::vector<VerdictRow> verdicts;   // with those of the result for other cars with a stack
   std::optional<ContactRow> contact;  // with another car
   std::optional<ResultFigures> result;
   std::string digest;  // SHA-256 of the log

@@ -183,6 +183,11 @@ StackPlan read_stack(yaml::StrictMap& map, std::uint64_t scenario_seed, int numb
   return plan;
 }
 
+bool is_of_file_name(char c) {
+  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' ||
+         c == '-';
+}
+
 OtherCar read_car(yaml::StrictMap& map, std::uint64_t scenario_seed) {
   OtherCar car;
   car.name = map.text("name");
@@ -190,6 +195,8 @@ OtherCar read_car(yaml::StrictMap& map, std::uint64_t scenario_seed) {
   car.number = static_cast<int>(map.integer("number", 2, 99));
   const std::string kind = map.text("kind");
   if (kind == "stack") {
+    if (!std::ranges::all_of(car.name, is_of_file_name))
+      map.fail("name", "expected letters, digits, _ or -: files are named after it");
     car.stack = read_stack(map, scenario_seed, car.number);
     return car;
   }

@@ -1,5 +1,6 @@
 // Section `cars` of a scenario file: the other cars, at most eight.
-//   name, number   of the car; number 2 to 99, each once; our car is number 1
+//   name, number   of the car; number 2 to 99, each once; our car is number 1. Files of a car with
+//              a stack are named after it: letters, digits, _ and -
 //   kind       ghost, a car without a stack, with all keys below; or stack, a car with a computer,
 //              bus and radio of its own, with car (file), plant (file, optional), start (s_m, n_m)
 //              and seed. It hears the same flags, and nothing of the faults and operators

@@ -2,7 +2,6 @@
 #include "hil/bench/live/live.hpp"
 
 #include <algorithm>
-#include <array>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -37,6 +36,8 @@ class Live {
   Result<std::vector<LiveResult>, Problem> run() {
     for (const auto& car : cars_)
       if (auto problem = car->start()) return Unexpected{*problem};
+    for (const auto& car : cars_)
+      if (auto problem = car->wait_for_frame()) return Unexpected{*problem};
     const Instant begun = transport::wall_now();
     clock_.start();
     for (const auto& car : cars_) car->begin(clock_.started());
@@ -119,14 +120,15 @@ Result<std::vector<LiveResult>, Problem> run_live(std::span<const LiveStack> sta
   return Live{std::move(cars), runners, ghosts, *std::move(time)}.run();
 }
 
-Result<LiveResult, Problem> run_live(const Loaded& loaded, const LivePlan& plan) {
-  if (!loaded.stacks.empty())
-    return refuse(loaded.stacks.front().name,
-                  "a car with a stack runs in lockstep only: run without --live");
-  auto results =
-      run_live(std::array{LiveStack{loaded.scenario, loaded.setup, plan}}, loaded.ghosts);
-  if (!results) return Unexpected{results.error()};
-  return std::move(results->front());
+Result<std::vector<LiveResult>, Problem> run_live(const Loaded& loaded,
+                                                  std::span<const LivePlan> plans) {
+  CHECK(plans.size() == 1 + loaded.stacks.size());
+  std::vector<LiveStack> stacks{{loaded.scenario, loaded.setup, plans.front()}};
+  for (std::size_t i = 0; i < loaded.stacks.size(); ++i) {
+    const LoadedStack& other = loaded.stacks[i];
+    stacks.push_back({other.scenario, other.setup, plans[i + 1], other.name});
+  }
+  return run_live(stacks, loaded.ghosts);
 }
 
 }  // namespace pitwall::bench

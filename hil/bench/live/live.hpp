@@ -53,7 +53,8 @@ struct LiveStack {
 Result<std::vector<LiveResult>, Problem> run_live(std::span<const LiveStack> cars,
                                                   std::span<const FieldGhost> ghosts = {});
 
-// Of a scenario with the other cars that it names.
-Result<LiveResult, Problem> run_live(const Loaded& loaded, const LivePlan& plan);
+// Of a scenario with the other cars that it names: a plan for ours, then for each with a stack.
+Result<std::vector<LiveResult>, Problem> run_live(const Loaded& loaded,
+                                                  std::span<const LivePlan> plans);
 
 }  // namespace pitwall::bench

@@ -109,12 +109,10 @@ std::optional<Problem> LiveCar::start() {
     if (!candump) return candump.error();
     candump_.emplace(*std::move(candump));
   }
-  if (auto problem = parts_.processes.start()) return problem;
-  return wait_for_car();
+  return parts_.processes.start();
 }
 
-// The car reports its state on the bus from its first tick on.
-std::optional<Problem> LiveCar::wait_for_car() {
+std::optional<Problem> LiveCar::wait_for_frame() {
   const Instant limit = transport::monotonic_now() + kStartLimit;
   while (transport::monotonic_now() < limit) {
     if (const std::size_t count = parts_.bus.receive(inbox_)) {
@@ -299,7 +297,9 @@ void LiveCar::add_car(const CarSummary& car) {
   time.step_p50_us = car.step_p50_us;
   time.step_p99_us = car.step_p99_us;
   time.step_max_us = car.step_max_us;
+  time.ticks = car.ticks;
   time.missed_deadlines = car.missed_deadlines;
+  time.is_slowed = parts_.processes.acts_on(Role::kCar);
   result_.gate_refusals = car.gate_refusals;
   result_.bus_refusals = car.frames_refused;
   if (car.identity == "wrong") result_.refused_to_arm = car.identity_sentence;

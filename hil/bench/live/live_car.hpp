@@ -42,8 +42,9 @@ class LiveCar {
   LiveCar(const LiveCar&) = delete;
   LiveCar& operator=(const LiveCar&) = delete;
 
-  // Starts the processes and waits for the first frame of the car.
-  std::optional<Problem> start();
+  std::optional<Problem> start();  // the processes
+  // The car reports its state on the bus from its first tick on.
+  std::optional<Problem> wait_for_frame();
   void begin(Instant started) { started_ = started; }
   void step(Instant now);
   std::optional<Problem> act(Instant now);  // the actions of the scenario that are due
@@ -77,7 +78,6 @@ class LiveCar {
 
   LiveCar(const scenario::Scenario& scenario, const pipeline::Setup& setup, const LivePlan& plan,
           bool has_others, Parts parts);
-  std::optional<Problem> wait_for_car();
   void send_operator_texts(Instant now);
   void publish_done();
   void read_bus();

@@ -55,11 +55,12 @@ Words guardian_command(const LivePlan& plan) {
 }
 
 Words base_command(const LivePlan& plan) {
-  Words words = plan.base + Words{"--listen", here(plan.base_port)};
-  if (plan.paths > 1) words = words + Words{"--listen", here(plan.second_base_port)};
-  if (plan.has_operator) words = words + Words{"--command-socket", plan.command_socket()};
-  return words + clock_of(plan) +
-         Words{"--keys", plan.keys + "/base.keys", "--json", plan.folder + "/base.json"};
+  if (!plan.cars_file.empty()) return plan.base + Words{"--cars", plan.cars_file} + clock_of(plan);
+  const StationCar car = station_car_of(plan);
+  Words words = plan.base;
+  for (const std::string& address : car.listen) words = words + Words{"--listen", address};
+  if (!car.command_socket.empty()) words = words + Words{"--command-socket", car.command_socket};
+  return words + clock_of(plan) + Words{"--keys", car.keys, "--json", car.json};
 }
 
 }  // namespace
@@ -71,6 +72,15 @@ std::optional<Problem> add_sensors(LivePlan& plan, const std::string& file) {
   plan.sensors = file;
   plan.sensors_domain = read->domain.domain;
   return std::nullopt;
+}
+
+StationCar station_car_of(const LivePlan& plan) {
+  StationCar car{.keys = plan.keys + "/base.keys",
+                 .json = plan.folder + "/base.json",
+                 .listen = {here(plan.base_port)}};
+  if (plan.paths > 1) car.listen.push_back(here(plan.second_base_port));
+  if (plan.has_operator) car.command_socket = plan.command_socket();
+  return car;
 }
 
 LivePlan in_bay(LivePlan plan, int bay) {

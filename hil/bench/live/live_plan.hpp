@@ -14,6 +14,7 @@
 
 #include "hil/bench/live/process_supervisor.hpp"
 #include "hil/bench/live/radio_path.hpp"
+#include "hil/bench/live/station_cars.hpp"
 #include "hil/bench/progress.hpp"
 #include "hil/scenario/radio_section.hpp"
 #include "protocol/recording/mcap_writer.hpp"
@@ -47,6 +48,7 @@ struct LivePlan {
        {.listen = kSecondListenPort, .onward = 0, .uplink = 0}}};
   std::size_t paths = 1;      // of the radio
   bool has_operator = false;  // the scenario has commands for the bench's own base station
+  std::string cars_file{};    // of a base station that serves several cars; empty: this one alone
   std::string keys{};         // folder of car.keys and base.keys
   bool candump = false;       // record the bus with can-utils' candump
   recording::Sink log{};
@@ -72,6 +74,9 @@ struct LivePlan {
 std::optional<Problem> add_sensors(LivePlan& plan, const std::string& file);
 
 std::array<Member, kRoles> members_of(const LivePlan& plan);
+
+// This car at the bench's own base station; without number and name.
+StationCar station_car_of(const LivePlan& plan);
 
 // Several benches on one machine: each has a bay with its own ports and shared memory.
 inline constexpr int kBayPorts = 200;  // offset of the ports from one bay to the next

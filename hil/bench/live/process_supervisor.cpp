@@ -102,6 +102,10 @@ void ProcessSupervisor::note(const ProcessAction& action, Instant now) {
                             (action.first_of_many ? ", again and again" : "")});
 }
 
+bool ProcessSupervisor::acts_on(Role role) const {
+  return std::ranges::find(script_, role, &ProcessAction::role) != script_.end();
+}
+
 std::optional<Problem> ProcessSupervisor::missing() {
   for (const Role role : kEveryRole) {
     State& one = state(role);

@@ -46,6 +46,8 @@ class ProcessSupervisor {
   std::optional<Problem> finish(Duration timeout, const std::function<void()>& idle);
 
   bool has_role(Role role) const { return !member(role).command.empty(); }
+  // The script has an action on it.
+  bool acts_on(Role role) const;
   bool was_killed(Role role) const { return state(role).killed; }
   // The process ended on request with success, so that its files are complete.
   bool ended_well(Role role) const { return state(role).ended_well; }

@@ -11,7 +11,6 @@
 #include "hil/bench/lockstep/car_bench.hpp"
 #include "hil/bench/lockstep/match_run.hpp"
 #include "protocol/vocabulary/check.hpp"
-#include "protocol/vocabulary/text.hpp"
 
 namespace pitwall::bench {
 namespace {
@@ -82,20 +81,19 @@ Result<std::vector<RunResult>, Problem> run_lockstep(std::span<const Stack> stac
   return results;
 }
 
-Result<RunResult, Problem> run_lockstep(const Loaded& loaded, const LockstepOptions& options) {
+Result<RunResult, Problem> run_lockstep(const Loaded& loaded, const LockstepOptions& options,
+                                        std::span<const recording::Sink> other_logs) {
+  CHECK(other_logs.empty() || other_logs.size() == loaded.stacks.size());
   std::vector<Stack> stacks{{loaded.scenario, loaded.setup, options}};
-  for (const LoadedStack& other : loaded.stacks)
+  std::vector<std::string> names;
+  for (const LoadedStack& other : loaded.stacks) {
     stacks.push_back({other.scenario, other.setup, {}, other.name});
+    if (!other_logs.empty()) stacks.back().options.log = other_logs[names.size()];
+    names.push_back(other.name);
+  }
   auto results = run_lockstep(stacks, loaded.ghosts);
   if (!results) return Unexpected{results.error()};
-  RunResult own = std::move(results->front());
-  for (std::size_t i = 1; i < stacks.size(); ++i) {
-    const RunResult& other = (*results)[i];
-    own.remarks.push_back(formatted("%s: %u laps, top speed %.2f m/s; ", stacks[i].name.c_str(),
-                                    other.laps.finished, other.speed_max_mps) +
-                          to_text(other.outcome));
-  }
-  return own;
+  return with_others(*std::move(results), names);
 }
 
 Result<RunResult, Problem> run_lockstep(const scenario::Scenario& scenario,

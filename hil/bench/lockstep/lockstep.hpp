@@ -76,8 +76,10 @@ struct Stack {
 Result<std::vector<RunResult>, Problem> run_lockstep(std::span<const Stack> cars,
                                                      std::span<const FieldGhost> ghosts = {});
 
-// Of a scenario with the other cars that it names.
-Result<RunResult, Problem> run_lockstep(const Loaded& loaded, const LockstepOptions& options);
+// Of a scenario with the other cars that it names. `other_logs`: for the event log of each other
+// car with a stack, or none.
+Result<RunResult, Problem> run_lockstep(const Loaded& loaded, const LockstepOptions& options,
+                                        std::span<const recording::Sink> other_logs = {});
 
 // Of one car that is alone: a scenario that names others is refused.
 Result<RunResult, Problem> run_lockstep(const scenario::Scenario& scenario,

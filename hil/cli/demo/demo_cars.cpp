@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "hil/bench/live/live_plan.hpp"
+#include "hil/bench/live/station_cars.hpp"
 
 namespace pitwall::cli {
 namespace {
@@ -66,16 +67,18 @@ Result<bool, Problem> set_recordings_aside(const DemoCar& car) {
 }
 
 std::string cars_text(std::span<const DemoCar> cars) {
-  std::string text = "# The cars of this demo, for pitwall-base --cars.\ncars:\n";
+  std::vector<bench::StationCar> rows;
   for (const DemoCar& car : cars) {
     const std::string place = "car_" + std::to_string(car.number);
-    text += "  - number: " + std::to_string(car.number) + "\n    name: " + car.name +
-            "\n    keys: " + place +
-            "/keys/base.keys\n    listen: [\"127.0.0.1:" + std::to_string(car.base_port) +
-            "\"]\n    record: " + place + "/recording\n    judgement: " + place +
-            "/judgement.yaml\n    json: " + place + "/base.json\n";
+    rows.push_back({.number = car.number,
+                    .name = car.name,
+                    .keys = place + "/keys/base.keys",
+                    .json = place + "/base.json",
+                    .listen = {"127.0.0.1:" + std::to_string(car.base_port)},
+                    .record = place + "/recording",
+                    .judgement = place + "/judgement.yaml"});
   }
-  return text;
+  return bench::cars_text(rows);
 }
 
 }  // namespace pitwall::cli

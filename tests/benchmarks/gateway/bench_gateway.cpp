@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "hil/can_bus/bus_verb.hpp"
-#include "hil/cli/clock_place.hpp"
-#include "hil/cli/run_verb.hpp"
+#include "hil/cli/live/clock_place.hpp"
+#include "hil/cli/live/programs.hpp"
 #include "protocol/json/json_text.hpp"
 #include "protocol/transport/clock.hpp"
 #include "protocol/transport/file.hpp"

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "hil/cli/run_verb.hpp"
+#include "hil/cli/live/programs.hpp"
 #include "hil/link/trace.hpp"
 #include "protocol/json/json_text.hpp"
 #include "protocol/transport/file.hpp"

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "hil/can_bus/bus_verb.hpp"
-#include "hil/cli/run_verb.hpp"
+#include "hil/cli/live/programs.hpp"
 #include "hil/replay/formats/candump.hpp"
 #include "hil/replay/timeline.hpp"
 #include "hil/replay/writers/candump_writer.hpp"

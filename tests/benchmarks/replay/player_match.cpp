@@ -9,7 +9,7 @@
 #include <span>
 #include <utility>
 
-#include "hil/cli/run_verb.hpp"
+#include "hil/cli/live/programs.hpp"
 #include "hil/replay/recordings/recording_reader.hpp"
 #include "hil/replay/timeline.hpp"
 #include "hil/replay/writers/candump_writer.hpp"

@@ -3,7 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <limits>
+#include <utility>
 
 #include "protocol/yaml/strict_map.hpp"
 
@@ -118,6 +120,101 @@ TEST(Result, OneFailureFailsTheRun) {
   EXPECT_NE(text.find("FAIL  always b < 2  (margin -3.5)  violated at 3.000 s"), std::string::npos);
   EXPECT_NE(text.find("verdict: FAIL"), std::string::npos);
   EXPECT_EQ(text.find("verdict: PASS"), std::string::npos);
+}
+
+// ---- Several cars
+
+RunResult with_one_other(RunResult own, RunResult other) {
+  const std::array<std::string, 1> names{"rival"};
+  return with_others({std::move(own), std::move(other)}, names);
+}
+
+TEST(Result, ARunPassesIfEveryCarDoes) {
+  RunResult crashed = some_result();
+  crashed.verdicts[0] = verdict("no contact", false, -3.0);
+  crashed.verdicts[0].name = "contact";
+  RunResult wanting = some_result();
+  wanting.verdicts.push_back(verdict("always b < 2", false, -3.5));
+  EXPECT_TRUE(with_one_other(some_result(), some_result()).passed());
+  for (const auto& run :
+       {with_one_other(crashed, some_result()), with_one_other(some_result(), crashed)}) {
+    EXPECT_FALSE(run.passed());
+    EXPECT_TRUE(run.failed_by_contact());
+    EXPECT_NE(to_text(run).find("verdict: CONTACT"), std::string::npos);
+  }
+  const RunResult run = with_one_other(some_result(), wanting);
+  EXPECT_FALSE(run.passed());
+  EXPECT_FALSE(run.failed_by_contact());
+  EXPECT_NE(to_text(run).find("\ncar rival\nlaps 3,"), std::string::npos) << to_text(run);
+  EXPECT_NE(to_text(run).find("verdict: FAIL"), std::string::npos);
+}
+
+TEST(Result, JsonHasTheWholeResultOfEachOtherCar) {
+  RunResult other = some_result();
+  other.digest = "def";
+  const RunResult run = with_one_other(some_result(), other);
+  const auto document = yaml::load_text(to_json(run), "result.json");
+  ASSERT_TRUE(document) << to_string(document.error());
+  yaml::StrictMap map = document->root();
+  EXPECT_FALSE(map.has("car")) << "ours";
+  auto others = map.maps("others");
+  ASSERT_EQ(others.size(), 1u);
+  EXPECT_EQ(others[0].text("car"), "rival");
+  EXPECT_EQ(others[0].text("sha256"), "def");
+  EXPECT_EQ(others[0].maps("verdicts").size(), 1u);
+  EXPECT_EQ(to_json(some_result()).find("others"), std::string::npos) << "of one car alone";
+}
+
+// ---- Not judged
+
+RunResult with_ticks(std::uint64_t ticks, std::uint64_t missed) {
+  RunResult run = some_result();
+  run.real_time.emplace();
+  run.real_time->ticks = ticks;
+  run.real_time->missed_deadlines = missed;
+  return run;
+}
+
+TEST(Result, ACarThatMissesMoreThanOneTickInAHundredMakesTheRunNotJudged) {
+  EXPECT_TRUE(some_result().not_judged().empty()) << "lockstep misses nothing";
+  EXPECT_TRUE(with_ticks(0, 0).not_judged().empty()) << "a car that told nothing";
+  EXPECT_TRUE(with_ticks(99, 1).not_judged().empty());
+  EXPECT_EQ(with_ticks(9'899, 101).not_judged(),
+            (std::vector<std::string>{
+                "the car missed 1.01 % of its ticks (101 of 10000), more than 1 %"}));
+  const std::string text = to_text(with_ticks(9'899, 101));
+  EXPECT_NE(text.find("not judged: the car missed 1.01 %"), std::string::npos) << text;
+  EXPECT_NE(text.find("verdict: NOT JUDGED"), std::string::npos) << "although nothing failed";
+  EXPECT_EQ(text.find("verdict: PASS"), std::string::npos);
+  const std::string json = to_json(with_ticks(9'899, 101));
+  EXPECT_NE(json.find("\"not_judged\": [\"the car missed"), std::string::npos) << json;
+  EXPECT_NE(to_json(with_ticks(99, 1)).find("\"not_judged\": []"), std::string::npos);
+}
+
+TEST(Result, SoDoesAnyOtherCarOfTheRun) {
+  const RunResult run = with_one_other(with_ticks(100, 0), with_ticks(90, 10));
+  EXPECT_EQ(run.not_judged(),
+            (std::vector<std::string>{
+                "car rival missed 10.00 % of its ticks (10 of 100), more than 1 %"}));
+  EXPECT_EQ(with_one_other(with_ticks(90, 10), with_ticks(90, 10)).not_judged().size(), 2u);
+}
+
+TEST(Result, TicksThatAFaultOfTheScenarioTakesAreJudged) {
+  RunResult run = with_ticks(50, 50);
+  run.real_time->is_slowed = true;
+  EXPECT_TRUE(run.not_judged().empty());
+}
+
+TEST(Result, OfABenchThatWasLateOnlyWhatFailedIsNotJudged) {
+  RunResult run = with_ticks(100, 0);
+  run.real_time->behind_max = milliseconds(56);
+  run.real_time->behind_at = Instant{} + milliseconds(7'890);
+  EXPECT_FALSE(run.timely());
+  EXPECT_TRUE(run.not_judged().empty());
+  run.verdicts.push_back(verdict("always b < 2", false, -3.5));
+  ASSERT_EQ(run.not_judged().size(), 1u);
+  EXPECT_NE(run.not_judged()[0].find("at 7.89 s the bench was 56 ms behind"), std::string::npos);
+  EXPECT_NE(to_text(run).find("verdict: NOT JUDGED"), std::string::npos);
 }
 
 TEST(Result, TextSaysSimulationFirst) {

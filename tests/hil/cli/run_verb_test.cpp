@@ -6,7 +6,8 @@
 #include <algorithm>
 
 #include "hil/can_bus/line_relay.hpp"
-#include "hil/cli/clock_place.hpp"
+#include "hil/cli/live/clock_place.hpp"
+#include "hil/cli/live/programs.hpp"
 #include "protocol/yaml/strict_map.hpp"
 #include "tests/hil/cli/program_run.hpp"
 
@@ -167,6 +168,21 @@ TEST_F(RunVerb, SeedAndDurationAreThoseOfTheLine) {
   EXPECT_EQ(digest({"--duration", "12", "--seed", "7"}), plain);
   EXPECT_NE(digest({"--duration", "12", "--seed", "8"}), plain);
   EXPECT_NE(digest({"--duration", "13"}), plain);
+}
+
+TEST_F(RunVerb, SeveralStacksNeedABusEachAndLeaveALogEach) {
+  const std::string two = "hil/scenarios/two_stacks.yaml";
+  expect_refusal({"run", two, "--live"}, "--interface");
+  const ProgramOutput output = run(
+      {"run", two, "--duration", "5", "--cut", "--log", path("l.mcap"), "--json", path("r.json")});
+  EXPECT_EQ(output.code, 0) << output.out << output.err;
+  const auto json = yaml::load_file(path("r.json"));
+  ASSERT_TRUE(json);
+  auto others = json->root().maps("others");
+  ASSERT_EQ(others.size(), 1u);
+  EXPECT_EQ(others[0].text("car"), "compliant");
+  EXPECT_NE(output.out.find("event log SHA-256 " + others[0].text("sha256")), std::string::npos);
+  EXPECT_GT(text_of("l.compliant.mcap").size(), 100'000u);
 }
 
 TEST_F(RunVerb, ProgressIsLinesFromThePlanToTheResult) {

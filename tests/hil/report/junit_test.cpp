@@ -54,6 +54,17 @@ TEST(Junit, AFailedBenchIsAnErrorAndNotAFailure) {
   EXPECT_EQ(count(read, "('error', 'events.mcap: truncated at byte"), 1u) << read;
 }
 
+TEST(Junit, WhatWasNotJudgedIsAnErrorWithItsSentence) {
+  RunData run = run_of({});
+  std::string result = result_of(run);
+  const std::string none = "\"not_judged\": []";
+  result.replace(result.find(none), none.size(), "\"not_judged\": [\"car b missed 3 %\"]");
+  add_result(run, result, "run.json");
+  const std::string read = read_by_python(junit_xml(run));
+  EXPECT_TRUE(read.starts_with("testsuite pitwall.some_run.lockstep 2 0 1\n")) << read;
+  EXPECT_EQ(count(read, "('error', 'run.json: not judged: car b missed 3 %')"), 1u) << read;
+}
+
 TEST(Junit, NoNameBreaksTheFile) {
   const std::string evil = "a\"b'<c>&\x01\x1f\x7f\xff]]>\xEF\xBF\xBE";
   const std::string read = read_by_python(junit_xml(run_of({.scenario = evil, .mode = evil})));

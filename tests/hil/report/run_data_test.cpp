@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+
 #include "hil/can_bus/frame_length.hpp"
 #include "tests/hil/report/some_run.hpp"
 
@@ -119,6 +121,38 @@ TEST(RunData, WhatFailedOnAMachineThatDidNotKeepUpWasNotJudged) {
                                       : Outcome::kFail;
       EXPECT_EQ(run.outcome(), expected) << fails << late;
     }
+  }
+}
+
+TEST(RunData, ACarThatMissedTicksMakesEvenAPassInfrastructure) {
+  RunData run = run_of({});
+  std::string result = result_of(run);
+  const std::string none = "\"not_judged\": []";
+  ASSERT_NE(result.find(none), std::string::npos);
+  result.replace(result.find(none), none.size(), "\"not_judged\": [\"the car missed 3 %\"]");
+  add_result(run, result, "run.json");
+  EXPECT_EQ(run.outcome(), Outcome::kInfrastructure);
+  EXPECT_EQ(run.infrastructure,
+            (std::vector<std::string>{"run.json: not judged: the car missed 3 %"}));
+}
+
+TEST(RunData, TheVerdictsOfOtherCarsCount) {
+  for (const bool passes : {true, false}) {
+    RunData run = run_of({});
+    const std::size_t own = run.verdicts.size();
+    bench::RunResult result, other;
+    result.digest = run.digest;
+    for (std::size_t i = 0; i < own; ++i) result.verdicts.push_back(some_verdict(true));
+    other.verdicts.push_back(some_verdict(passes));
+    other.remarks = {"was noted"};
+    const std::array<std::string, 1> names{"rival"};
+    add_result(run, to_json(bench::with_others({result, other}, names)), "run.json");
+    EXPECT_EQ(run.infrastructure, std::vector<std::string>{});
+    EXPECT_EQ(run.outcome(), passes ? Outcome::kPass : Outcome::kFail);
+    ASSERT_EQ(run.verdicts.size(), own + 1);
+    EXPECT_EQ(run.verdicts.back().text, "rival: " + some_verdict(passes).text);
+    EXPECT_EQ(run.verdicts.back().reason, some_verdict(passes).reason);
+    EXPECT_EQ(run.result->remarks.back(), "rival: was noted");
   }
 }
 

@@ -191,6 +191,8 @@ TEST(CarsSection, EveryMistakeIsRefusedWithItsPlaceAndReason) {
 TEST(CarsSection, EveryMistakeOfACarWithAStackIsRefused) {
   const Refusal refusals[] = {
       {"cars: [{name: b, number: 2, kind: stack}]\n", "car"},
+      {"cars: [{name: ../b, number: 2, kind: stack, car: c.yaml, start: {s_m: 1}}]\n",
+       "letters, digits"},
       {"cars: [{name: b, number: 2, kind: stack, car: \"\"}]\n", "names no file"},
       {"cars: [{name: b, number: 2, kind: stack, car: c.yaml}]\n", "start"},
       {"cars: [{name: b, number: 2, kind: stack, car: c.yaml, start: {n_m: 1}}]\n", "s_m"},

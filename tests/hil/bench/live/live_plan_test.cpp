@@ -96,6 +96,26 @@ TEST(LivePlan, WithABaseTheCarHasKeysAndAPathForEachRadio) {
   EXPECT_FALSE(says(member(members_of(p), Role::kCar).command, "--no-base"));
 }
 
+TEST(LivePlan, ABaseOfSeveralCarsHasTheirFileAndWhatEachHasAlone) {
+  LivePlan p = plan();
+  p.base = {"base"};
+  p.keys = "keys";
+  p.paths = 2;
+  p.has_operator = true;
+  p.clock = "/dev/shm/time";
+  const StationCar car = station_car_of(p);
+  const auto alone = member(members_of(p), Role::kBase).command;
+  EXPECT_EQ(car.listen.size(), 2u);
+  EXPECT_EQ(after(alone, "--listen"), car.listen[0]);
+  EXPECT_EQ(after(alone, "--keys"), car.keys);
+  EXPECT_EQ(after(alone, "--json"), car.json);
+  EXPECT_EQ(after(alone, "--command-socket"), car.command_socket);
+  p.cars_file = "out/x/cars.yaml";
+  EXPECT_EQ(
+      member(members_of(p), Role::kBase).command,
+      (std::vector<std::string>{"base", "--cars", "out/x/cars.yaml", "--clock", "/dev/shm/time"}));
+}
+
 TEST(LivePlan, SummariesGoToTheDiskThatFillsUp) {
   LivePlan p = plan();
   EXPECT_EQ(after(member(members_of(p), Role::kCar).command, "--summary"), "out/x/vehicle.json");

@@ -14,7 +14,7 @@ namespace {
 
 TEST(Live, AnInterfaceThatDoesNotExistIsAProblemThatNamesIt) {
   Trap trap;
-  const auto run = run_live(lap(), trap.plan());
+  const auto run = run_live(lap(), std::array{trap.plan()});
   ASSERT_FALSE(run);
   EXPECT_NE(to_string(run.error()).find("no_such_can"), std::string::npos)
       << to_string(run.error());

@@ -133,5 +133,12 @@ TEST(ProcessSupervisor, AFaultAboutSomebodyWhoIsNotThereIsRefused) {
   EXPECT_EQ(notes.text(), "") << "nothing has been started";
 }
 
+TEST(ProcessSupervisor, KnowsOnWhomItsScriptActs) {
+  const ProcessSupervisor processes{car_only(shell("exit 0")),
+                                    {{.at = at_s(1.0), .role = Role::kCar, .act = Act::kPause}}};
+  EXPECT_TRUE(processes.acts_on(Role::kCar));
+  EXPECT_FALSE(processes.acts_on(Role::kGuardian));
+}
+
 }  // namespace
 }  // namespace pitwall::bench

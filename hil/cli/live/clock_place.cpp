@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "hil/cli/clock_place.hpp"
+#include "hil/cli/live/clock_place.hpp"
 
 #include <unistd.h>
 

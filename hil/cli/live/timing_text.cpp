@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "hil/cli/timing_text.hpp"
+#include "hil/cli/live/timing_text.hpp"
 
 #include "protocol/vocabulary/text.hpp"
 
@@ -8,11 +8,18 @@ namespace pitwall::cli {
 std::string timing_text(const bench::LiveResult& live) {
   const bench::RealTime& time = *live.run.real_time;
   return formatted(
-      "bench wake-up late by p50 %.0f us, p99 %.0f us, max %.0f us; %llu wake-ups caught up, at "
-      "most %.0f ms behind; %llu reports of the car; radio: %llu datagrams of the car, %llu "
-      "arrived, %llu of the base, %llu arrived\n",
-      time.wake_late_p50_us, time.wake_late_p99_us, time.wake_late_max_us,
-      static_cast<unsigned long long>(time.caught_up_wakes), time.behind_max.milliseconds(),
+             "bench wake-up late by p50 %.0f us, p99 %.0f us, max %.0f us; %llu wake-ups caught "
+             "up, at most %.0f ms behind; ",
+             time.wake_late_p50_us, time.wake_late_p99_us, time.wake_late_max_us,
+             static_cast<unsigned long long>(time.caught_up_wakes),
+             time.behind_max.milliseconds()) +
+         reports_text(live);
+}
+
+std::string reports_text(const bench::LiveResult& live) {
+  return formatted(
+      "%llu reports of the car; radio: %llu datagrams of the car, %llu arrived, %llu of the base, "
+      "%llu arrived\n",
       static_cast<unsigned long long>(live.reports),
       static_cast<unsigned long long>(live.radio.from_car),
       static_cast<unsigned long long>(live.radio.to_base),
@@ -40,13 +47,6 @@ std::string stolen_text(const bench::RealTime& time) {
   if (!(time.stolen_ms > 0.0)) return {};
   return formatted("the host of this virtual machine took %.0f ms of its processors' time\n",
                    time.stolen_ms);
-}
-
-std::string late_text(const bench::RealTime& time) {
-  return formatted(
-      "the machine did not keep up: at %.2f s the bench was %.0f ms behind its clock, and "
-      "the car had no bus for as long",
-      time.behind_at.seconds(), time.behind_max.milliseconds());
 }
 
 }  // namespace pitwall::cli

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "hil/cli/live/car_plans.hpp"
+
+#include <algorithm>
+#include <filesystem>
+#include <initializer_list>
+#include <optional>
+#include <utility>
+
+#include "hil/cli/live/programs.hpp"
+#include "protocol/transport/can/unix_bus.hpp"
+
+namespace pitwall::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool names(const scenario::Scenario& scenario, std::initializer_list<const char*> kinds) {
+  return std::ranges::any_of(scenario.faults, [&](const scenario::Fault& fault) {
+    return std::ranges::find(kinds, fault.kind) != kinds.end();
+  });
+}
+
+// A base station of our own where the scenario is about one, about the radio, or about a clock that
+// it has too.
+bool needs_base(const scenario::Scenario& scenario) {
+  return !scenario.radio.empty() || !scenario.operator_texts.empty() ||
+         names(scenario, {"base_killed", "base_paused", "clock_step", "radio_down", "radio_loss",
+                          "radio_delay", "base_station_silent"});
+}
+
+Result<bench::LivePlan, Problem> plan_of(const RunOptions& options,
+                                         const scenario::Scenario& scenario, int bay) {
+  bench::LivePlan plan{.interface = options.interface,
+                       .folder = options.folder,
+                       .guardian_name = "pitwall-live",
+                       .paths = std::max<std::size_t>(1, scenario.radio.size()),
+                       .has_operator = !scenario.operator_texts.empty(),
+                       .keys = options.keys.empty() ? options.folder + "/keys" : options.keys,
+                       .candump = options.candump};
+  plan.radio[0].onward = options.radio_port;
+  plan.radio[0].uplink = options.uplink_port;
+  if (options.radio_port == 0 && needs_base(scenario))
+    plan.base = {beside("basestation/pitwall-base")};
+  if (auto problem = bench::add_sensors(plan, options.sensors_file)) return Unexpected{*problem};
+  if (options.attach) return bench::in_bay(std::move(plan), bay);
+  plan.vehicle = {beside("vehicle/pitwall-vehicle"), "--car", scenario.car_file, "--track",
+                  scenario.track_file};
+  if (!options.record_folder.empty()) {
+    plan.vehicle.emplace_back("--record");
+    plan.vehicle.push_back(options.record_folder);
+  }
+  if (const std::string guardian = beside("vehicle/guardian/pitwall-guardian");
+      fs::exists(guardian) && !options.no_guardian)
+    plan.guardian = {guardian, "--car", scenario.car_file};
+  if (names(scenario, {"log_disk_full"})) plan.disk = options.folder + "/disk";
+  return bench::in_bay(std::move(plan), bay);
+}
+
+std::optional<Problem> refused_for_several(const RunOptions& options, std::size_t cars) {
+  if (!transport::is_unix_bus(options.interface))
+    return Problem{"--interface", "\"" + options.interface + "\" is one bus for " +
+                                      std::to_string(cars) +
+                                      " cars with a stack: expected unix:PATH, of which each gets "
+                                      "its own"};
+  if (options.attach) return Problem{"--attach", "allowed with one car with a stack only"};
+  if (options.radio_port != 0)
+    return Problem{"--radio-port", "several cars with a stack have a base station of the bench"};
+  if (!options.keys.empty())
+    return Problem{"--keys", "several cars with a stack have new keys in each run"};
+  const int most = bench::kBaysMax - options.bay;
+  if (cars > static_cast<std::size_t>(most))
+    return Problem{"cars", std::to_string(cars) + " with a stack, ours included; live at most " +
+                               std::to_string(most)};
+  return std::nullopt;
+}
+
+RunOptions options_of(const std::string& car, RunOptions options) {
+  options.interface = file_of(car, options.interface);
+  options.folder += "/" + car;
+  options.record_folder = file_of(car, options.record_folder);
+  return options;
+}
+
+}  // namespace
+
+std::string file_of(const std::string& car, const std::string& file) {
+  if (file.empty()) return file;
+  fs::path path{file};
+  if (!path.has_filename()) path = path.parent_path();  // a folder with a slash behind it
+  return (path.parent_path() / (path.stem().string() + "." + car + path.extension().string()))
+      .string();
+}
+
+Result<std::vector<bench::LivePlan>, Problem> plans_of(const RunOptions& options,
+                                                       const bench::Loaded& loaded) {
+  auto own = plan_of(options, loaded.scenario, options.bay);
+  if (!own) return Unexpected{own.error()};
+  std::vector<bench::LivePlan> plans{*std::move(own)};
+  if (loaded.stacks.empty()) return plans;
+  if (auto problem = refused_for_several(options, 1 + loaded.stacks.size()))
+    return Unexpected{*std::move(problem)};
+  plans[0].base = {beside("basestation/pitwall-base")};
+  plans[0].cars_file = options.folder + "/cars.yaml";
+  for (const bench::LoadedStack& other : loaded.stacks) {
+    const int bay = options.bay + static_cast<int>(plans.size());
+    auto plan = plan_of(options_of(other.name, options), other.scenario, bay);
+    if (!plan) return Unexpected{plan.error()};
+    plan->radio[0].onward = plan->base_port;
+    plans.push_back(*std::move(plan));
+  }
+  return plans;
+}
+
+}  // namespace pitwall::cli
