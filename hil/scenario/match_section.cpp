@@ -35,7 +35,7 @@ constexpr std::array kDefenceWords{
 
 template <class T, std::size_t N>
 std::vector<T> words_of(yaml::StrictMap& map, const char* key,
-                     const std::array<std::pair<std::string_view, T>, N>& table) {
+                        const std::array<std::pair<std::string_view, T>, N>& table) {
   std::vector<T> out;
   if (!map.has(key)) return {table.front().second};
   for (const std::string& word : map.texts(key, 1, rules::kAttemptsMax)) {
