@@ -62,7 +62,7 @@ struct FieldContact {
   std::size_t first = 0, second = 0;  // cars, first < second
   traffic::Contact contact{};
   double s_m = kUnset;  // station on the track
-  traffic::CarPose first_pose{}, second_pose{};
+  plant::CarPose first_pose{}, second_pose{};
 
   // Whether this car, one of the two, caused it; alone or with the other one.
   bool is_caused_by(std::size_t car) const;

@@ -48,7 +48,7 @@ struct CarContact {
   double closing_mps = kUnset;
   double s_m = kUnset;  // station on the track
   traffic::Vector2 point_m{};
-  traffic::CarPose own{}, other{};
+  plant::CarPose own{}, other{};
 };
 
 // Returns one sentence with place, speed and cause.

@@ -239,7 +239,7 @@ std::string to_text(const RunResult& r) {
 }
 
 std::string to_json(const CarContact& contact) {
-  const auto car = [](const traffic::CarPose& pose) {
+  const auto car = [](const plant::CarPose& pose) {
     return json::Object{}
         .number("x_m", pose.x_m)
         .number("y_m", pose.y_m)

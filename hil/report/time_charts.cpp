@@ -13,7 +13,7 @@
 namespace pitwall::report {
 namespace {
 
-constexpr std::size_t kBuckets = 1060;  // about one for each pixel
+constexpr std::size_t kChartBuckets = 1060;  // about one for each pixel
 constexpr const char* kNotInLive = "not recorded: the car of a live run is a process of its own";
 
 struct State {
@@ -137,7 +137,7 @@ std::string chart(const RunData& run, const ChartText& text, std::vector<Curve> 
                   const std::string& why_absent) {
   std::vector<Line> lines;
   for (Curve& curve : curves) {
-    curve.line = thinned(curve.line, 0.0, run.end_s(), kBuckets);
+    curve.line = thinned(curve.line, 0.0, run.end_s(), kChartBuckets);
     lines.push_back(curve.line);
   }
   const bool drawn = std::ranges::any_of(lines, [](const Line& line) {

@@ -84,7 +84,7 @@ inline bench::CarContact some_contact(const LogOrder& order) {
   c.own = {.x_m = at.x_m, .y_m = at.y_m, .yaw_rad = 0.0, .vx_mps = order.speed_mps, .vy_mps = 0.0};
   c.other = {.x_m = other.x_m, .y_m = other.y_m, .yaw_rad = 0.0, .vx_mps = 0.0, .vy_mps = 0.0};
   c.own.n_m = -0.5, c.other.n_m = 0.25;
-  for (traffic::CarPose* car : {&c.own, &c.other}) car->length_m = 4.9, car->width_m = 1.9;
+  for (plant::CarPose* car : {&c.own, &c.other}) car->length_m = 4.9, car->width_m = 1.9;
   return c;
 }
 

@@ -23,7 +23,7 @@ namespace {
 using namespace testing;  // NOLINT: the fixture of this test
 using telemetry::Group;
 
-// What no part of the car tells yet, as the header of the tap says, or only while it trails a rival.
+// What no part of the car tells yet, as the header says, or only while it trails a rival.
 bool is_nobodys(std::size_t i) {
   using enum Group;
   static const std::set<Group> kNobodys{kSuspension, kTread, kFuel, kSteeringUnit, kBrakes};

@@ -127,21 +127,9 @@ const Pace& pace_of(const Params& p, Reason reason) {
   return races ? p.racing : p.comfort;
 }
 
-Reason reason_of(RaceReason reason) {
-  switch (reason) {
-    case RaceReason::kNone:
-      return Reason::kUnknown;
-    case RaceReason::kTrail:
-      return Reason::kTrail;
-    case RaceReason::kPass:
-      return Reason::kPass;
-    case RaceReason::kYield:
-      return Reason::kGiveWay;
-    case RaceReason::kCarAhead:
-      return Reason::kCarAhead;
-  }
-  return Reason::kUnknown;
-}
+// In the order of RaceReason.
+constexpr std::array kRaceReasons{Reason::kUnknown, Reason::kTrail, Reason::kPass, Reason::kGiveWay,
+                                  Reason::kCarAhead};
 
 Limits limits_of(const Params& p, const Inputs& in, const SpeedDemand& demand, double speed_mps) {
   const envelope::FrictionParams friction = on_tyres(p.line.friction, in.tyre_c);
@@ -197,7 +185,7 @@ SpeedDemand race_on(const Params& p, const Lines& lines, const world::TrackMap& 
     car = to.project(in.ego.x_m, in.ego.y_m);
   }
   if (decision.reason == RaceReason::kNone) return demand;
-  return {decision.speed_mps, reason_of(decision.reason)};
+  return {decision.speed_mps, kRaceReasons[static_cast<std::size_t>(decision.reason)]};
 }
 
 // The path that is followed stays; before, it is chosen anew from where the car is.
@@ -316,12 +304,13 @@ Result<std::vector<Line>, Problem> prepare_others(
   std::vector<Line> lines;
   if (!params.passing) return lines;
   const PassParams& pass = params.passing->pass;
-  if (auto problem = world::first_illegal(kPassRanges, pass, "passing."))
-    return Unexpected{*problem};
-  if (auto problem = world::first_illegal(kRivalRanges, pass.rival, "passing."))
-    return Unexpected{*problem};
+  auto problem = world::first_illegal(kPassRanges, pass, "passing.");
+  if (!problem) problem = world::first_illegal(kRivalRanges, pass.rival, "passing.");
+  if (problem) return Unexpected{*std::move(problem)};
   if (params.passing->lines.size() >= kRaceLines)
-    return refuse("passing.lines", "at most " + std::to_string(kRaceLines - 1) + " beside the own");
+    return refuse("passing.lines", std::to_string(params.passing->lines.size()) +
+                                       " lines beside the own one, at most " +
+                                       std::to_string(kRaceLines - 1));
   for (const OtherLine& other : params.passing->lines) {
     LineParams line = params.line;
     line.name = other.name;

@@ -4,10 +4,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <random>
+#include <numbers>
 #include <set>
 #include <utility>
 
+#include "protocol/vocabulary/random.hpp"
 #include "tests/vehicle/autonomy/planning/race_rig.hpp"
 #include "vehicle/autonomy/planning/paper_race.hpp"
 
@@ -73,18 +74,23 @@ struct Reversals {
   }
 };
 
-// An hour side by side, with noise of 1 m rms on the gap: the paper's planner lost its last pass so.
+// Box and Muller.
+double gaussian(Random& random) {
+  const double turn_rad = 2.0 * std::numbers::pi * random.uniform();
+  return std::sqrt(-2.0 * std::log(1.0 - random.uniform())) * std::cos(turn_rad);
+}
+
+// An hour side by side, with noise of 1 m rms on the gap: so the paper lost its last pass.
 int reversals_in_an_hour(PassLaw law, double correlation_s, bool may_pass) {
   Machine machine;
   machine.params.law = law;
-  std::mt19937_64 random(17);
-  std::normal_distribution<double> normal;
+  Random random{17};
   const double keep = std::exp(-0.05 / correlation_s), add = std::sqrt(1.0 - keep * keep);
-  double noise_m = normal(random);
+  double noise_m = gaussian(random);
   for (int i = 0; i < 40; ++i) machine.tick(-25.0 + i * 0.625, may_pass);  // up to its side
   Reversals reversals;
   for (int i = 0; i < 72'000; ++i) {
-    noise_m = keep * noise_m + add * normal(random);
+    noise_m = keep * noise_m + add * gaussian(random);
     reversals.take(machine.tick(noise_m, may_pass));
   }
   return reversals.count;
@@ -103,17 +109,16 @@ TEST(Pass, OnlyTheListedTransitionsHappenWhateverHappens) {
       {kFree, kTrail}, {kTrail, kPass},  {kTrail, kFree},  {kPass, kAhead}, {kPass, kYield},
       {kAhead, kFree}, {kAhead, kYield}, {kYield, kTrail}, {kYield, kFree}};
   std::set<std::pair<PassPhase, PassPhase>> met;
-  std::mt19937_64 random(5);
-  std::uniform_real_distribution<double> unit;
+  Random random{5};
   for (int history = 0; history < 400; ++history) {
     Machine machine;
-    double gap_m = -60.0 + 120.0 * unit(random), rate_mps = 0.0, n_m = 3.0;
+    double gap_m = -60.0 + 120.0 * random.uniform(), rate_mps = 0.0, n_m = 3.0;
     bool may_pass = false, known = true;
     for (int i = 0; i < 2'000; ++i) {
-      if (unit(random) < 0.01) rate_mps = 20.0 * (unit(random) - 0.5);
-      if (unit(random) < 0.005) may_pass = !may_pass;
-      if (unit(random) < 0.005) known = !known;
-      if (unit(random) < 0.005) n_m = -4.0 + 8.0 * unit(random);
+      if (random.uniform() < 0.01) rate_mps = 20.0 * (random.uniform() - 0.5);
+      if (random.uniform() < 0.005) may_pass = !may_pass;
+      if (random.uniform() < 0.005) known = !known;
+      if (random.uniform() < 0.005) n_m = -4.0 + 8.0 * random.uniform();
       machine.ways[1].beside_m = std::abs(n_m + 3.0);
       gap_m = std::clamp(gap_m + rate_mps * 0.05, -140.0, 75.0);
       const PassPhase before = machine.state.phase;
