@@ -287,18 +287,17 @@ TEST(TelemetryTap, EveryDiagnosticHasItsOwnBit) {
 }
 
 TEST(TelemetryTap, TheLineIsTheNumberInItsBank) {
-  auto other = setup();
-  other.line.number = 7;
   const auto car = std::make_unique<Car>();
-  const auto line_of = [&](const auto& made) {
+  const auto line = [&] {
     const telemetry::Snapshot snapshot =
-        map_telemetry({.setup = made, .car = *car, .out = {}, .log = {}, .io = {}, .now = kNow});
+        map_telemetry({.setup = setup(), .car = *car, .out = {}, .log = {}, .io = {}, .now = kNow});
     return snapshot.values[field("planner.line")];
   };
-  EXPECT_TRUE(std::isnan(line_of(other))) << "before the first plan";
+  EXPECT_TRUE(std::isnan(line())) << "before the first plan";
   car->plan.ever = true;
-  EXPECT_EQ(line_of(other), 7.0);
-  EXPECT_EQ(line_of(setup()), 0.0) << "no bank";
+  EXPECT_EQ(line(), 0.0) << "no bank";
+  car->plan.output.line_number = 7;
+  EXPECT_EQ(line(), 7.0);
 }
 
 }  // namespace
