@@ -113,7 +113,7 @@ test("the track of the base is drawn", async () => {
   await until(
     page,
     "the track's name",
-    () => document.querySelector(".map-caption").textContent === "LVMS",
+    () => document.querySelector(".map-caption").firstChild.textContent === "LVMS",
   );
 });
 
