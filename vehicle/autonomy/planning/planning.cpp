@@ -161,9 +161,7 @@ SpeedDemand race_on(const Params& p, const Lines& lines, const world::TrackMap& 
                     Instant now) {
   const Limits limits = limits_of(p, in, demand, std::max(in.ego.vx_mps, 0.0));
   const LinePoint here = lines[next.line].at(car.s_m);
-  const OwnPlace own{.track_s_m = here.track_s_m,
-                     .n_m = track.at(here.track_s_m).width_left_m - here.room_left_m + car.offset_m,
-                     .speed_mps = in.ego.vx_mps};
+  const OwnPlace own{.track_s_m = here.track_s_m, .speed_mps = in.ego.vx_mps};
   const RaceDecision decision = race(p.passing->pass, next.pass,
                                      {.lines = lines,
                                       .track = track,
@@ -180,7 +178,7 @@ SpeedDemand race_on(const Params& p, const Lines& lines, const world::TrackMap& 
   if (next.pass.line != next.line) {
     const Line& to = lines[next.pass.line];
     const double length_m = std::max(in.ego.vx_mps * p.passing->pass.merge_time_s, p.merge_least_m);
-    next.merge = change_line(lines[next.line], next.merge, car.s_m, to, length_m).merge;
+    next.merge = change_line(lines[next.line], next.merge, car.s_m, to, length_m);
     next.line = next.pass.line;
     car = to.project(in.ego.x_m, in.ego.y_m);
   }

@@ -177,18 +177,17 @@ RaceDecision race(const PassParams& p, PassState& state, const RaceInputs& in, I
   return out;
 }
 
-LineChange change_line(const Line& from, const OffsetChange& merge, double s_m, const Line& to,
-                       double length_m) {
+OffsetChange change_line(const Line& from, const OffsetChange& merge, double s_m, const Line& to,
+                         double length_m) {
   const Beside path = beside(from.at(s_m), offset_at(from, merge, s_m));
   const LinePosition at = to.project(path.x_m, path.y_m);
   const Offset begin = offset_of(to.at(at.s_m), at.offset_m, path.yaw_rad, path.curvature_per_m);
-  return {.s_m = at.s_m,
-          .merge = {.from_s_m = at.s_m,
-                    .length_m = length_m,
-                    .from_m = begin.n_m,
-                    .to_m = 0.0,
-                    .from_slope = begin.slope,
-                    .from_bend_per_m = begin.bend_per_m}};
+  return {.from_s_m = at.s_m,
+          .length_m = length_m,
+          .from_m = begin.n_m,
+          .to_m = 0.0,
+          .from_slope = begin.slope,
+          .from_bend_per_m = begin.bend_per_m};
 }
 
 }  // namespace pitwall::planning

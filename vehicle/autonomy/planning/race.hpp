@@ -60,12 +60,8 @@ struct RaceDecision {
 
 RaceDecision race(const PassParams& params, PassState& state, const RaceInputs& in, Instant now);
 
-// The path that is driven goes on, on another line, and merges with it.
-struct LineChange {
-  double s_m = kUnset;  // on the new line
-  OffsetChange merge;
-};
-LineChange change_line(const Line& from, const OffsetChange& merge, double s_m, const Line& to,
-                       double length_m);
+// The path that is driven goes on, beside another line, and merges with it.
+OffsetChange change_line(const Line& from, const OffsetChange& merge, double s_m, const Line& to,
+                         double length_m);
 
 }  // namespace pitwall::planning

@@ -39,7 +39,6 @@ Rival rival_of(const world::TrackMap& track, const OwnPlace& own, const world::O
           .n_m = car.n_m,
           .speed_mps = car.speed_mps * std::cos(turn_rad),
           .drift_mps = car.speed_mps * std::sin(turn_rad),
-          .n_sigma_m = position_sigma_m(car),
           .at = at,
           .measured_at = car.measured_at};
 }

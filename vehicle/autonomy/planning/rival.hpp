@@ -34,13 +34,12 @@ struct Rival {
   double gap_m = kUnset, n_m = kUnset;
   double speed_mps = kUnset;    // along the track
   double drift_mps = kUnset;    // to the left
-  double n_sigma_m = kUnset;    // of the larger semi-axis: also of n
   Instant at{}, measured_at{};  // of this state; of its newest detection
 };
 
 // Our car on the track.
 struct OwnPlace {
-  double track_s_m = kUnset, n_m = kUnset, speed_mps = kUnset;
+  double track_s_m = kUnset, speed_mps = kUnset;
 };
 
 // Of our station over that of a car, the shorter way around.

@@ -37,7 +37,6 @@ struct Machine {
                .n_m = rival_n_m,
                .speed_mps = rival_mps,
                .drift_mps = 0.0,
-               .n_sigma_m = 0.1,
                .at = now,
                .measured_at = now};
     const PassInputs in{.rival = rival,

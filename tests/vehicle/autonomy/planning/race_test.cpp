@@ -147,13 +147,13 @@ TEST(Race, ALineChangeGoesOnWithPlaceDirectionAndCurvature) {
   const OffsetChange merge{.from_s_m = 500.0, .length_m = 200.0, .from_m = 1.0, .to_m = -2.0};
   for (double s_m = 300.0; s_m < 800.0; s_m += 23.0) {
     const Beside before = beside(from.at(s_m), offset_at(from, merge, s_m));
-    const LineChange change = change_line(from, merge, s_m, to, 150.0);
-    const Beside after = beside(to.at(change.s_m), offset_at(to, change.merge, change.s_m));
+    const OffsetChange change = change_line(from, merge, s_m, to, 150.0);
+    const Beside after = beside(to.at(change.from_s_m), offset_at(to, change, change.from_s_m));
     EXPECT_NEAR(std::hypot(after.x_m - before.x_m, after.y_m - before.y_m), 0.0, 1e-3) << s_m;
     EXPECT_NEAR(wrap_pi(after.yaw_rad - before.yaw_rad), 0.0, 1e-6) << s_m;
     EXPECT_NEAR(after.curvature_per_m, before.curvature_per_m, 1e-6) << s_m;
-    const double end_m = change.s_m + 151.0;
-    EXPECT_EQ(offset_at(to, change.merge, end_m).n_m, 0.0);
+    const double end_m = change.from_s_m + 151.0;
+    EXPECT_EQ(offset_at(to, change, end_m).n_m, 0.0);
   }
 }
 

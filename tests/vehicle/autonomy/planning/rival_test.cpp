@@ -14,7 +14,7 @@ constexpr RivalParams kReach{.watch_ahead_m = 150.0, .watch_behind_m = 80.0, .fo
 
 struct Road {
   world::TrackMap track = testing::stadium();
-  OwnPlace own{.track_s_m = 10.0, .n_m = 3.0, .speed_mps = 50.0};
+  OwnPlace own{.track_s_m = 10.0, .speed_mps = 50.0};
   world::Opponents cars;
   Instant now = Instant{} + seconds(10);
   Rival rival;
