@@ -89,6 +89,14 @@ class CyclonePeer {
     return {reader, sample};
   }
 
+  // Whether the peer itself knows a writer for this reader. A volatile reader gets only what is
+  // written after that, and the two sides learn of each other at different moments.
+  static bool has_writer(dds_entity_t reader) {
+    dds_subscription_matched_status_t status{};
+    return dds_get_subscription_matched_status(reader, &status) == DDS_RETCODE_OK &&
+           status.current_count > 0;
+  }
+
   // All writers, or all readers, of the domain.
   std::vector<Endpoint> others(bool writers) {
     const dds_entity_t reader = dds_create_reader(

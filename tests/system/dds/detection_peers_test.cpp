@@ -176,8 +176,11 @@ TEST(DetectionPeers, OursAreReadByAnotherDds) {
   dds::Writer* const lidar = writer_of(**domain, "rt/lidar", kBoxes);
   dds::Writer* const camera = writer_of(**domain, "rt/camera", kImages);
   dds::Writer* const radar = writer_of(**domain, "rt/radar", kScans);
-  ASSERT_TRUE(
-      comes([&] { return lidar->readers() > 0 && camera->readers() > 0 && radar->readers() > 0; }));
+  ASSERT_TRUE(comes([&] {
+    return lidar->readers() > 0 && camera->readers() > 0 && radar->readers() > 0 &&
+           CyclonePeer::has_writer(boxes) && CyclonePeer::has_writer(images) &&
+           CyclonePeer::has_writer(scans);
+  }));
   const SensorFile file = file_of(65);
   const auto frame_of = [](DetectionSource source, const Detection& d) {
     DetectionFrame frame{.source = source, .detections = {}};
