@@ -218,9 +218,9 @@ inline LqrParams recommended_lqr_ff() {
 }
 
 inline LapParams recommended_lap() {
-  return {.gain = 0.55,
-          .forget = 0.06,
-          .lead_s = 0.36,
+  return {.gain = 0.62,
+          .forget = 0.04,
+          .lead_s = 0.395,
           .smooth_s = 0.2,
           .angle_max_rad = 0.01,
           .slew_rad_per_s = 0.03,
