@@ -42,6 +42,7 @@ struct Perturbations {
   double tyre_stiffness = 1.0;  // factor on the slip stiffness at the same friction; [0.5, 2]
   double friction = 1.0;        // factor on every friction coefficient; [0.2, 1.5]
   double bank_error_rad = 0.0;  // true banking less that of the track file; [-5, 5] deg
+  double detection_noise = 1.0;  // factor on the noise of seen cars; [0.2, 5]
   double wind_mps = 0.0;        // [0, 40]
   double wind_to_rad = 0.0;     // direction it blows to, in Map, from east counter-clockwise
   // Added to the delays of the actuators; [0, 0.5] s.
