@@ -330,8 +330,7 @@ void StrictMap::fail(const std::string& key, const std::string& what) const {
 void StrictMap::finish() const {
   for (const Entry& e : state_->entries) {
     if (!e.asked) {
-      throw InputError(
-          {place_of(e.name, e.key_node.Mark()), "unknown key \"" + e.key + "\""});
+      throw InputError({place_of(e.name, e.key_node.Mark()), "unknown key \"" + e.key + "\""});
     }
   }
   for (const auto& child : state_->below) StrictMap{child}.finish();

@@ -40,8 +40,9 @@ Files with_race(const std::string& text) {
 }
 
 TEST(CarLayers, WhatAFileDoesNotWriteIsThatOfTheOneItIsLike) {
-  const auto car = load(with_race("schema: 1\nlike: av21.yaml\nname: Racer\n"
-                                  "planning: {line: {speed_max_mps: 81}}\n"));
+  const auto car =
+      load(with_race("schema: 1\nlike: av21.yaml\nname: Racer\n"
+                     "planning: {line: {speed_max_mps: 81}}\n"));
   ASSERT_TRUE(car) << to_string(car.error());
   const CarFile plain = *read_car(av21(), "av21.yaml");
   EXPECT_EQ(car->name, "Racer");
@@ -53,14 +54,15 @@ TEST(CarLayers, WhatAFileDoesNotWriteIsThatOfTheOneItIsLike) {
 }
 
 TEST(CarLayers, AListIsReplacedAsAWhole) {
-  const std::string why = refusal(
-      with_race("like: av21.yaml\ngateway: {inbound: {wheel_speed_mps: [0, 100, 120]}}\n"));
+  const std::string why =
+      refusal(with_race("like: av21.yaml\ngateway: {inbound: {wheel_speed_mps: [0, 100, 120]}}\n"));
   EXPECT_NE(why.find("3 entries, expected 2"), std::string::npos) << why;
 }
 
 TEST(CarLayers, AKeyIsTakenAwayByNothing) {
-  const auto car = load(with_race("like: av21.yaml\nplanning:\n  line:\n    offset_m: ~\n"
-                                  "    bank: a.json\n    name: inner/apex\n"));
+  const auto car =
+      load(with_race("like: av21.yaml\nplanning:\n  line:\n    offset_m: ~\n"
+                     "    bank: a.json\n    name: inner/apex\n"));
   ASSERT_TRUE(car) << to_string(car.error());
   EXPECT_EQ(car->params.planning.line.bank, "a.json");
   const std::string why = refusal(with_race("like: av21.yaml\nplanning:\n  line: {ofset_m: ~}\n"));
@@ -111,8 +113,9 @@ TEST(CarLayers, RefusesAMissingFileACircleAndALongChain) {
   for (std::size_t i = 1; i < kCarFilesMost; ++i)
     chain["cars/" + std::to_string(i) + ".yaml"] = "like: " + std::to_string(i + 1) + ".yaml\n";
   chain["cars/" + std::to_string(kCarFilesMost) + ".yaml"] = av21();
-  expect(chain, "cars/3.yaml:1:7: error: like: cars/4.yaml is file 5 of a chain; expected 4 or "
-                "fewer");
+  expect(chain,
+         "cars/3.yaml:1:7: error: like: cars/4.yaml is file 5 of a chain; expected 4 or "
+         "fewer");
   chain["cars/3.yaml"] = av21();
   expect(chain, "");
 }
