@@ -80,7 +80,7 @@ TEST(CarsSection, IsReadInFull) {
   EXPECT_EQ(plan.script[1].action, Action::kLine);
   EXPECT_EQ(plan.script[1].line.offset_m, -2.0);
   EXPECT_EQ(plan.script[1].over_s, 3.0);
-  EXPECT_EQ(plan.script[1].place.substr(0, 14), "short.yaml:22:");
+  EXPECT_EQ(plan.script[1].place.substr(0, 14), "short.yaml:23:");
   EXPECT_EQ(plan.script[2].trigger, Trigger::kGapAbove);
   EXPECT_EQ(plan.script[2].value, -40.0);
   EXPECT_EQ(plan.script[2].decel_mps2, 6.0);
