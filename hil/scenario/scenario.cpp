@@ -130,6 +130,7 @@ Perturbations read_perturbations(yaml::StrictMap map) {
   p.tyre_stiffness = map.number_or("tyre_stiffness", 1.0, 0.5, 2.0);
   p.friction = map.number_or("friction", 1.0, 0.2, 1.5);
   p.bank_error_rad = from_deg(map.number_or("bank_error_deg", 0.0, -5.0, 5.0));
+  p.detection_noise = map.number_or("detection_noise", 1.0, 0.2, 5.0);
   p.wind_mps = map.number_or("wind_mps", 0.0, 0.0, 40.0);
   p.wind_to_rad = from_deg(map.number_or("wind_to_deg", 0.0, -360.0, 360.0));
   if (map.has("wind_to_deg") && !map.has("wind_mps")) map.fail("wind_to_deg", "needs wind_mps too");

@@ -38,12 +38,13 @@ struct Tyres {
 // Differences between the modelled car and world and the parameters that the car uses. Neutral by
 // default. Effect of each on the plant: hil/scenario/perturbed.hpp.
 struct Perturbations {
-  double mass_kg = 0.0;         // added to the car's; [-300, 300]
-  double tyre_stiffness = 1.0;  // factor on the slip stiffness at the same friction; [0.5, 2]
-  double friction = 1.0;        // factor on every friction coefficient; [0.2, 1.5]
-  double bank_error_rad = 0.0;  // true banking less that of the track file; [-5, 5] deg
-  double wind_mps = 0.0;        // [0, 40]
-  double wind_to_rad = 0.0;     // direction it blows to, in Map, from east counter-clockwise
+  double mass_kg = 0.0;          // added to the car's; [-300, 300]
+  double tyre_stiffness = 1.0;   // factor on the slip stiffness at the same friction; [0.5, 2]
+  double friction = 1.0;         // factor on every friction coefficient; [0.2, 1.5]
+  double bank_error_rad = 0.0;   // true banking less that of the track file; [-5, 5] deg
+  double detection_noise = 1.0;  // on the noise of seen cars; [0.2, 5]
+  double wind_mps = 0.0;         // [0, 40]
+  double wind_to_rad = 0.0;      // direction it blows to, in Map, from east counter-clockwise
   // Added to the delays of the actuators; [0, 0.5] s.
   double steering_delay_s = 0.0, throttle_delay_s = 0.0, brake_delay_s = 0.0, gear_delay_s = 0.0;
 };
