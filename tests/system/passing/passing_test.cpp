@@ -5,10 +5,12 @@
 
 #include <stdexcept>
 #include <string>
+#include <tuple>
 
 #include "hil/bench/loading.hpp"
 #include "hil/bench/lockstep/lockstep.hpp"
 #include "protocol/transport/file.hpp"
+#include "protocol/vocabulary/text.hpp"
 
 namespace pitwall::bench {
 namespace {
@@ -107,6 +109,36 @@ TEST_P(Bracket, OurCarPassesADefenderWhoHoldsTheInsideLane) {
   EXPECT_EQ(run.gate_refusals, 0u);
   for (const grading::Verdict& verdict : run.verdicts)
     EXPECT_TRUE(verdict.pass) << verdict.name << ": " << verdict.text << ": " << verdict.reason;
+}
+
+// The same car with this fuel in its tank, as its operator has entered it before the start; another
+// engine burns up to 13 % more or less than ours is reckoned to.
+RunResult with_fuel(double litres, const char* endings, const char* result) {
+  const auto folder = had(transport::TemporaryFolder::create("pitwall-fuel-"));
+  const std::string car = folder.path() + "/car.yaml", scenario = folder.path() + "/attempt.yaml";
+  had(transport::write_file(car, racing_car() + "fuel: {guess_l_per_lap: 1.6}\n"));
+  std::string text = with(match(car, 100), "speed_mps: 0}",
+                          formatted("speed_mps: 0, fuel_l: %.2f}\n", litres) +
+                              "perturb: {consumption_spread: 0.13}\n" +
+                              "operator:\n  - {at_s: 1, say: take 1, every_s: 0.5, until_s: 8}\n" +
+                              formatted("  - {at_s: 2, say: command fuel_entered %.1f}", litres));
+  text = with(text, "expect: [passed, declined]", std::string{"expect: ["} + endings + "]");
+  text = with(text, "result: own", std::string{"result: "} + result);
+  text += "  - {kind: always, signal: fuel_l, is: \">\", value: 0.1}\n";
+  had(transport::write_file(scenario, text));
+  return had(run_lockstep(had(load(scenario, kTree)), {}));
+}
+
+TEST(Fuel, TheLastAttemptIsDeclinedOrFinished) {
+  for (const auto& [litres, endings, result] :
+       {std::tuple{9.0, "passed, declined", "own"}, std::tuple{6.5, "declined, declined", "draw"}}) {
+    const RunResult run = with_fuel(litres, endings, result);
+    ASSERT_TRUE(run.match);
+    for (std::size_t i = 0; i < run.match->attempts.size(); ++i)
+      std::printf("%.1f l: %s\n", litres, to_text(*run.match, i).c_str());
+    for (const grading::Verdict& verdict : run.verdicts)
+      EXPECT_TRUE(verdict.pass) << verdict.name << ": " << verdict.text << ": " << verdict.reason;
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(All, Bracket, ::testing::Values(80, 100, 115, 125, 135, 150));
