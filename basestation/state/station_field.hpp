@@ -98,7 +98,7 @@ enum class BaseField : std::uint8_t {
   kReplayedOpenings,
   kRelay
 };
-inline constexpr std::size_t kBaseFields = 72;
+inline constexpr std::size_t kBaseFields = 74;
 
 struct BaseRow {
   BaseField field;
