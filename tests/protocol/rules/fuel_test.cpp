@@ -130,6 +130,7 @@ struct Unmeasured {
   Instant now = kBegin;
   double lap = 0.0;
 
+  Unmeasured() { estimator.receive_engine(kFast, now, lap); }
   void drive_lap(double litres) {
     const double lap_s = litres / fuel_flow_lps(kFast);
     for (int i = 0; i < 50; ++i) {

@@ -173,13 +173,13 @@ TEST(Race, AnAttemptWithoutFuelIsDeclinedBeforeItsWavingGreen) {
     EXPECT_EQ(reason_after(rig, 1, TrackFlag::kGreen), Reason::kDeclined);
     EXPECT_EQ(rig.state.pass.attempt, AttemptChoice::kDeclined);
     rig.fuel = rules::FuelState::kEnough;
-    EXPECT_EQ(reason_after(rig, 400, TrackFlag::kWavingGreen), Reason::kDeclined) << "it stays so";
+    EXPECT_EQ(reason_after(rig, 200, TrackFlag::kWavingGreen), Reason::kDeclined) << "it stays so";
     EXPECT_LT(rig.gap_m(), -12.0);
     // WHEN the attempt is over, the next one is another matter
     drive(rig, 1, TrackFlag::kGreen, VehicleFlag::kDefender);
     EXPECT_EQ(rig.state.pass.attempt, AttemptChoice::kOpen);
-    drive(rig, 600, TrackFlag::kGreen);
-    EXPECT_EQ(drive(rig, 600, TrackFlag::kWavingGreen).back(), PassPhase::kFree);
+    drive(rig, 400, TrackFlag::kGreen);
+    EXPECT_EQ(drive(rig, 500, TrackFlag::kWavingGreen).back(), PassPhase::kFree);
     EXPECT_GT(rig.gap_m(), 30.0);
   }
 }
@@ -206,12 +206,13 @@ TEST(Race, AnAttemptThatHasBegunIsFinished) {
 // The way home is worth more than the attempt, at any moment of it.
 TEST(Race, WithFuelForTheWayHomeNobodyRaces) {
   RaceRig passing;
-  drive(passing, 800, TrackFlag::kGreen);
-  for (int moment = 0; moment < 8; ++moment) {
-    drive(passing, 30, TrackFlag::kWavingGreen);
+  drive(passing, 400, TrackFlag::kGreen);
+  for (int moment = 0; moment < 4; ++moment) {
+    drive(passing, 60, TrackFlag::kWavingGreen);
     RaceRig rig = passing;
     rig.fuel = rules::FuelState::kHomeNow;
-    drive(rig, 600, TrackFlag::kWavingGreen);
+    // Its rival drives on, through what is in its way.
+    EXPECT_EQ(reason_after(rig, 300, TrackFlag::kWavingGreen), Reason::kDeclined);
     EXPECT_LE(rig.speed_mps, rig.params.caution_speed_mps + 0.1);
   }
   RaceRig defends;
