@@ -46,8 +46,8 @@ struct Perturbations {
   double consumption = 1.0;     // factor on the fuel for the same work; [0.5, 2]
   // The factor is drawn anew by the seed, within so much of it; [0, 0.5].
   double consumption_spread = 0.0;
-  double wind_mps = 0.0;        // [0, 40]
-  double wind_to_rad = 0.0;     // direction it blows to, in Map, from east counter-clockwise
+  double wind_mps = 0.0;     // [0, 40]
+  double wind_to_rad = 0.0;  // direction it blows to, in Map, from east counter-clockwise
   // Added to the delays of the actuators; [0, 0.5] s.
   double steering_delay_s = 0.0, throttle_delay_s = 0.0, brake_delay_s = 0.0, gear_delay_s = 0.0;
 };

@@ -25,8 +25,7 @@ void FuelEstimator::receive_engine(const EngineSample& sample, Instant sampled, 
 void FuelEstimator::receive_tank(double level_l, double used_l, double lap) {
   if (!std::isfinite(level_l)) return;
   const bool by_used = std::isfinite(used_l);
-  const bool begins_anew =
-      !is_measured_ || level_l > tank_l_ + kFilled_l || by_used != by_used_;
+  const bool begins_anew = !is_measured_ || level_l > tank_l_ + kFilled_l || by_used != by_used_;
   is_measured_ = true;
   tank_l_ = level_l;
   by_used_ = by_used;

@@ -41,8 +41,9 @@ MatchRun::MatchRun(const scenario::MatchPlan& plan, const Field& field,
       track_length_m_(track.length_m()) {}
 
 void MatchRun::step(Field& field, std::span<const bool> declines, Instant now) {
-  const race::JudgeView view{.cars = {judged(field, declines, kOwn), judged(field, declines, kRival)},
-                             .contact = contact(field)};
+  const race::JudgeView view{
+      .cars = {judged(field, declines, kOwn), judged(field, declines, kRival)},
+      .contact = contact(field)};
   before_ = state_;
   state_ = race::step(params_, before_, view, now);
   if (state_.stage == race::Stage::kOver && !over_since_) over_since_ = now;

@@ -42,8 +42,7 @@ class MatchRun {
 
  private:
   bool is_inside(const plant::CarPose& pose) const;
-  race::JudgedCar judged(const Field& field, std::span<const bool> declines,
-                         std::size_t car) const;
+  race::JudgedCar judged(const Field& field, std::span<const bool> declines, std::size_t car) const;
   std::optional<race::JudgedContact> contact(const Field& field) const;
   void order_ghost(Field& field);
   std::size_t attempts_by(std::uint8_t car) const;

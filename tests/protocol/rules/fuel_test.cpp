@@ -26,7 +26,9 @@ struct Car {
     lap += 1.0;
     say(0.0);
   }
-  void say(double slosh) { estimator.receive_tank(level_l + slosh, counts_used ? used_l : kUnset, lap); }
+  void say(double slosh) {
+    estimator.receive_tank(level_l + slosh, counts_used ? used_l : kUnset, lap);
+  }
 };
 
 // The paper's final: the team took an attempt of two laps with fuel for one. The figures of the

@@ -31,9 +31,8 @@ Point hold(double speed_mps) {
   const plant::Engine engine = engine_of_bench();
   const plant::Params p;
   const double pressure_pa = 0.5 * p.aero.air_density_kgpm3 * speed_mps * speed_mps;
-  const double load_n =
-      p.chassis.mass_kg * kGravity_mps2 * 1.5 +
-      pressure_pa * (p.aero.front_lift_area_m2 + p.aero.rear_lift_area_m2);
+  const double load_n = p.chassis.mass_kg * kGravity_mps2 * 1.5 +
+                        pressure_pa * (p.aero.front_lift_area_m2 + p.aero.rear_lift_area_m2);
   const double force_n = pressure_pa * p.aero.drag_area_m2 + 0.03 * load_n;
   double ratio = p.drivetrain.final_drive * p.drivetrain.gear.front();
   for (const double gear : p.drivetrain.gear) {
@@ -107,9 +106,7 @@ class Competition {
     return false;
   }
 
-  bool defend(double round_mps) {
-    return drive(round_mps, random_.between(1.0, 4.0));
-  }
+  bool defend(double round_mps) { return drive(round_mps, random_.between(1.0, 4.0)); }
 
   bool drive(double speed_mps, double laps) {
     for (double driven = 0.0; driven < laps; driven += step(speed_mps))
@@ -155,10 +152,11 @@ TEST(FuelDraws, NoDrawRunsDryAndTheLastAttemptIsDeclinedOrFinished) {
     Competition{random.between(5.0, 40.0), consumption, Random{random.next()}, tally}.run();
   }
   const int attempts = tally.finished + tally.declined;
-  std::printf("%d draws: %d attempts finished, %d declined (%.0f %%), %d of them with fuel that would "
-              "have done; the emptiest car came home with %.2f l\n",
-              kDraws, tally.finished, tally.declined, 100.0 * tally.declined / attempts,
-              tally.needless, tally.least_l);
+  std::printf(
+      "%d draws: %d attempts finished, %d declined (%.0f %%), %d of them with fuel that would "
+      "have done; the emptiest car came home with %.2f l\n",
+      kDraws, tally.finished, tally.declined, 100.0 * tally.declined / attempts, tally.needless,
+      tally.least_l);
   EXPECT_EQ(tally.homes, kDraws);
   EXPECT_GT(tally.least_l, 0.0);
   EXPECT_GE(tally.least_l, rules::FuelPlan{}.reserve_l) << "the pump does not reach it";

@@ -130,8 +130,8 @@ RunResult with_fuel(double litres, const char* endings, const char* result) {
 }
 
 TEST(Fuel, TheLastAttemptIsDeclinedOrFinished) {
-  for (const auto& [litres, endings, result] :
-       {std::tuple{9.0, "passed, declined", "own"}, std::tuple{6.5, "declined, declined", "draw"}}) {
+  for (const auto& [litres, endings, result] : {std::tuple{9.0, "passed, declined", "own"},
+                                                std::tuple{6.5, "declined, declined", "draw"}}) {
     const RunResult run = with_fuel(litres, endings, result);
     ASSERT_TRUE(run.match);
     for (std::size_t i = 0; i < run.match->attempts.size(); ++i)

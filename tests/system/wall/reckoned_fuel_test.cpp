@@ -15,7 +15,8 @@ TEST(ReckonedFuel, IsWithinATenthOfTheBenchAtSpeed) {
   for (double rpm = 4'300; rpm <= 6'600; rpm += 100) {
     for (double throttle = 0.65; throttle <= 1.0; throttle += 0.01) {
       const double torque_nm = plant::engine_torque_nm(engine, rpm, throttle);
-      const double bench_lps = plant::fuel_flow_kgps(engine, fuel, rpm, torque_nm) / rules::kFuelDensity_kgpl;
+      const double bench_lps =
+          plant::fuel_flow_kgps(engine, fuel, rpm, torque_nm) / rules::kFuelDensity_kgpl;
       const double ours_lps = rules::fuel_flow_lps({rpm, throttle, true});
       EXPECT_NEAR(ours_lps / bench_lps, 1.0, 0.1) << rpm << " rpm, throttle " << throttle;
     }

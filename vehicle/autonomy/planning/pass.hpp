@@ -85,7 +85,8 @@ enum class PassBar : std::uint8_t {
 enum class AttemptChoice : std::uint8_t { kOpen, kCommitted, kDeclined };
 
 // For an attacker on a green track. Fuel that nobody knows bars nothing.
-AttemptChoice choose_attempt(AttemptChoice before, rules::FuelState fuel, bool attacks, bool waving);
+AttemptChoice choose_attempt(AttemptChoice before, rules::FuelState fuel, bool attacks,
+                             bool waving);
 
 struct PassState {
   PassPhase phase = PassPhase::kFree;

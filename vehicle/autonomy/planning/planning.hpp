@@ -128,7 +128,7 @@ enum class Reason : std::uint8_t {
   kCornerAhead,  // the governor slows the car for what lies ahead
   kTrail,        // behind the rival
   kPass,
-  kGiveWay,  // a pass was given up
+  kGiveWay,   // a pass was given up
   kCarAhead,  // a car in the way
   kDeclined,  // an attempt, for want of fuel
   kFuelHome   // fuel for the way home, and no more

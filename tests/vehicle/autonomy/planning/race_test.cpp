@@ -159,8 +159,7 @@ TEST(Race, ALineChangeGoesOnWithPlaceDirectionAndCurvature) {
 
 Reason reason_after(RaceRig& rig, int ticks, TrackFlag flag) {
   Reason reason = Reason::kUnknown;
-  for (int i = 0; i < ticks; ++i)
-    reason = rig.tick(flag, VehicleFlag::kAttacker, kSlow_mps).reason;
+  for (int i = 0; i < ticks; ++i) reason = rig.tick(flag, VehicleFlag::kAttacker, kSlow_mps).reason;
   return reason;
 }
 
