@@ -8,16 +8,16 @@
 namespace pitwall::rules {
 namespace {
 
-constexpr Instant kBegin{seconds(100).ns};
-constexpr EngineSample kFast{.speed_rpm = 6'000, .throttle = 0.7, .running = true};
+constexpr Instant kFirst{seconds(100).ns};
+constexpr EngineSample kHard{.speed_rpm = 6'000, .throttle = 0.7, .running = true};
 
 // The same quarter of an hour, told at different rates.
 double used_l(Duration every) {
   FuelUse use;
   for (Duration at{}; at <= seconds(900); at = at + every) {
-    EngineSample sample = kFast;
+    EngineSample sample = kHard;
     sample.throttle = 0.5 + 0.2 * std::sin(at.seconds() / 30.0);
-    use.receive(sample, kBegin + at);
+    use.receive(sample, kFirst + at);
   }
   return use.used_l();
 }
@@ -28,21 +28,21 @@ TEST(FuelUse, TheRateOfTheSamplesDoesNotMatter) {
 
 // What nobody heard may have been driven at either end's flow: the greater is taken.
 TEST(FuelUse, ALongGapIsBridgedOnTheThirstySide) {
-  EngineSample idle = kFast;
+  EngineSample idle = kHard;
   idle.throttle = 0.0;
   FuelUse use;
-  use.receive(idle, kBegin);
-  use.receive(kFast, kBegin + seconds(10));
-  EXPECT_NEAR(use.used_l(), 10.0 * fuel_flow_lps(kFast), 1e-9);
+  use.receive(idle, kFirst);
+  use.receive(kHard, kFirst + seconds(10));
+  EXPECT_NEAR(use.used_l(), 10.0 * fuel_flow_lps(kHard), 1e-9);
 }
 
 TEST(FuelUse, SamplesOutOfOrderOrWithoutNumbersAreNone) {
   FuelUse use;
-  use.receive(kFast, kBegin);
-  use.receive(kFast, kBegin + seconds(1));
+  use.receive(kHard, kFirst);
+  use.receive(kHard, kFirst + seconds(1));
   const double used_l = use.used_l();
-  use.receive(kFast, kBegin);
-  use.receive({.speed_rpm = kUnset, .throttle = 1.0, .running = true}, kBegin + seconds(2));
+  use.receive(kHard, kFirst);
+  use.receive({.speed_rpm = kUnset, .throttle = 1.0, .running = true}, kFirst + seconds(2));
   EXPECT_EQ(use.used_l(), used_l);
 }
 

@@ -130,7 +130,7 @@ RunResult with_fuel(double litres, const char* endings, const char* result) {
 }
 
 TEST(Fuel, TheLastAttemptIsDeclinedOrFinished) {
-  for (const auto& [litres, endings, result] : {std::tuple{9.0, "passed, declined", "own"},
+  for (const auto& [litres, endings, result] : {std::tuple{12.0, "passed, declined", "own"},
                                                 std::tuple{6.5, "declined, declined", "draw"}}) {
     const RunResult run = with_fuel(litres, endings, result);
     ASSERT_TRUE(run.match);
