@@ -191,9 +191,9 @@ TEST(OperatorOrders, WhatIsNoSetOfSensorsIsRefused) {
 TEST(OperatorOrders, TheFuelEnteredIsThatOfOneTick) {
   Rig rig;
   EXPECT_EQ(rig.done(OperatorCommandKind::kFuelEntered, 31.5), CommandAnswer::kApplied);
-  EXPECT_TRUE(std::isnan(rig.orders.fuel_entered_l)) << "an entry of before is none";
-  rig.tick({{.kind = OperatorCommandKind::kFuelEntered, .argument = 31.5}});
   EXPECT_EQ(rig.orders.fuel_entered_l, 31.5);
+  rig.tick();
+  EXPECT_TRUE(std::isnan(rig.orders.fuel_entered_l)) << "an entry of before is none";
   for (const double argument : {-1.0, kUnset})
     EXPECT_EQ(rig.done(OperatorCommandKind::kFuelEntered, argument), CommandAnswer::kRefused);
 }
