@@ -1,5 +1,5 @@
-// Fuel that an engine must have burnt, by its speed and its throttle: what a car knows that measures
-// neither level nor flow.
+// Fuel that an engine must have burnt, by its speed and its throttle: what a car knows that
+// measures neither level nor flow.
 //   in     engine speed, throttle and whether it runs, with the time of each sample
 //   out    litres used since the first sample
 //   invariants

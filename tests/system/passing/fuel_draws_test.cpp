@@ -1,5 +1,5 @@
-// A hundred competitions on a tank that is filled once, each with another consumption: the car's own
-// estimate and choice against the bench's engine, on a car that is a mass and a gearbox.
+// A hundred competitions on a tank that is filled once, each with another consumption: the car's
+// own estimate and choice against the bench's engine, on a car that is a mass and a gearbox.
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
