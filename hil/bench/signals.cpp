@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "protocol/rules/fuel_use.hpp"
 #include "protocol/vocabulary/units.hpp"
 
 namespace pitwall::bench {
@@ -121,6 +122,7 @@ SignalValues observe(const SignalSources& from) {
   set(v, Signal::kOffset, road.n_m);
   set(v, Signal::kAbsCrossTrack, std::abs(cross_track_m(from.rig, from.line_offset_m)));
   set(v, Signal::kOffPath, from.off_path_m);
+  set(v, Signal::kFuel, truth.fuel_kg / rules::kFuelDensity_kgpl);
   set(v, Signal::kWallGap, wall_gap_m(from.rig));
   set(v, Signal::kContact, road.contact ? 1.0 : 0.0);
   set(v, Signal::kFrictionUse, truth.friction_use);

@@ -52,6 +52,10 @@ CarFile read_root(yaml::StrictMap& map) {
   car.params.localization = read_localization(map.map("localization"), car.params.receivers);
   if (map.has("tracking")) car.params.tracking = read_tracking(map.map("tracking"));
   car.params.planning = read_planning(map.map("planning"));
+  if (map.has("fuel")) {
+    yaml::StrictMap fuel = map.map("fuel");
+    read_given_ranges(fuel, pipeline::kFuelRanges, car.params.fuel);
+  }
   car.params.control = read_control(map.map("control"));
   read_safety(map.map("safety"), car.params);
   read_radio(map.map("radio"), car.params);

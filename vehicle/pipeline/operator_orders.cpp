@@ -100,6 +100,10 @@ void OrderHandler::take(const OperatorCommand& command) {
     }
     case OperatorCommandKind::kSensorsExcluded:
       return exclude(command);
+    case OperatorCommandKind::kFuelEntered:
+      if (!(command.argument >= 0.0)) return answer(command, CommandAnswer::kRefused);
+      orders.fuel_entered_l = command.argument;
+      return answer(command, CommandAnswer::kApplied);
     case OperatorCommandKind::kRaceLine:
     case OperatorCommandKind::kRole:
     case OperatorCommandKind::kEndRun:
@@ -140,6 +144,7 @@ safety::OperatorRequests execute(OperatorOrders& orders, const OrderInputs& inpu
   handler.give_what_was_let_go();
   if (inputs.switches.arm && !orders.switch_was) orders.arm.reset();
   orders.switch_was = inputs.switches.arm;
+  orders.fuel_entered_l = kUnset;
   for (const OperatorCommand& command : inputs.commands) handler.take(command);
 
   safety::OperatorRequests requests = inputs.switches;

@@ -41,6 +41,7 @@ struct OperatorOrders {
   std::optional<bool> arm_before;  // value of `arm` before `arming`
   bool close_next = false;         // the request is withdrawn in this tick, set in the next
   double speed_limit_mps = kUnset;
+  double fuel_entered_l = kUnset;                   // in this tick
   world::SensorUse use;                             // until another set is commanded
   world::TrackFlag flag = world::TrackFlag::kNone;  // kNone: no flag from the base
 };

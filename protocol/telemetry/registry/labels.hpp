@@ -51,7 +51,8 @@ inline constexpr std::string_view kPrimitives =
     "-|holds the line|stops|merges|trails|passes|closes the door|gives way";
 inline constexpr std::string_view kSpeedReasons =
     "-|no position|no race control|no flag|unknown flag|red|orange|black|stop|chequered|caution|"
-    "green|round speed|operator|line|tyres|governor|trail|pass|gives way|car ahead";
+    "green|round speed|operator|line|tyres|governor|trail|pass|gives way|car ahead|declined: "
+    "fuel|fuel for the way home";
 inline constexpr std::string_view kStopLevels = "none|controlled stop|EMERGENCY STOP";
 inline constexpr std::string_view kStopReasons =
     "none|operator|race control|pit crew|console lost its operator|test";

@@ -188,6 +188,16 @@ TEST(OperatorOrders, WhatIsNoSetOfSensorsIsRefused) {
   EXPECT_EQ(rig.orders.use, world::SensorUse{});
 }
 
+TEST(OperatorOrders, TheFuelEnteredIsThatOfOneTick) {
+  Rig rig;
+  EXPECT_EQ(rig.done(OperatorCommandKind::kFuelEntered, 31.5), CommandAnswer::kApplied);
+  EXPECT_EQ(rig.orders.fuel_entered_l, 31.5);
+  rig.tick();
+  EXPECT_TRUE(std::isnan(rig.orders.fuel_entered_l)) << "an entry of before is none";
+  for (const double argument : {-1.0, kUnset})
+    EXPECT_EQ(rig.done(OperatorCommandKind::kFuelEntered, argument), CommandAnswer::kRefused);
+}
+
 TEST(OperatorOrders, WhatThisCarDoesNotHaveIsUnsupported) {
   for (const auto kind : {OperatorCommandKind::kRaceLine, OperatorCommandKind::kRole,
                           OperatorCommandKind::kEndRun, OperatorCommandKind::kSendParameters}) {
@@ -200,7 +210,7 @@ TEST(OperatorOrders, EveryCommandOfATickIsAnsweredOnce) {
   Rig rig;
   std::vector<OperatorCommand> commands(world::kOperatorCommandsMax);
   for (std::size_t i = 0; i < commands.size(); ++i) {
-    commands[i].kind = static_cast<OperatorCommandKind>(i % 9);
+    commands[i].kind = static_cast<OperatorCommandKind>(i % 10);
     commands[i].argument = 1.0;
   }
   std::vector<int> answered(commands.size() + 1);

@@ -107,6 +107,16 @@ void from_yield(const PassParams& p, PassState& s, const PassInputs& in, Instant
 
 }  // namespace
 
+AttemptChoice choose_attempt(AttemptChoice before, rules::FuelState fuel, bool attacks,
+                             bool waving) {
+  if (!attacks) return AttemptChoice::kOpen;
+  if (before == AttemptChoice::kDeclined || fuel == rules::FuelState::kHomeNow)
+    return AttemptChoice::kDeclined;
+  if (before == AttemptChoice::kOpen && fuel == rules::FuelState::kNoAttempt)
+    return AttemptChoice::kDeclined;
+  return waving ? AttemptChoice::kCommitted : before;
+}
+
 PassState advance(const PassParams& p, const PassState& state, const PassInputs& in, Instant now) {
   PassState s = state;
   s.rival = in.rival;

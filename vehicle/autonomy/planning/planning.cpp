@@ -123,13 +123,13 @@ struct Limits {
 // silent radio slows the car, it drives gently.
 const Pace& pace_of(const Params& p, Reason reason) {
   const bool races = reason == Reason::kGreen || reason == Reason::kRoundSpeed ||
-                     (reason >= Reason::kTrail && reason <= Reason::kCarAhead);
+                     (reason >= Reason::kTrail && reason <= Reason::kDeclined);
   return races ? p.racing : p.comfort;
 }
 
 // In the order of RaceReason.
-constexpr std::array kRaceReasons{Reason::kUnknown, Reason::kTrail, Reason::kPass, Reason::kGiveWay,
-                                  Reason::kCarAhead};
+constexpr std::array kRaceReasons{Reason::kUnknown, Reason::kTrail,    Reason::kPass,
+                                  Reason::kGiveWay, Reason::kCarAhead, Reason::kDeclined};
 
 Limits limits_of(const Params& p, const Inputs& in, const SpeedDemand& demand, double speed_mps) {
   const envelope::FrictionParams friction = on_tyres(p.line.friction, in.tyre_c);
@@ -167,6 +167,7 @@ SpeedDemand race_on(const Params& p, const Lines& lines, const world::TrackMap& 
                                       .track = track,
                                       .cars = *in.cars,
                                       .race_control = in.race_control,
+                                      .fuel = in.fuel,
                                       .line = next.line,
                                       .car = car,
                                       .merge = next.merge,
@@ -348,6 +349,8 @@ Output step(const Params& params, const Line& own_line, const world::TrackMap& t
   LinePosition car = lines[next.line].project(in.ego.x_m, in.ego.y_m, hint);
   const double speed_mps = std::max(in.ego.vx_mps, 0.0);
   SpeedDemand demand = demanded_speed(params, in.race_control, in.operator_speed_limit_mps);
+  if (in.fuel == rules::FuelState::kHomeNow && params.caution_speed_mps < demand.speed_mps)
+    demand = {params.caution_speed_mps, Reason::kFuelHome};
   if (params.passing && in.cars != nullptr && !stops(in.followed))
     demand = race_on(params, lines, track, in, demand, car, next, now);
   const Line& line = lines[next.line];

@@ -14,6 +14,8 @@
 //          stop is the same path with more brake
 //          while the car coasts the drive trajectory slows like a car with closed throttle
 //          a car far off the line returns by a minimum-jerk offset over merge_time_s
+//          with fuel for the way home only the car drives at the speed of a caution; fuel that
+//          nobody has entered limits nothing
 //          other cars are regarded where params.passing is set (race.hpp); a stop keeps its line
 //   errors without a usable ego state both trajectories are empty, with the reason kNoEgo
 //   cost   O(points + horizon steps), below 1 ms; no allocation
@@ -27,6 +29,7 @@
 #include <string>
 #include <vector>
 
+#include "protocol/rules/fuel.hpp"
 #include "protocol/vocabulary/result.hpp"
 #include "protocol/vocabulary/time.hpp"
 #include "vehicle/autonomy/planning/governor.hpp"
@@ -125,8 +128,10 @@ enum class Reason : std::uint8_t {
   kCornerAhead,  // the governor slows the car for what lies ahead
   kTrail,        // behind the rival
   kPass,
-  kGiveWay,  // a pass was given up
-  kCarAhead  // a car in the way
+  kGiveWay,   // a pass was given up
+  kCarAhead,  // a car in the way
+  kDeclined,  // an attempt, for want of fuel
+  kFuelHome   // fuel for the way home, and no more
 };
 
 enum class Followed : std::uint8_t {
@@ -142,6 +147,7 @@ struct Inputs {
   const world::RaceControl& race_control;
   double operator_speed_limit_mps = kUnset;  // unset: no limit
   Followed followed = Followed::kNothing;
+  rules::FuelState fuel = rules::FuelState::kUnknown;
   double tyre_c = kUnset;                           // coldest tyre; unset counts as cold
   const steering::AngleBudget* steering = nullptr;  // null: no limit
   std::span<const Line> other_lines = {};           // as prepare_others() made them

@@ -144,9 +144,11 @@ RaceReason reason_of(PassPhase phase) {
 }  // namespace
 
 RaceDecision race(const PassParams& p, PassState& state, const RaceInputs& in, Instant now) {
-  const bool attacks = in.race_control.vehicle == world::VehicleFlag::kAttacker;
+  bool attacks = in.race_control.vehicle == world::VehicleFlag::kAttacker;
   const bool waving = in.race_control.track == world::TrackFlag::kWavingGreen;
   const bool green = waving || in.race_control.track == world::TrackFlag::kGreen;
+  state.attempt = choose_attempt(state.attempt, in.fuel, attacks && green, waving);
+  attacks = attacks && state.attempt != AttemptChoice::kDeclined;
   const Rival rival = follow(p.rival, state.rival, in.track, in.own, in.cars, now);
   std::array<PassWay, kRaceLines> ways;
   std::size_t known_ways = 0;
@@ -174,6 +176,7 @@ RaceDecision race(const PassParams& p, PassState& state, const RaceInputs& in, I
     out.speed_mps = behind_mps;
     out.reason = state.phase == PassPhase::kTrail ? RaceReason::kTrail : RaceReason::kCarAhead;
   }
+  if (state.attempt == AttemptChoice::kDeclined) out.reason = RaceReason::kDeclined;
   return out;
 }
 

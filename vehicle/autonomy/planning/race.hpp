@@ -8,6 +8,8 @@
 //          no speed above what the operator allows; none above the demand but for an attacker
 //          on a green track
 //          a car that is in the way of our path is followed or met standing, whatever the phase is
+//          an attempt is declined as long as it has not been given waving green, by fuel; later
+//          it is finished, unless there is fuel for the way home only. What was declined stays so
 //          another car goes on along the line that it is nearest to, at its distance from it
 //   cost   some 0.3 ms where a pass is looked for, otherwise 10 us; no allocation
 // SPDX-License-Identifier: Apache-2.0
@@ -42,6 +44,7 @@ struct RaceInputs {
   const world::TrackMap& track;
   const world::Opponents& cars;
   const world::RaceControl& race_control;
+  rules::FuelState fuel = rules::FuelState::kUnknown;
   std::size_t line = 0;  // in use
   LinePosition car;      // of our car on it
   OffsetChange merge;    // on it
@@ -51,7 +54,7 @@ struct RaceInputs {
   const DriveLimits& limits;
 };
 
-enum class RaceReason : std::uint8_t { kNone, kTrail, kPass, kYield, kCarAhead };
+enum class RaceReason : std::uint8_t { kNone, kTrail, kPass, kYield, kCarAhead, kDeclined };
 
 struct RaceDecision {
   double speed_mps = kUnset;

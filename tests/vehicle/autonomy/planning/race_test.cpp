@@ -158,6 +158,72 @@ TEST(Race, ALineChangeGoesOnWithPlaceDirectionAndCurvature) {
   }
 }
 
+Reason reason_after(RaceRig& rig, int ticks, TrackFlag flag) {
+  Reason reason = Reason::kUnknown;
+  for (int i = 0; i < ticks; ++i) reason = rig.tick(flag, VehicleFlag::kAttacker, kSlow_mps).reason;
+  return reason;
+}
+
+TEST(Race, AnAttemptWithoutFuelIsDeclinedBeforeItsWavingGreen) {
+  for (const auto fuel : {rules::FuelState::kNoAttempt, rules::FuelState::kHomeNow}) {
+    RaceRig rig;
+    drive(rig, 400, TrackFlag::kGreen);
+    EXPECT_EQ(rig.state.pass.attempt, AttemptChoice::kOpen);
+    rig.fuel = fuel;
+    EXPECT_EQ(reason_after(rig, 1, TrackFlag::kGreen), Reason::kDeclined);
+    EXPECT_EQ(rig.state.pass.attempt, AttemptChoice::kDeclined);
+    rig.fuel = rules::FuelState::kEnough;
+    EXPECT_EQ(reason_after(rig, 200, TrackFlag::kWavingGreen), Reason::kDeclined) << "it stays so";
+    EXPECT_LT(rig.gap_m(), -12.0);
+    // WHEN the attempt is over, the next one is another matter
+    drive(rig, 1, TrackFlag::kGreen, VehicleFlag::kDefender);
+    EXPECT_EQ(rig.state.pass.attempt, AttemptChoice::kOpen);
+    drive(rig, 400, TrackFlag::kGreen);
+    EXPECT_EQ(drive(rig, 500, TrackFlag::kWavingGreen).back(), PassPhase::kFree);
+    EXPECT_GT(rig.gap_m(), 30.0);
+  }
+}
+
+TEST(Race, WavingGreenAndNoFuelInTheSameTickIsDeclined) {
+  RaceRig rig;
+  drive(rig, 800, TrackFlag::kGreen);
+  rig.fuel = rules::FuelState::kNoAttempt;
+  EXPECT_EQ(reason_after(rig, 600, TrackFlag::kWavingGreen), Reason::kDeclined);
+  EXPECT_LT(rig.gap_m(), -12.0);
+}
+
+TEST(Race, AnAttemptThatHasBegunIsFinished) {
+  RaceRig rig;
+  drive(rig, 800, TrackFlag::kGreen);
+  drive(rig, 1, TrackFlag::kWavingGreen);
+  EXPECT_EQ(rig.state.pass.attempt, AttemptChoice::kCommitted);
+  rig.fuel = rules::FuelState::kNoAttempt;
+  drive(rig, 600, TrackFlag::kWavingGreen);
+  EXPECT_GT(rig.gap_m(), 30.0);
+  EXPECT_NEAR(rig.n_m, 3.0, 0.1) << "the door is closed";
+}
+
+// The way home is worth more than the attempt, at any moment of it.
+TEST(Race, WithFuelForTheWayHomeNobodyRaces) {
+  RaceRig passing;
+  drive(passing, 400, TrackFlag::kGreen);
+  for (int moment = 0; moment < 4; ++moment) {
+    drive(passing, 60, TrackFlag::kWavingGreen);
+    RaceRig rig = passing;
+    rig.fuel = rules::FuelState::kHomeNow;
+    // Its rival drives on, through what is in its way.
+    EXPECT_EQ(reason_after(rig, 300, TrackFlag::kWavingGreen), Reason::kDeclined);
+    EXPECT_LE(rig.speed_mps, rig.params.caution_speed_mps + 0.1);
+  }
+  RaceRig defends;
+  defends.fuel = rules::FuelState::kHomeNow;
+  Reason reason = Reason::kUnknown;
+  for (int i = 0; i < 400; ++i)
+    reason = defends.tick(TrackFlag::kGreen, VehicleFlag::kDefender, kSlow_mps).reason;
+  EXPECT_EQ(reason, Reason::kFuelHome);
+  EXPECT_LE(defends.speed_mps, defends.params.caution_speed_mps + 0.1);
+}
+
 TEST(Race, PlanningAmongCarsDoesNotAllocate) {
   RaceRig rig;
   drive(rig, 800, TrackFlag::kGreen);
