@@ -323,14 +323,14 @@ TEST(Inbound, TwoWaysToSayOneThingAreNoConflictAndTwoThingsAre) {
     std::uint8_t mylaps_track, mylaps_vehicle, marelli_track, marelli_vehicle;
     bool conflict;
   };
-  for (const Case c : {Case{1, 0, 1, 34, false},   // red; stop beside green
-                       Case{3, 4, 4, 0, false},    // chequered as a vehicle flag; as the track's
-                       Case{2, 0, 0, 25, false},   // orange
-                       Case{4, 7, 1, 36, false},   // attacker
-                       Case{4, 7, 1, 35, true},    // attacker and defender
-                       Case{8, 7, 1, 36, true},    // waving and green
-                       Case{4, 0, 9, 0, true},     // green and yellow
-                       Case{4, 2, 1, 0, true},     // black in one alone
+  for (const Case c : {Case{1, 0, 1, 34, false},    // red; stop beside green
+                       Case{3, 4, 4, 0, false},     // chequered as a vehicle flag; as the track's
+                       Case{2, 0, 0, 25, false},    // orange
+                       Case{4, 7, 1, 36, false},    // attacker
+                       Case{4, 7, 1, 35, true},     // attacker and defender
+                       Case{8, 7, 1, 36, true},     // waving and green
+                       Case{4, 0, 9, 0, true},      // green and yellow
+                       Case{4, 2, 1, 0, true},      // black in one alone
                        Case{4, 0, 0, 0, false}}) {  // the other says nothing
     InboundReceiver car;
     car.receive(summary({.track = c.mylaps_track, .vehicle = c.mylaps_vehicle}), at_ms(0));

@@ -23,7 +23,7 @@ using world::CtState;
 using world::FlagEncoding;
 using world::Mode;
 
-constexpr int kPlanTicks = 5;  // planning comes every fifth tick
+constexpr int kPlanTicks = 5;   // planning comes every fifth tick
 constexpr int kFlagTicks = 50;  // the flags come every 500 ms
 
 // The last two are for a car whose supervisor acts at once.
@@ -155,9 +155,9 @@ TEST(FlagReaction, EveryFlagInEveryModeHasItsReactionInTime) {
       if (c.encoding != encoding) continue;
       for (std::size_t m = 0; m < world::kModes; ++m) {
         const auto mode = static_cast<Mode>(m);
-        SCOPED_TRACE(::testing::Message() << "encoding " << static_cast<int>(encoding) << " track "
-                                          << int{c.track} << " vehicle " << int{c.vehicle}
-                                          << " mode " << m);
+        SCOPED_TRACE(::testing::Message()
+                     << "encoding " << static_cast<int>(encoding) << " track " << int{c.track}
+                     << " vehicle " << int{c.vehicle} << " mode " << m);
         *rig.car = before.car, rig.now = before.now;
         rig.put_in(mode);
         rig.show(c);

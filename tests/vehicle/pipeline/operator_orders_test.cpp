@@ -232,7 +232,8 @@ TEST(OperatorOrders, OfTwoFlagsTheStricterHolds) {
     world::RaceControl received;
     received.track = by_strictness[can];
     received.raw_track = 9;
-    EXPECT_EQ(acted_on(received, TrackFlag::kNone, kFastest_mps).track, received.track) << "no opinion";
+    EXPECT_EQ(acted_on(received, TrackFlag::kNone, kFastest_mps).track, received.track)
+        << "no opinion";
     for (std::size_t base = 0; base < by_strictness.size(); ++base) {
       const world::RaceControl held = acted_on(received, by_strictness[base], kFastest_mps);
       EXPECT_EQ(held.track, by_strictness[std::max(can, base)]);

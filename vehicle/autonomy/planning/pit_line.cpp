@@ -165,8 +165,7 @@ bool turns_in(const PitLine& pit, const OnTheWay& car) {
   const double entry_m = ahead_m(pit.line, car.s_m, pit.entry_s_m);
   const double fall_m2ps2 =
       std::max(car.speed_mps * car.speed_mps - pit.limit_mps * pit.limit_mps, 0.0);
-  const double least_m =
-      std::max(car.merge_m, 0.5 * fall_m2ps2 / (kPaceShare * car.pace.decel_max_mps2));
+  const double least_m = std::max(car.merge_m, 0.5 * fall_m2ps2 / (kPaceShare * car.decel_mps2));
   return entry_m >= least_m && entry_m <= car.merge_m + kWindow_m;
 }
 
@@ -175,7 +174,7 @@ bool is_in_lane(const PitLine& pit, double s_m) { return pit.line.wrap(s_m) <= p
 double to_box_mps(const PitLine& pit, const OnTheWay& car) {
   const double box_m = ahead_m(pit.line, car.s_m, pit.box_s_m);
   if (box_m < -kPastBox_m) return HUGE_VAL;
-  return std::sqrt(2.0 * kPaceShare * car.pace.decel_max_mps2 * std::max(box_m, 0.0));
+  return std::sqrt(2.0 * kPaceShare * car.decel_mps2 * std::max(box_m, 0.0));
 }
 
 }  // namespace pitwall::planning

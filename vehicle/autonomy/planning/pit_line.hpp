@@ -17,8 +17,9 @@
 #include <optional>
 
 #include "protocol/vocabulary/result.hpp"
-#include "vehicle/autonomy/planning/governor.hpp"
+#include "protocol/vocabulary/units.hpp"
 #include "vehicle/autonomy/planning/line.hpp"
+#include "vehicle/envelope/envelope_table.hpp"
 #include "vehicle/world/track_map.hpp"
 
 namespace pitwall::planning {
@@ -37,8 +38,8 @@ Result<std::optional<PitLine>, Problem> pit_line(
 struct OnTheWay {
   double s_m = kUnset;  // of the car along the pit line
   double speed_mps = kUnset;
-  double merge_m = kUnset;  // that a change of line takes
-  Pace pace;
+  double merge_m = kUnset;     // that a change of line takes
+  double decel_mps2 = kUnset;  // comfortable
 };
 
 // Whether a car on the track that is to come in leaves its line now.

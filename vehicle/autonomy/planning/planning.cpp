@@ -205,7 +205,7 @@ SpeedDemand by_pit(const Params& p, const Lines& lines, const Inputs& in, const 
   const double speed_mps = std::max(in.ego.vx_mps, 0.0);
   OnTheWay way{.speed_mps = speed_mps,
                .merge_m = std::max(speed_mps * p.merge_time_s, p.merge_least_m),
-               .pace = p.comfort};
+               .decel_mps2 = p.comfort.decel_max_mps2};
   const bool on_own = next.line == 0 && next.pass.line == 0;
   if (on_own && comes_in) {
     way.s_m = in.pit->line.project(in.ego.x_m, in.ego.y_m).s_m;
@@ -214,8 +214,7 @@ SpeedDemand by_pit(const Params& p, const Lines& lines, const Inputs& in, const 
   if (next.line != lines.size()) return demand;
   way.s_m = car.s_m;
   if (!is_in_lane(*in.pit, car.s_m)) {
-    const bool is_out =
-        !turns_in(*in.pit, way) && in.pit->line.wrap(car.s_m) < 0.5 * in.pit->line.length_m;
+    const bool is_out = in.pit->line.wrap(car.s_m) < 0.5 * in.pit->line.length_m;
     if (!comes_in || is_out) go_to_line(lines, 0, way.merge_m, in.ego, car, next);
     return demand;
   }

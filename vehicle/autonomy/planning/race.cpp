@@ -119,7 +119,8 @@ double in_way_mps(const PassParams& p, const RaceInputs& in, const PassState& st
     const bool trails = is_rival && state.phase == PassPhase::kTrail;
     const bool blocks = std::abs(path_n_m - other.n_m) < kInWay_m;
     if (!blocks && !(is_rival && trails && keeps_behind && other.speed_mps > kMoves_mps)) continue;
-    const double brake_mps2 = is_racing(in.race_control) ? p.brake_mps2 : std::min(p.brake_mps2, in.gentle_mps2);
+    const double brake_mps2 =
+        is_racing(in.race_control) ? p.brake_mps2 : std::min(p.brake_mps2, in.gentle_mps2);
     least_mps = std::min(least_mps, follow_mps(p, brake_mps2, ahead_m, other.speed_mps, trails));
   }
   return least_mps;

@@ -40,10 +40,13 @@ struct PitRig {
     const world::TrackPoint at = track.offset(s_m, n_m);
     world::EgoState ego = testing::ego_on(own, 0.0, 0.0, speed_mps);
     ego.x_m = at.x_m, ego.y_m = at.y_m, ego.yaw_rad = at.yaw_rad;
-    const Output out = step(
-        params, own, track, state,
-        {.ego = ego, .race_control = rc, .followed = Followed::kDrive, .tyre_c = 85.0, .pit = &*pit},
-        now);
+    const Output out = step(params, own, track, state,
+                            {.ego = ego,
+                             .race_control = rc,
+                             .followed = Followed::kDrive,
+                             .tyre_c = 85.0,
+                             .pit = &*pit},
+                            now);
     state = out.next;
     now += milliseconds(50);
     speed_mps = state.speed_mps;
@@ -107,21 +110,20 @@ TEST(PitLine, ATrackWithoutAPitLaneHasNone) {
   EXPECT_FALSE(pit_line(track, params.line, own, std::nullopt).value().has_value());
 }
 
+// The steering cannot follow a lane as far aside as this within a quarter of its length.
 TEST(PitLine, AWayInThatNoSpeedCarriesIsRefused) {
-  world::PitLane lane = kPit;
-  lane.exit_s_m = 1970.0;
-  lane.offset_m = 60.0;
-  const world::TrackMap track = testing::stadium(200.0, lane);
   const Params params = recommended();
-  const Line own = prepare(params, track).value();
-  const auto refused = pit_line(track, params.line, own, std::nullopt);
-  if (refused) {
-    double least_mps = 100.0;
-    for (const LinePoint& p : (*refused)->line.points)
-      least_mps = std::min(least_mps, p.speed_mps.back());
-    EXPECT_GT(least_mps, 0.0);
-  } else {
-    EXPECT_NE(to_string(refused.error()).find("pit"), std::string::npos);
+  envelope::SteeringLimit steering{.limits = {}, .car = {}, .share = 1.0};
+  for (std::size_t i = 0; i < steering.limits.size(); ++i)
+    steering.limits[i] = {.speed_mps = 10.0 * static_cast<double>(i), .angle_rad = 0.1};
+  for (const double exit_s_m : {380.0, 2010.0}) {
+    world::PitLane lane = kPit;
+    lane.exit_s_m = exit_s_m;
+    const world::TrackMap track = testing::stadium(200.0, lane);
+    const Line own = prepare(params, track, nullptr, steering).value();
+    const auto made = pit_line(track, params.line, own, steering);
+    EXPECT_EQ(made.has_value(), exit_s_m == 380.0);
+    if (!made) EXPECT_EQ(made.error().place, "stadium: pit") << to_string(made.error());
   }
 }
 
@@ -130,7 +132,7 @@ TEST(PitLine, ACarThatIsTooFastForItGoesRoundOnceMore) {
   OnTheWay way{.s_m = rig.pit->line.length_m - 160.0,
                .speed_mps = 20.0,
                .merge_m = 80.0,
-               .pace = rig.params.comfort};
+               .decel_mps2 = rig.params.comfort.decel_max_mps2};
   EXPECT_TRUE(turns_in(*rig.pit, way));
   way.speed_mps = 40.0;
   EXPECT_FALSE(turns_in(*rig.pit, way));

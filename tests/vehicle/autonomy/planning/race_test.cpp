@@ -168,8 +168,7 @@ TEST(Race, ARoleThatChangesInAPassEndsIt) {
   for (const VehicleFlag role : {VehicleFlag::kDefender, VehicleFlag::kNone, VehicleFlag::kBlue}) {
     RaceRig rig;
     drive(rig, 600, TrackFlag::kGreen);
-    while (rig.gap_m() < -8.0)
-      rig.tick(TrackFlag::kWavingGreen, VehicleFlag::kAttacker, kSlow_mps);
+    while (rig.gap_m() < -8.0) rig.tick(TrackFlag::kWavingGreen, VehicleFlag::kAttacker, kSlow_mps);
     drive(rig, 400, TrackFlag::kWavingGreen, role);
     EXPECT_LT(rig.gap_m(), -10.0);
     EXPECT_EQ(rig.state.line, 0u);
