@@ -123,7 +123,8 @@ TEST(PitLine, AWayInThatNoSpeedCarriesIsRefused) {
     const Line own = prepare(params, track, nullptr, steering).value();
     const auto made = pit_line(track, params.line, own, steering);
     EXPECT_EQ(made.has_value(), exit_s_m == 380.0);
-    if (!made) EXPECT_EQ(made.error().place, "stadium: pit") << to_string(made.error());
+    if (made) continue;
+    EXPECT_EQ(made.error().place, "stadium: pit") << to_string(made.error());
   }
 }
 
@@ -166,7 +167,7 @@ TEST(PitLine, ABlackFlagEndsAtTheBoxAndGreenLeadsOutAgain) {
     for (int i = 0; i < 1200; ++i) {
       out = rig.tick(green(50.0));
       was_limited = was_limited || out.reason == Reason::kPitLane;
-      if (rig.is_in_lane()) ASSERT_LE(rig.speed_mps, kPit.speed_limit_mps) << i;
+      ASSERT_TRUE(!rig.is_in_lane() || rig.speed_mps <= kPit.speed_limit_mps) << i;
     }
     EXPECT_TRUE(was_limited);
     EXPECT_EQ(rig.state.line, 0u);
