@@ -113,29 +113,6 @@ void OrderHandler::take(const OperatorCommand& command) {
   answer(command, CommandAnswer::kUnsupported);
 }
 
-// By how little a flag allows; what nobody has said or nobody knows allows nothing.
-int severity(TrackFlag flag) {
-  switch (flag) {
-    case TrackFlag::kGreen:
-      return 0;
-    case TrackFlag::kWavingGreen:
-      return 1;
-    case TrackFlag::kYellow:
-      return 2;
-    case TrackFlag::kChequered:
-      return 3;
-    case TrackFlag::kOrange:
-      return 4;
-    case TrackFlag::kNone:
-      return 5;
-    case TrackFlag::kUnknown:
-      return 6;
-    case TrackFlag::kRed:
-      break;
-  }
-  return 7;
-}
-
 }  // namespace
 
 safety::OperatorRequests execute(OperatorOrders& orders, const OrderInputs& inputs,
@@ -181,10 +158,17 @@ bool enough_to_drive(world::SensorUse use) {
 
 double lower_limit_mps(double a_mps, double b_mps) { return std::fmin(a_mps, b_mps); }
 
-world::RaceControl stricter(const world::RaceControl& received, TrackFlag of_base) {
+world::RaceControl acted_on(const world::RaceControl& received, TrackFlag of_base,
+                            double speed_max_mps) {
   world::RaceControl out = received;
-  if (of_base != TrackFlag::kNone && severity(of_base) > severity(received.track))
-    out.track = of_base;
+  if (of_base != TrackFlag::kNone) {
+    out.track = world::more_restrictive(of_base, received.track);
+    out.conflict = out.conflict || of_base != received.track;
+  }
+  if (received.round_target_speed_mps > speed_max_mps) {
+    out.round_target_speed_mps = speed_max_mps;
+    out.refused_speed_mps = received.round_target_speed_mps;
+  }
   return out;
 }
 

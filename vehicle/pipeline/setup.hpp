@@ -96,6 +96,7 @@ struct Setup {
   localization::Datum datum;
   planning::Line line;
   std::vector<planning::Line> other_lines;  // to pass on
+  std::optional<planning::PitLine> pit;
   control::LateralGains gains;
   steering::AngleLimits angles{};  // limits of the frame gate, at the road wheel
 };

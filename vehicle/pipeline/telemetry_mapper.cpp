@@ -33,8 +33,7 @@ static_assert(telemetry::label_at(telemetry::kLinkLossLevels,
                                   static_cast<std::size_t>(safety::LinkLossLevel::kStop)) ==
               "controlled stop");
 static_assert(telemetry::label_at(telemetry::kSpeedReasons,
-                                  static_cast<std::size_t>(planning::Reason::kFuelHome)) ==
-              "fuel for the way home");
+                                  static_cast<std::size_t>(planning::Reason::kBox)) == "box");
 static_assert(telemetry::kFields[field("planner.line")].max == planning::kLinesMost);
 
 template <class E>

@@ -129,6 +129,7 @@ double pass_speed_mps(const PassParams& params, const PassState& state, const Pa
 inline constexpr double kLeastGap_m = 12.0;
 
 // Speed behind a car that is in the way, ahead_m in front of ours.
-double follow_mps(const PassParams& params, double ahead_m, double car_mps, bool trails);
+double follow_mps(const PassParams& params, double brake_mps2, double ahead_m, double car_mps,
+                  bool trails);
 
 }  // namespace pitwall::planning

@@ -29,14 +29,19 @@
 
 namespace pitwall::planning {
 
-// The own line and those that a pass may use; the own one has number 0 here.
+// The own line and those that a pass may use; the own one has number 0 here, and the pit's, where
+// there is one, the number after all others.
 inline constexpr std::size_t kRaceLines = 4;
 struct Lines {
   const Line& own;
   std::span<const Line> others = {};
+  const Line* pit = nullptr;
 
-  std::size_t size() const { return 1 + others.size(); }
-  const Line& operator[](std::size_t i) const { return i == 0 ? own : others[i - 1]; }
+  std::size_t size() const { return 1 + others.size(); }  // to race on
+  const Line& operator[](std::size_t i) const {
+    if (i == size()) return *pit;
+    return i == 0 ? own : others[i - 1];
+  }
 };
 
 struct RaceInputs {
@@ -49,8 +54,9 @@ struct RaceInputs {
   LinePosition car;      // of our car on it
   OffsetChange merge;    // on it
   OwnPlace own;
-  double base_mps = kUnset;  // demanded by flags and operator
-  double most_mps = kUnset;  // by the operator; unset: no limit
+  double base_mps = kUnset;     // demanded by flags and operator
+  double most_mps = kUnset;     // by the operator; unset: no limit
+  double gentle_mps2 = kUnset;  // with which a car in the way is met behind flags
   const DriveLimits& limits;
 };
 

@@ -152,10 +152,10 @@ TEST(Pass, ACarInTheWayIsNeverApproachedFasterThanItsBrakesAllow) {
   const PassParams p = testing::pass_params();
   for (double ahead_m = 0.0; ahead_m < 200.0; ahead_m += 3.0)
     for (const double car_mps : {0.0, 10.0, 40.0}) {
-      const double mps = follow_mps(p, ahead_m, car_mps, false);
+      const double mps = follow_mps(p, p.brake_mps2, ahead_m, car_mps, false);
       const double room_m = std::max(ahead_m - kLeastGap_m, 0.0);
       EXPECT_LE(mps * mps - car_mps * car_mps, 2.0 * p.brake_mps2 * room_m + 1e-9);
-      EXPECT_LE(follow_mps(p, ahead_m, car_mps, true), mps);
+      EXPECT_LE(follow_mps(p, p.brake_mps2, ahead_m, car_mps, true), mps);
     }
 }
 

@@ -142,6 +142,41 @@ TEST(Race, ARivalThatMovesIntoTheLineEndsThePassWhileBrakingKeepsUsBehind) {
   EXPECT_GT(beside.gap_m(), 6.0);
 }
 
+// Behind flags a slower car is met gently and followed; none is overtaken, but one that stands.
+TEST(Race, BehindFlagsACarAheadIsFollowedAndNotOvertaken) {
+  for (const double n_m : {3.0, -3.0}) {
+    RaceRig rig;
+    rig.other_n_m = n_m, rig.other_mps = 15.0, rig.other_s_m = 320.0, rig.speed_mps = 22.0;
+    double last_mps = rig.speed_mps;
+    for (int i = 0; i < 1200; ++i) {
+      rig.tick(TrackFlag::kYellow, VehicleFlag::kNone, 60.0);
+      EXPECT_LE((last_mps - rig.speed_mps) / 0.05, rig.params.comfort.decel_max_mps2 + 0.01) << i;
+      EXPECT_LE((rig.speed_mps - last_mps) / 0.05, rig.params.comfort.accel_max_mps2 + 0.01) << i;
+      ASSERT_LT(rig.gap_m(), -testing::pass_params().trail_gap_m + 3.0) << i;
+      last_mps = rig.speed_mps;
+    }
+    EXPECT_NEAR(rig.gap_m(), -testing::pass_params().trail_gap_m, 1.0);
+    EXPECT_NEAR(rig.speed_mps, 15.0, 0.2);
+  }
+  RaceRig rig;
+  rig.other_n_m = -3.0, rig.other_mps = 0.0, rig.other_s_m = 320.0, rig.speed_mps = 22.0;
+  for (int i = 0; i < 400; ++i) rig.tick(TrackFlag::kYellow, VehicleFlag::kNone, 60.0);
+  EXPECT_GT(rig.gap_m(), 50.0);
+}
+
+// Another role than the attacker's, at any moment of a pass, is the same as no right to pass.
+TEST(Race, ARoleThatChangesInAPassEndsIt) {
+  for (const VehicleFlag role : {VehicleFlag::kDefender, VehicleFlag::kNone, VehicleFlag::kBlue}) {
+    RaceRig rig;
+    drive(rig, 600, TrackFlag::kGreen);
+    while (rig.gap_m() < -8.0) rig.tick(TrackFlag::kWavingGreen, VehicleFlag::kAttacker, kSlow_mps);
+    drive(rig, 400, TrackFlag::kWavingGreen, role);
+    EXPECT_LT(rig.gap_m(), -10.0);
+    EXPECT_EQ(rig.state.line, 0u);
+    EXPECT_EQ(rig.state.pass.phase, PassPhase::kTrail);
+  }
+}
+
 TEST(Race, ALineChangeGoesOnWithPlaceDirectionAndCurvature) {
   RaceRig rig;
   const Line &from = rig.own, &to = rig.others[0];
