@@ -134,7 +134,9 @@ TEST(TelemetryLabels, NameWhyTheSpeedIsWhatItIs) {
                                         {kTrail, "trail"},
                                         {kPass, "pass"},
                                         {kGiveWay, "gives way"},
-                                        {kCarAhead, "car ahead"}}),
+                                        {kCarAhead, "car ahead"},
+                                        {kPitLane, "pit lane"},
+                                        {kBox, "box"}}),
             names_in(telemetry::kSpeedReasons));
 }
 
