@@ -198,12 +198,12 @@ TEST(FlagReaction, LossOfRaceControlStopsTheCar) {
 }
 
 // A flag of the base binds within the tick of its command, in both directions of restriction.
-TEST(FlagReaction, TheStricterOfRaceControlAndBaseHoldsAndTheConflictIsTold) {
+TEST(FlagReaction, TheStricterOfRaceControlAndBaseHoldsAndTheConflictIsReported) {
   struct Case {
     std::uint8_t mylaps_track;
     world::TrackFlag of_base;
     Reason reason;
-    bool told;
+    bool reported;
   };
   for (const Case& c : {Case{4, world::TrackFlag::kRed, Reason::kRed, true},
                         Case{4, world::TrackFlag::kYellow, Reason::kCaution, true},
@@ -215,13 +215,13 @@ TEST(FlagReaction, TheStricterOfRaceControlAndBaseHoldsAndTheConflictIsTold) {
     rig.put_in(Mode::kDriving);
     rig.car->orders.flag = c.of_base;
     const Outputs out = rig.tick();
-    EXPECT_EQ(out.chosen.causes.has(safety::Cause::kFlagsDisagree), c.told);
+    EXPECT_EQ(out.chosen.causes.has(safety::Cause::kFlagsDisagree), c.reported);
     for (int i = 1; i < kPlanTicks; ++i) rig.tick();
     EXPECT_EQ(rig.car->plan.output.reason, c.reason) << int{c.mylaps_track};
   }
 }
 
-TEST(FlagReaction, ARoundSpeedAboveTheCarsIsToldAtOnceAndDrivenAtTheCarsOwn) {
+TEST(FlagReaction, ARoundSpeedAboveTheCarsIsReportedAtOnceAndDrivenAtTheCarsOwn) {
   for (const double mph : {150.0, 180.0}) {
     FlagRig rig{kMyLaps};
     rig.source.mylaps_track = 4, rig.source.round_speed_mph = mph;
