@@ -186,13 +186,13 @@ void watch_frozen(const InboundParams& params, InboundState& state, Instant now)
 bool contradict(const FlagSource& a, const FlagSource& b) {
   using world::TrackFlag;
   using world::VehicleFlag;
-  const auto speaks = [](const FlagSource& s) {
+  const auto has_flags = [](const FlagSource& s) {
     return s.received && (s.track != TrackFlag::kNone || s.vehicle != VehicleFlag::kNone);
   };
   const auto role = [](VehicleFlag flag) {
     return flag == VehicleFlag::kAttacker || flag == VehicleFlag::kDefender;
   };
-  if (!speaks(a) || !speaks(b)) return false;
+  if (!has_flags(a) || !has_flags(b)) return false;
   const world::FlagDemand demand = world::demand_of(a.track, a.vehicle);
   if (demand != world::demand_of(b.track, b.vehicle)) return true;
   const bool waves = (a.track == TrackFlag::kWavingGreen) != (b.track == TrackFlag::kWavingGreen);

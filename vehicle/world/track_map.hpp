@@ -29,8 +29,8 @@ struct PitLane {
   double box_s_m = kUnset;  // station of the car's box; unset: the middle of the lane
 };
 
-// Share of the pit lane's length on which a car crosses from the track to its middle, and back: what
-// lies between them a track file does not say.
+// Share of the pit lane's length on which a car crosses from the track to its middle, and back:
+// what lies between them a track file does not say.
 inline constexpr double kPitRampShare = 0.25;
 
 struct TrackDescription {

@@ -39,7 +39,7 @@ struct FlagCase {
 };
 
 constexpr auto kMyLaps = FlagEncoding::kMyLaps, kMarelli = FlagEncoding::kMarelli;
-constexpr auto k9 = CtState::kNominalRace, k10 = CtState::kCoordinatedStop,
+constexpr auto k8 = CtState::kCaution, k9 = CtState::kNominalRace, k10 = CtState::kCoordinatedStop,
                k12 = CtState::kEmergencyShutdown;
 constexpr double kRound_mps = from_mph(60.0), kGreen_mps = 40.0, kSlow_mps = 22.0;
 constexpr std::uint8_t kNoFlag = 200;  // in no table; MyLaps has 4 bits: 13 stands for it
@@ -49,7 +49,7 @@ constexpr std::array kCases{
     FlagCase{kMyLaps, 0, 0, Reacts::kStays, Reason::kNoFlag, 0.0, k9},
     FlagCase{kMyLaps, 1, 0, Reacts::kStays, Reason::kRed, 0.0, k10},
     FlagCase{kMyLaps, 2, 0, Reacts::kStays, Reason::kOrange, 0.0, k9},
-    FlagCase{kMyLaps, 3, 0, Reacts::kDrives, Reason::kCaution, kSlow_mps, k9},
+    FlagCase{kMyLaps, 3, 0, Reacts::kDrives, Reason::kCaution, kSlow_mps, k8},
     FlagCase{kMyLaps, 4, 0, Reacts::kRaces, Reason::kRoundSpeed, kRound_mps, k9},
     FlagCase{kMyLaps, 8, 0, Reacts::kRaces, Reason::kRoundSpeed, kRound_mps, k9},
     FlagCase{kMyLaps, 13, 0, Reacts::kStays, Reason::kUnknownFlag, 0.0, k10},
@@ -65,8 +65,8 @@ constexpr std::array kCases{
     FlagCase{kMarelli, 0, 0, Reacts::kStays, Reason::kNoFlag, 0.0, k9},
     FlagCase{kMarelli, 1, 0, Reacts::kRaces, Reason::kGreen, kGreen_mps, k9},
     FlagCase{kMarelli, 3, 0, Reacts::kStays, Reason::kRed, 0.0, k10},
-    FlagCase{kMarelli, 4, 0, Reacts::kStays, Reason::kChequered, kSlow_mps, k9},
-    FlagCase{kMarelli, 9, 0, Reacts::kDrives, Reason::kCaution, kSlow_mps, k9},
+    FlagCase{kMarelli, 4, 0, Reacts::kStays, Reason::kChequered, kSlow_mps, k8},
+    FlagCase{kMarelli, 9, 0, Reacts::kDrives, Reason::kCaution, kSlow_mps, k8},
     FlagCase{kMarelli, 37, 0, Reacts::kRaces, Reason::kGreen, kGreen_mps, k9},
     FlagCase{kMarelli, 40, 0, Reacts::kRaces, Reason::kRoundSpeed, from_mph(40.0), k9},
     FlagCase{kMarelli, 80, 0, Reacts::kRaces, Reason::kRoundSpeed, from_mph(80.0), k9},
@@ -198,12 +198,12 @@ TEST(FlagReaction, LossOfRaceControlStopsTheCar) {
 }
 
 // A flag of the base binds within the tick of its command, in both directions of restriction.
-TEST(FlagReaction, TheStricterOfRaceControlAndBaseHoldsAndTheConflictIsTold) {
+TEST(FlagReaction, TheStricterOfRaceControlAndBaseHoldsAndTheConflictIsReported) {
   struct Case {
     std::uint8_t mylaps_track;
     world::TrackFlag of_base;
     Reason reason;
-    bool told;
+    bool reported;
   };
   for (const Case& c : {Case{4, world::TrackFlag::kRed, Reason::kRed, true},
                         Case{4, world::TrackFlag::kYellow, Reason::kCaution, true},
@@ -215,13 +215,13 @@ TEST(FlagReaction, TheStricterOfRaceControlAndBaseHoldsAndTheConflictIsTold) {
     rig.put_in(Mode::kDriving);
     rig.car->orders.flag = c.of_base;
     const Outputs out = rig.tick();
-    EXPECT_EQ(out.chosen.causes.has(safety::Cause::kFlagsDisagree), c.told);
+    EXPECT_EQ(out.chosen.causes.has(safety::Cause::kFlagsDisagree), c.reported);
     for (int i = 1; i < kPlanTicks; ++i) rig.tick();
     EXPECT_EQ(rig.car->plan.output.reason, c.reason) << int{c.mylaps_track};
   }
 }
 
-TEST(FlagReaction, ARoundSpeedAboveTheCarsIsToldAtOnceAndDrivenAtTheCarsOwn) {
+TEST(FlagReaction, ARoundSpeedAboveTheCarsIsReportedAtOnceAndDrivenAtTheCarsOwn) {
   for (const double mph : {150.0, 180.0}) {
     FlagRig rig{kMyLaps};
     rig.source.mylaps_track = 4, rig.source.round_speed_mph = mph;

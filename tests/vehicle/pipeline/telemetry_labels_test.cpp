@@ -136,7 +136,9 @@ TEST(TelemetryLabels, NameWhyTheSpeedIsWhatItIs) {
                                         {kGiveWay, "gives way"},
                                         {kCarAhead, "car ahead"},
                                         {kDeclined, "declined: fuel"},
-                                        {kFuelHome, "fuel for the way home"}}),
+                                        {kFuelHome, "fuel for the way home"},
+                                        {kPitLane, "pit lane"},
+                                        {kBox, "box"}}),
             names_in(telemetry::kSpeedReasons));
 }
 

@@ -171,6 +171,11 @@ bool turns_in(const PitLine& pit, const OnTheWay& car) {
 
 bool is_in_lane(const PitLine& pit, double s_m) { return pit.line.wrap(s_m) <= pit.exit_s_m; }
 
+double to_lane_mps(const PitLine& pit, const OnTheWay& car) {
+  const double entry_m = std::max(ahead_m(pit.line, car.s_m, pit.entry_s_m), 0.0);
+  return std::sqrt(pit.limit_mps * pit.limit_mps + 2.0 * kPaceShare * car.decel_mps2 * entry_m);
+}
+
 double to_box_mps(const PitLine& pit, const OnTheWay& car) {
   const double box_m = ahead_m(pit.line, car.s_m, pit.box_s_m);
   if (box_m < -kPastBox_m) return HUGE_VAL;

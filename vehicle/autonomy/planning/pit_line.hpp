@@ -45,6 +45,8 @@ struct OnTheWay {
 // Whether a car on the track that is to come in leaves its line now.
 bool turns_in(const PitLine& pit, const OnTheWay& car);
 bool is_in_lane(const PitLine& pit, double s_m);
+// Speed with which a car on the pit line comes to the begin of the lane.
+double to_lane_mps(const PitLine& pit, const OnTheWay& car);
 // Speed with which a car on the pit line comes to its box; no limit for one that is past it.
 double to_box_mps(const PitLine& pit, const OnTheWay& car);
 

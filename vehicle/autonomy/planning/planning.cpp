@@ -216,8 +216,12 @@ SpeedDemand by_pit(const Params& p, const Lines& lines, const Inputs& in, const 
   way.s_m = car.s_m;
   if (!is_in_lane(*in.pit, car.s_m)) {
     const bool is_out = in.pit->line.wrap(car.s_m) < 0.5 * in.pit->line.length_m;
-    if (!comes_in || is_out) go_to_line(lines, 0, way.merge_m, in.ego, car, next);
-    return demand;
+    if (!comes_in || is_out) {
+      go_to_line(lines, 0, way.merge_m, in.ego, car, next);
+      return demand;
+    }
+    const double lane_mps = to_lane_mps(*in.pit, way);
+    return lane_mps < demand.speed_mps ? SpeedDemand{lane_mps, Reason::kPitLane} : demand;
   }
   const double box_mps = comes_in ? to_box_mps(*in.pit, way) : HUGE_VAL;
   return box_mps < demand.speed_mps ? SpeedDemand{box_mps, Reason::kBox} : demand;

@@ -17,8 +17,8 @@
 //          with fuel for the way home only the car drives at the speed of a caution; fuel that
 //          nobody has entered limits nothing
 //          other cars are regarded where params.passing is set (race.hpp); a stop keeps its line
-//          a car that shall come in does so by the pit line and stops at its box; one that starts in
-//          the pit lane, or shall race again, drives out by it
+//          a car that shall come in does so by the pit line and stops at its box; one that starts
+//          in the pit lane, or shall race again, drives out by it
 //   errors without a usable ego state both trajectories are empty, with the reason kNoEgo
 //   cost   O(points + horizon steps), below 1 ms; no allocation
 // SPDX-License-Identifier: Apache-2.0

@@ -61,8 +61,8 @@ struct PitRig {
   }
 
   bool is_in_lane() const {
-    return track.station_ahead(kPit.entry_s_m, s_m) <=
-           track.station_ahead(kPit.entry_s_m, kPit.exit_s_m);
+    return state.line == 1 && track.station_ahead(kPit.entry_s_m, s_m) <=
+                                  track.station_ahead(kPit.entry_s_m, kPit.exit_s_m);
   }
 
   Params params = recommended();
