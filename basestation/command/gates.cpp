@@ -57,7 +57,6 @@ class Judge {
         alarms();
         break;
       case CommandType::kSensorsExcluded:
-      case CommandType::kFuelEntered:
       case CommandType::kSendParameters:
         break;
     }

@@ -61,10 +61,9 @@ enum class Signal : std::uint8_t {
   // 1: the car stopped for loss of its base, but the radio channel had no gap as long as the limit
   // of the car
   kRadioStopUnexplained,
-  kOffPath,  // true position against the line, or in a stop against the stop path
-  kFuel      // truly in the tank
+  kOffPath  // true position against the line, or in a stop against the stop path
 };
-inline constexpr std::size_t kSignals = 35;
+inline constexpr std::size_t kSignals = 34;
 
 inline constexpr std::array<std::string_view, kSignals> kSignalNames{"speed_mps",
                                                                      "station_m",
@@ -99,8 +98,7 @@ inline constexpr std::array<std::string_view, kSignals> kSignalNames{"speed_mps"
                                                                      "radio_gap_s",
                                                                      "radio_gap_max_s",
                                                                      "radio_stop_unexplained",
-                                                                     "off_path_m",
-                                                                     "fuel_l"};
+                                                                     "off_path_m"};
 
 // Reported state of the car. Values are NaN before the first report, and conditions then see 0.
 // silent: a car that reported before no longer does; its signals are NaN and meet no condition.

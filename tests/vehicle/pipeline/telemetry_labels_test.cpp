@@ -134,11 +134,7 @@ TEST(TelemetryLabels, NameWhyTheSpeedIsWhatItIs) {
                                         {kTrail, "trail"},
                                         {kPass, "pass"},
                                         {kGiveWay, "gives way"},
-                                        {kCarAhead, "car ahead"},
-                                        {kDeclined, "declined: fuel"},
-                                        {kFuelHome, "fuel for the way home"},
-                                        {kPitLane, "pit lane"},
-                                        {kBox, "box"}}),
+                                        {kCarAhead, "car ahead"}}),
             names_in(telemetry::kSpeedReasons));
 }
 

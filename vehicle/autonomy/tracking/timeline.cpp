@@ -11,13 +11,6 @@ namespace {
 
 constexpr Duration kMarkEvery = milliseconds(100);
 
-// Without the places that are not used.
-void copy(const Tracks& from, Tracks& to) {
-  to.started = from.started, to.at = from.at, to.crowded = from.crowded;
-  to.list.clear();
-  for (const Track& track : from.list) (void)to.list.push(track);
-}
-
 }  // namespace
 
 Timeline::Timeline() {
@@ -88,7 +81,7 @@ std::size_t Timeline::go_back(Tracks& tracks) {
     return 0;
   }
   const Checkpoint& from = checkpoint(marks_ - 1);
-  copy(from.tracks, tracks);
+  tracks = from.tracks;
   std::size_t first = first_new_;
   while (first > 0 && frames_[first - 1].key > from.key) --first;
   return first;
@@ -110,7 +103,7 @@ void Timeline::mark(const FrameKey& key, const Tracks& tracks) {
   if (marks_ > 0 && key.at - checkpoint(marks_ - 1).key.at < kMarkEvery) return;
   Checkpoint& made = checkpoint(marks_++);
   made.key = key;
-  copy(tracks, made.tracks);
+  made.tracks = tracks;
 }
 
 void Timeline::settle(const Params& params, const world::TrackMap* map, Tracks& tracks) {
