@@ -56,15 +56,13 @@ Result<std::string, Problem> read_whole(const std::string& path) {
   return transport::read_file(path);
 }
 
-Result<pipeline::Setup, Problem> set_up(const io::Arguments& args, const std::string& car_text) {
-  auto car = parameters::read_car(car_text, args.car_file);
-  if (!car) return Unexpected{car.error()};
+Result<pipeline::Setup, Problem> set_up(const io::Arguments& args, parameters::CarFile& car) {
   const auto track_text = transport::read_file(args.track_file);
   if (!track_text) return Unexpected{track_text.error()};
   const auto track = parameters::read_track(*track_text, args.track_file);
   if (!track) return Unexpected{track.error()};
-  if (args.no_base) car->params.watchdog[safety::Stream::kRadio].watched = false;
-  return parameters::set_up(*car, *track, read_whole);
+  if (args.no_base) car.params.watchdog[safety::Stream::kRadio].watched = false;
+  return parameters::set_up(car, *track, read_whole);
 }
 
 void say(const std::string& what) { std::fprintf(stderr, "pitwall-vehicle: %s\n", what.c_str()); }
@@ -280,7 +278,8 @@ Result<std::unique_ptr<io::SensorIngress>, Problem> open_sensors(const io::Argum
   return io::SensorIngress::start(*file);
 }
 
-Result<Parts, Problem> open_parts(const io::Arguments& args, const pipeline::Setup& setup) {
+Result<Parts, Problem> open_parts(const io::Arguments& args, const pipeline::Setup& setup,
+                                  const std::string& car_text) {
   std::optional<io::Radio> radio;  // first: wrong keys are refused before a bus is touched
   if (!args.keys.empty()) {
     auto opened = io::Radio::open({args.radio, args.keys}, setup.params.radio, !args.simulation);
@@ -296,7 +295,10 @@ Result<Parts, Problem> open_parts(const io::Arguments& args, const pipeline::Set
                                                                : telemetry::Source::kCar);
   if (!report) return Unexpected{report.error()};
   auto box = io::BlackBox::open(args.record_folder,
-                                {args.car_file, args.track_file, setup.params.planning.line.bank},
+                                {.car = args.car_file,
+                                 .car_text = car_text,
+                                 .track = args.track_file,
+                                 .bank = setup.params.planning.line.bank},
                                 args.no_base);
   if (!box) return Unexpected{box.error()};
   auto sensors = open_sensors(args);
@@ -325,18 +327,18 @@ int run(int argc, const char* const* argv) {
   if (const auto clock = transport::use_clock(args.clock); !clock) return refuse(clock.error());
   auto stop = transport::StopSignal::install();
   if (!stop) return refuse(stop.error());
-  const auto car_text = transport::read_file(args.car_file);
-  if (!car_text) return refuse(car_text.error());
-  const auto setup = set_up(args, *car_text);
+  auto car = parameters::load_car(args.car_file, read_whole);
+  if (!car) return refuse(car.error());
+  const auto setup = set_up(args, *car);
   if (!setup) return refuse(setup.error());
   if (args.check) {
     const auto stations = io::parse_station_addresses(args.radio);
     return stations ? 0 : refuse(stations.error());
   }
-  auto parts = open_parts(args, *setup);
+  auto parts = open_parts(args, *setup, car->text);
   if (!parts) return refuse(parts.error());
   introduce(args, *setup, *parts);
-  const auto drive = std::make_unique<Drive>(*setup, args, *car_text, *std::move(parts));
+  const auto drive = std::make_unique<Drive>(*setup, args, car->text, *std::move(parts));
   return drive->run(*stop);
 }
 

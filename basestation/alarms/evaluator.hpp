@@ -71,7 +71,7 @@ class Evaluator {
   const std::optional<state::Course>& course() const { return course_; }
   state::LinkState link_state() const { return monitors_.link.state(); }
   Instant link_since() const { return monitors_.link.since(); }
-  state::FuelLeft fuel() const { return monitors_.fuel_left(params_.fuel); }
+  rules::FuelLeft fuel() const { return monitors_.fuel.left(params_.fuel); }
   const state::DeriveParams& params() const { return params_; }  // as in the file
   const state::TyreGate& tyre_gate() const { return params_.tyres; }
 

@@ -57,6 +57,7 @@ class Judge {
         alarms();
         break;
       case CommandType::kSensorsExcluded:
+      case CommandType::kFuelEntered:
       case CommandType::kSendParameters:
         break;
     }

@@ -76,6 +76,16 @@ struct RequestExecutor::Execution {
     catch_up();
     executor.evaluator_.expect(executor.entries_.expected);
   }
+  // What the car is told of its tank, the base knows too.
+  void know_fuel(telemetry::CommandType type, double litres) const {
+    if (type != telemetry::CommandType::kFuelEntered) return;
+    executor.entries_.expected.fuel_loaded_l = litres;
+    ++executor.entries_.expected.fuel_entries;
+    ++executor.entries_.revision;
+    executor.entries_.fuel_by = by.name;
+    executor.entries_.fuel_at = now;
+    expect();
+  }
   SettingsEditor::Origin origin(const std::string& reason) const {
     catch_up();
     return {.by = by, .holds_authority = holds(), .reason = reason, .at = now};
@@ -129,14 +139,20 @@ struct RequestExecutor::Execution {
     return ticket ? Done{true} : Done{Unexpected{ticket.error()}};
   }
   Done operator()(const SendTicket& ask) const {
-    return executor.queue_.send(ask.ticket, by, ask.overriding, gate_inputs(), executor.radio_);
+    auto done =
+        executor.queue_.send(ask.ticket, by, ask.overriding, gate_inputs(), executor.radio_);
+    const Ticket* const sent = executor.queue_.ticket(ask.ticket);
+    if (done && sent != nullptr) know_fuel(sent->command.type, sent->command.argument);
+    return done;
   }
   Done operator()(const CancelTicket& ask) const {
     return executor.queue_.cancel(ask.ticket, by, now);
   }
   Done operator()(const IssueCommand& ask) const {
-    return executor.queue_.issue(by, ask.type, ask.argument, ask.overriding, gate_inputs(),
-                                 executor.radio_);
+    auto done = executor.queue_.issue(by, ask.type, ask.argument, ask.overriding, gate_inputs(),
+                                      executor.radio_);
+    if (done) know_fuel(ask.type, ask.argument);
+    return done;
   }
   Done operator()(const ExcludeSensor& ask) const {
     const auto excluded = excluded_now(executor.radio_);
@@ -200,11 +216,10 @@ struct RequestExecutor::Execution {
   Done operator()(const ReportFuel& ask) const {
     auto entered = enter("fuel_loaded", "fuel in the tank: " + quantity(ask.litres, "l"));
     if (!entered) return entered;
-    executor.entries_.expected.fuel_loaded_l = ask.litres;
-    ++executor.entries_.expected.fuel_entries;
-    executor.entries_.fuel_by = by.name;
-    executor.entries_.fuel_at = now;
-    expect();
+    know_fuel(telemetry::CommandType::kFuelEntered, ask.litres);
+    // The car reckons by the same entry; one that cannot be told now leaves the base's as it is.
+    (void)executor.queue_.issue(by, telemetry::CommandType::kFuelEntered, ask.litres, {},
+                                gate_inputs(), executor.radio_);
     return entered;
   }
   Done operator()(const EditAlarm& ask) const {

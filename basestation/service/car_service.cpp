@@ -104,7 +104,7 @@ void CarService::take_history(const telemetry::Snapshot& state, telemetry::Group
 void CarService::restore(const command::OperatorEntries& entries, double fuel_left_l, Instant now) {
   requests_.restore(entries);
   state::Expectations expected = entries.expected;
-  expected.fuel_loaded_l = fuel_left_l;
+  expected.fuel_used_l = expected.fuel_loaded_l - fuel_left_l;
   evaluator_.advance(vehicle_, now);
   evaluator_.expect(expected);
 }

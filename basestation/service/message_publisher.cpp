@@ -19,7 +19,8 @@ double fuel_left_l(const CarService& car, Instant now) {
   const double level_l = car.evaluator().fuel().level_l;
   const bool reckoned =
       now - car.requests().entries().fuel_at >= seconds(1) && !std::isnan(level_l);
-  return reckoned ? level_l : car.evaluator().known().expected.fuel_loaded_l;
+  const state::Expectations& entered = car.evaluator().known().expected;
+  return reckoned ? level_l : entered.fuel_loaded_l - entered.fuel_used_l;
 }
 
 }  // namespace

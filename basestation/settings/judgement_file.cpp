@@ -77,13 +77,14 @@ alarms::AlarmEdit alarm_of(yaml::StrictMap& map) {
   return edit;
 }
 
-state::FuelPlan fuel_of(yaml::StrictMap& map) {
-  const state::FuelPlan usual;
+rules::FuelPlan fuel_of(yaml::StrictMap& map) {
+  const rules::FuelPlan usual;
   return {
       .attempt_laps = map.number_or("attempt_laps", usual.attempt_laps, 1.0, kLapsMax),
       .home_laps = map.number_or("home_laps", usual.home_laps, 0.0, kLapsMax),
       .reserve_l = map.number_or("reserve_l", usual.reserve_l, 0.0, kLitresMax),
-      .guess_l_per_lap = map.number_or("guess_l_per_lap", usual.guess_l_per_lap, 0.01, kLitresMax)};
+      .guess_l_per_lap = map.number_or("guess_l_per_lap", usual.guess_l_per_lap, 0.01, kLitresMax),
+      .spread = map.number_or("spread", usual.spread, 0.0, 1.0)};
 }
 
 state::TyreGate gate_of(yaml::StrictMap& map) {
@@ -187,14 +188,15 @@ Result<Judgement, Problem> read_judgement_file(const std::filesystem::path& path
 std::string judgement_text(const state::DeriveParams& params, const alarms::Limits& limits,
                            const alarms::AlarmSettings& alarms, std::uint64_t revision,
                            double up_kbit_s) {
-  const state::FuelPlan& fuel = params.fuel;
+  const rules::FuelPlan& fuel = params.fuel;
   std::string out =
       "version: 1\nrevision: " + std::to_string(revision) + "\n" +
       (std::isnan(up_kbit_s) ? "" : "radio: {up_kbit_s: " + json::number(up_kbit_s) + "}\n") +
       "fuel: {attempt_laps: " + json::number(fuel.attempt_laps) +
       ", home_laps: " + json::number(fuel.home_laps) +
       ", reserve_l: " + json::number(fuel.reserve_l) +
-      ", guess_l_per_lap: " + json::number(fuel.guess_l_per_lap) + "}\ntyre_gate:\n" +
+      ", guess_l_per_lap: " + json::number(fuel.guess_l_per_lap) +
+      ", spread: " + json::number(fuel.spread) + "}\ntyre_gate:\n" +
       row("speed_mps", params.tyres.speed_mps) + row("temperature_c", params.tyres.temperature_c);
   out += alarms.edits().empty() ? "alarms: []\n" : "alarms:\n";
   for (const alarms::AlarmEdit& edit : alarms.edits()) out += line(edit);

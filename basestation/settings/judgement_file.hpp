@@ -12,7 +12,7 @@
 //        author: A. Saba, reason: short track}
 //   limits:
 //     - {field: tyres.pressure_rear_left, warning_low: 150, author: A. Saba, reason: new tyres}
-//   fuel: {attempt_laps: 2, home_laps: 1, reserve_l: 2, guess_l_per_lap: 2.2}
+//   fuel: {attempt_laps: 2, home_laps: 1, reserve_l: 2, guess_l_per_lap: 2.2, spread: 0.13}
 //   revision: 12                      counts the changes
 //   radio: {up_kbit_s: 128}           as lowered by operators
 // SPDX-License-Identifier: Apache-2.0

@@ -41,6 +41,7 @@ struct Expectations {
   double round_speed_mps = kUnset;  // of the bracket that was announced
   double track_flag = kUnset;       // that the base relays, as telemetry::kTrackFlags
   double fuel_loaded_l = kUnset;    // in the tank when it was entered
+  double fuel_used_l = 0.0;         // of them, when the entry was restored
   std::uint64_t fuel_entries = 0;   // number of entries, also of the same litres
 };
 

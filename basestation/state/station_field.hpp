@@ -68,6 +68,8 @@ enum class BaseField : std::uint8_t {
   kGhostRadius,
   kFuelLevel,
   kFuelEstimated,
+  kFuelLeast,
+  kFuelLeastLaps,
   kRoundSpeedExpected,
   kInPit,
   kDiskMinutes,
@@ -96,7 +98,7 @@ enum class BaseField : std::uint8_t {
   kReplayedOpenings,
   kRelay
 };
-inline constexpr std::size_t kBaseFields = 72;
+inline constexpr std::size_t kBaseFields = 74;
 
 struct BaseRow {
   BaseField field;
@@ -164,6 +166,8 @@ inline constexpr auto kBaseTable = [] {
       {kGhostRadius, "derived", "ghost_radius", "m", 0, kMetres, 0.1},
       {kFuelLevel, "derived", "fuel_level", "l", 0, 200, 0.1},  // measured, otherwise estimated
       {kFuelEstimated, "derived", "fuel_estimated", "", 0, 1, 1, kNoYes},
+      {kFuelLeast, "derived", "fuel_least", "l", 0, 200, 0.1},  // at the highest consumption
+      {kFuelLeastLaps, "derived", "fuel_least_laps", "", 0, 1'000, 0.1},
       {kRoundSpeedExpected, "derived", "round_speed_expected", "m/s", 0, 102, 0.1},  // announced
       {kInPit, "derived", "in_pit", "", 0, 1, 1, kNoYes},
       {kDiskMinutes, "base", "disk_minutes", "min", 0, kLong_ms, 1},

@@ -71,9 +71,7 @@ Result<pipeline::Setup, Problem> load_car(scenario::Scenario& scenario,
 }
 
 Result<parameters::CarFile, Problem> read_car_file(const std::string& file) {
-  const auto text = transport::read_file(file);
-  if (!text) return Unexpected{text.error()};
-  return parameters::read_car(*text, file);
+  return parameters::load_car(file, file_reader());
 }
 
 // The run as another car has it.

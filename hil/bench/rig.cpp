@@ -49,7 +49,7 @@ Result<Rig, Problem> Rig::build(const scenario::Scenario& scenario, const world:
   Rig rig{track, *std::move(plan), *std::move(variant)};
   const world::TrackPoint at = track.offset(scenario.start.s_m, scenario.start.n_m);
   rig.perturb_ = scenario.perturb;
-  rig.plant_params_ = plant::perturbed(scenario.plant, scenario.perturb);
+  rig.plant_params_ = plant::plant_of(scenario);
   rig.plant_ = plant::standing(rig.plant_params_, at.x_m, at.y_m, at.yaw_rad);
   rig.plant_.tyre_c.fill(scenario.tyres.temperature_c);
   rig.road_ = plant::road_at(rig.plant_params_, track, rig.plant_);

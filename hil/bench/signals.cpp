@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "protocol/rules/fuel_use.hpp"
 #include "protocol/vocabulary/units.hpp"
 
 namespace pitwall::bench {
@@ -93,9 +94,16 @@ double cross_track_m(const Rig& rig, double line_offset_m) {
 world::Curvilinear place_of(const Rig& rig) { return {rig.road().s_m, rig.road().n_m}; }
 
 double line_offset_m(const pipeline::Setup& setup, const world::Curvilinear& car) {
-  if (setup.line.number == 0) return setup.params.planning.line.offset_m;
+  constexpr double kElsewhere_m = 2.0;  // further from its line than a car that races
   const world::TrackPoint at = setup.track.offset(car.s_m, car.n_m);
-  return car.n_m - setup.line.project(at.x_m, at.y_m).offset_m;
+  const double own_m = setup.line.number == 0
+                           ? setup.params.planning.line.offset_m
+                           : car.n_m - setup.line.project(at.x_m, at.y_m).offset_m;
+  if (!setup.pit || std::abs(car.n_m - own_m) < kElsewhere_m) return own_m;
+  const planning::LinePosition in_pit = setup.pit->line.project(at.x_m, at.y_m);
+  const bool is_there = planning::is_in_lane(*setup.pit, in_pit.s_m) &&
+                        std::abs(in_pit.offset_m) < std::abs(car.n_m - own_m);
+  return is_there ? car.n_m - in_pit.offset_m : own_m;
 }
 
 double wall_gap_m(const Rig& rig) {
@@ -121,6 +129,7 @@ SignalValues observe(const SignalSources& from) {
   set(v, Signal::kOffset, road.n_m);
   set(v, Signal::kAbsCrossTrack, std::abs(cross_track_m(from.rig, from.line_offset_m)));
   set(v, Signal::kOffPath, from.off_path_m);
+  set(v, Signal::kFuel, truth.fuel_kg / rules::kFuelDensity_kgpl);
   set(v, Signal::kWallGap, wall_gap_m(from.rig));
   set(v, Signal::kContact, road.contact ? 1.0 : 0.0);
   set(v, Signal::kFrictionUse, truth.friction_use);

@@ -61,9 +61,10 @@ enum class Signal : std::uint8_t {
   // 1: the car stopped for loss of its base, but the radio channel had no gap as long as the limit
   // of the car
   kRadioStopUnexplained,
-  kOffPath  // true position against the line, or in a stop against the stop path
+  kOffPath,  // true position against the line, or in a stop against the stop path
+  kFuel      // truly in the tank
 };
-inline constexpr std::size_t kSignals = 34;
+inline constexpr std::size_t kSignals = 35;
 
 inline constexpr std::array<std::string_view, kSignals> kSignalNames{"speed_mps",
                                                                      "station_m",
@@ -98,7 +99,8 @@ inline constexpr std::array<std::string_view, kSignals> kSignalNames{"speed_mps"
                                                                      "radio_gap_s",
                                                                      "radio_gap_max_s",
                                                                      "radio_stop_unexplained",
-                                                                     "off_path_m"};
+                                                                     "off_path_m",
+                                                                     "fuel_l"};
 
 // Reported state of the car. Values are NaN before the first report, and conditions then see 0.
 // silent: a car that reported before no longer does; its signals are NaN and meet no condition.

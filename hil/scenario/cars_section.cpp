@@ -96,6 +96,15 @@ traffic::DriftParams read_drift(yaml::StrictMap map) {
   return drift;
 }
 
+traffic::SpeedDrift read_speed_drift(yaml::StrictMap map) {
+  traffic::SpeedDrift drift;
+  drift.sigma_mps = map.number("sigma_mps", 0.001, 5.0);
+  drift.correlation_s = map.number_or("correlation_s", drift.correlation_s, 0.5, 1'000.0);
+  drift.most_mps = map.number("most_mps", drift.sigma_mps, 10.0);
+  map.finish();
+  return drift;
+}
+
 void read_size(yaml::StrictMap map, traffic::GhostPlan& plan) {
   plan.length_m = map.number("length_m", 1.0, 10.0);
   plan.width_m = map.number("width_m", 0.5, 4.0);
@@ -208,6 +217,7 @@ OtherCar read_car(yaml::StrictMap& map, std::uint64_t scenario_seed) {
   plan.speed = read_speed(map.map("speed"));
   if (auto limits = map.optional_map("limits")) plan.limits = read_limits(*limits);
   if (auto drift = map.optional_map("drift")) plan.drift = read_drift(*drift);
+  if (auto drift = map.optional_map("speed_drift")) plan.speed_drift = read_speed_drift(*drift);
   if (auto size = map.optional_map("size")) read_size(*size, plan);
   plan.seed = read_seed(map, scenario_seed, car.number);
   read_script(map, plan);

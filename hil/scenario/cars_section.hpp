@@ -9,9 +9,10 @@
 //              distance beside it
 //   speed      one of mps, lap_share (of the line's own lap), by_station (s_m and mps, rising)
 //   limits     accel_mps2, brake_mps2, lateral_mps2
-//   drift      sigma_m, correlation_s, most_m
+//   drift      of the offset: sigma_m, correlation_s, most_m
+//   speed_drift  sigma_mps, correlation_s, most_mps
 //   size       length_m, width_m
-//   seed       of the drift; without it derived from the seed of the scenario and the number
+//   seed       of both drifts; without it derived from the seed of the scenario and the number
 //   script     entries that fire in their order, each with one of at_s, at_station_m, gap_above_m,
 //              gap_below_m, and do: speed (speed), line (line, offset_m, over_s), brake
 //              (decel_mps2, to_mps), stand, spin (decel_mps2, turn_deg)

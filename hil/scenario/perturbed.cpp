@@ -2,6 +2,10 @@
 #include "hil/scenario/perturbed.hpp"
 
 #include <cmath>
+#include <cstdint>
+
+#include "protocol/rules/fuel_use.hpp"
+#include "protocol/vocabulary/random.hpp"
 
 namespace pitwall::plant {
 namespace {
@@ -13,7 +17,26 @@ plant::Tyre stiffened(plant::Tyre tyre, double factor) {
   return tyre;
 }
 
+// Of an own stream of the seed: what else is drawn does not change.
+double drawn(double spread, std::uint64_t seed) {
+  constexpr std::uint64_t kStream = 0xF7E1;
+  if (spread == 0.0) return 0.0;
+  return spread * (2.0 * Random{seed ^ kStream}.uniform() - 1.0);
+}
+
 }  // namespace
+
+plant::Params plant_of(const scenario::Scenario& scenario) {
+  scenario::Perturbations by = scenario.perturb;
+  by.consumption *= 1.0 + drawn(by.consumption_spread, scenario.seed);
+  plant::Fuel fuel = scenario.plant.fuel;
+  if (!std::isnan(scenario.start.fuel_l))
+    fuel.start_kg = scenario.start.fuel_l * rules::kFuelDensity_kgpl;
+  by.mass_kg += fuel.start_kg - scenario.plant.fuel.start_kg;
+  plant::Params p = perturbed(scenario.plant, by);
+  p.fuel.start_kg = fuel.start_kg;
+  return p;
+}
 
 plant::Params perturbed(const plant::Params& params, const scenario::Perturbations& by) {
   plant::Params p = params;
@@ -22,6 +45,7 @@ plant::Params perturbed(const plant::Params& params, const scenario::Perturbatio
   p.chassis.mass_kg = mass_kg;
   p.front = stiffened(p.front, by.tyre_stiffness);
   p.rear = stiffened(p.rear, by.tyre_stiffness);
+  p.fuel.efficiency /= by.consumption;
   p.steering.delay_s += by.steering_delay_s;
   p.engine.throttle_delay_s += by.throttle_delay_s;
   p.brakes.delay_s += by.brake_delay_s;

@@ -10,6 +10,7 @@
 //          friction   multiplies the friction of the road, so that it combines with a grip fault
 //          banking    added to that of the track, constant around the lap
 //          wind       steady, relative to the ground
+//          consumption  the fuel for the same work; drawn by the seed within its spread
 //          delays     added to those of the actuators, in front of their lags
 //   errors none: the scenario file checks the ranges
 // SPDX-License-Identifier: Apache-2.0
@@ -20,6 +21,9 @@
 #include "hil/scenario/scenario.hpp"
 
 namespace pitwall::plant {
+
+// The car of a scenario, with its tank as filled and its consumption as drawn.
+plant::Params plant_of(const scenario::Scenario& scenario);
 
 plant::Params perturbed(const plant::Params& params, const scenario::Perturbations& by);
 

@@ -101,6 +101,7 @@ Start read_start(yaml::StrictMap map) {
   start.s_m = map.number_or("s_m", 0.0, 0.0, 100'000.0);
   start.n_m = map.number_or("n_m", 0.0, -50.0, 50.0);
   start.speed_mps = map.number_or("speed_mps", 0.0, 0.0, 90.0);
+  if (map.has("fuel_l")) start.fuel_l = map.number("fuel_l", 0.2, 110.0);
   map.finish();
   return start;
 }
@@ -130,6 +131,9 @@ Perturbations read_perturbations(yaml::StrictMap map) {
   p.tyre_stiffness = map.number_or("tyre_stiffness", 1.0, 0.5, 2.0);
   p.friction = map.number_or("friction", 1.0, 0.2, 1.5);
   p.bank_error_rad = from_deg(map.number_or("bank_error_deg", 0.0, -5.0, 5.0));
+  p.detection_noise = map.number_or("detection_noise", 1.0, 0.2, 5.0);
+  p.consumption = map.number_or("consumption", 1.0, 0.5, 2.0);
+  p.consumption_spread = map.number_or("consumption_spread", 0.0, 0.0, 0.5);
   p.wind_mps = map.number_or("wind_mps", 0.0, 0.0, 40.0);
   p.wind_to_rad = from_deg(map.number_or("wind_to_deg", 0.0, -360.0, 360.0));
   if (map.has("wind_to_deg") && !map.has("wind_mps")) map.fail("wind_to_deg", "needs wind_mps too");

@@ -27,6 +27,7 @@ namespace pitwall::scenario {
 
 struct Start {
   double s_m = 0.0, n_m = 0.0, speed_mps = 0.0;
+  double fuel_l = kUnset;  // in the tank; unset: as the plant file has it
 };
 
 inline constexpr double kColdest_c = -20.0, kHottest_c = 150.0;  // tyre temperature
@@ -38,12 +39,16 @@ struct Tyres {
 // Differences between the modelled car and world and the parameters that the car uses. Neutral by
 // default. Effect of each on the plant: hil/scenario/perturbed.hpp.
 struct Perturbations {
-  double mass_kg = 0.0;         // added to the car's; [-300, 300]
-  double tyre_stiffness = 1.0;  // factor on the slip stiffness at the same friction; [0.5, 2]
-  double friction = 1.0;        // factor on every friction coefficient; [0.2, 1.5]
-  double bank_error_rad = 0.0;  // true banking less that of the track file; [-5, 5] deg
-  double wind_mps = 0.0;        // [0, 40]
-  double wind_to_rad = 0.0;     // direction it blows to, in Map, from east counter-clockwise
+  double mass_kg = 0.0;          // added to the car's; [-300, 300]
+  double tyre_stiffness = 1.0;   // factor on the slip stiffness at the same friction; [0.5, 2]
+  double friction = 1.0;         // factor on every friction coefficient; [0.2, 1.5]
+  double bank_error_rad = 0.0;   // true banking less that of the track file; [-5, 5] deg
+  double detection_noise = 1.0;  // on the noise of seen cars; [0.2, 5]
+  double consumption = 1.0;      // factor on the fuel for the same work; [0.5, 2]
+  // The factor is drawn anew by the seed, within so much of it; [0, 0.5].
+  double consumption_spread = 0.0;
+  double wind_mps = 0.0;     // [0, 40]
+  double wind_to_rad = 0.0;  // direction it blows to, in Map, from east counter-clockwise
   // Added to the delays of the actuators; [0, 0.5] s.
   double steering_delay_s = 0.0, throttle_delay_s = 0.0, brake_delay_s = 0.0, gear_delay_s = 0.0;
 };

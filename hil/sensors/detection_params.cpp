@@ -69,4 +69,17 @@ DetectionSensors av21_detection_sensors() {
   return all;
 }
 
+DetectionSensors with_noise(const DetectionSensors& sensors, double factor) {
+  DetectionSensors noisy = sensors;
+  for (DetectionSensor& s : noisy) {
+    for (RangeRow& row : s.lidar.position_sigma_m) row.value *= factor;
+    for (double* sigma :
+         {&s.lidar.yaw_sigma_rad, &s.lidar.length_sigma_m, &s.lidar.width_sigma_m,
+          &s.camera.bearing_sigma_rad, &s.camera.height_sigma_px, &s.radar.range_sigma_m,
+          &s.radar.bearing_sigma_rad, &s.radar.rate_sigma_mps})
+      *sigma *= factor;
+  }
+  return noisy;
+}
+
 }  // namespace pitwall::sensors

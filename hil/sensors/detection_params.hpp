@@ -80,4 +80,7 @@ using DetectionSensors = FixedVector<DetectionSensor, kDetectionSensorsMax>;
 // The car's three LiDARs as one detector, its front and its four wide cameras, its three radars.
 DetectionSensors av21_detection_sensors();
 
+// Every standard deviation times the factor.
+DetectionSensors with_noise(const DetectionSensors& sensors, double factor);
+
 }  // namespace pitwall::sensors

@@ -143,6 +143,18 @@ void follow_order(const Ghost& ghost, const world::TrackMap& track, const GhostO
   change_line(ghost, track.wrap_station(state.travelled_m), to, kLaneChange_s, state);
 }
 
+// The process of the lane drift, in m/s.
+DriftParams wander_of(const SpeedDrift& drift) {
+  return {
+      .sigma_m = drift.sigma_mps, .correlation_s = drift.correlation_s, .most_m = drift.most_mps};
+}
+
+// What the speed is off the wanted one; less below a walking pace, nothing for a car that shall stand.
+double strays_mps(const Ghost& ghost, const GhostState& state, double wanted_mps) {
+  const double share = std::min(wanted_mps / kWalkingPace_mps, 1.0);
+  return share * drift_at(wander_of(ghost.params.speed_drift), state.speed_drift).n_m;
+}
+
 double next_speed_mps(const Ghost& ghost, const world::TrackMap& track, const GhostState& state,
                       const std::optional<GhostOrder>& order, double dt_s) {
   const double v_mps = state.speed_mps;
@@ -151,7 +163,7 @@ double next_speed_mps(const Ghost& ghost, const world::TrackMap& track, const Gh
   const double ordered_mps =
       order ? order->speed_mps
             : ghost.speeds[state.speed].at(track.wrap_station(state.travelled_m));
-  const double wanted_mps = ordered_mps - v_mps;
+  const double wanted_mps = ordered_mps + strays_mps(ghost, state, ordered_mps) - v_mps;
   const GhostLimits& limits = ghost.params.limits;
   return v_mps + std::clamp(wanted_mps, -limits.brake_mps2 * dt_s, limits.accel_mps2 * dt_s);
 }
@@ -165,8 +177,9 @@ GhostState begin(const Ghost& ghost, const world::TrackMap& track, Instant now) 
   state.travelled_m = params.start_s_m;
   state.speed_mps = params.start_mps;
   state.change.from = state.change.to = params.joins ? 0 : 1;
-  constexpr std::uint64_t kDriftStream = 1;
+  constexpr std::uint64_t kDriftStream = 1, kSpeedStream = 2;
   state.drift.noise = sensors::Noise(params.seed, kDriftStream);
+  state.speed_drift.noise = sensors::Noise(params.seed, kSpeedStream);
   if (params.joins) change_line(ghost, params.start_s_m, 1, kJoining_s, state);
   state.pose = pose_of(ghost, track, state);
   state.pose.yaw_rate_rad_per_s = 0.0;
@@ -183,6 +196,7 @@ GhostState step(const Ghost& ghost, const world::TrackMap& track, const GhostSta
     follow_order(ghost, track, *order, next);
   else
     follow_script(ghost, track, around, next);
+  advance(wander_of(ghost.params.speed_drift), next.speed_drift, dt_s);
   const double speed_mps = next_speed_mps(ghost, track, next, order, dt_s);
   next.speed_mps = 0.5 * (next.speed_mps + speed_mps);
   const double way_m = next.speed_mps * dt_s;

@@ -54,6 +54,7 @@ struct GhostParams {
   bool joins = false;  // begins beside its line, with a change of line
   GhostLimits limits;
   DriftParams drift;
+  SpeedDrift speed_drift;
   FixedVector<ScriptEntry, kScriptMost> script;
   double length_m = kUnset, width_m = kUnset;
   std::uint64_t seed = 0;
@@ -87,7 +88,7 @@ struct GhostState {
   double travelled_m = 0.0;  // station, not wrapped
   double speed_mps = 0.0;
   LineChange change;
-  DriftState drift;
+  DriftState drift, speed_drift;
   std::size_t speed = 0;
   Action pace = Action::kSpeed;  // what decides about the speed: any but kLine
   double decel_mps2 = 0.0, to_mps = 0.0;

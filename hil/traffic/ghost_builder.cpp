@@ -29,7 +29,8 @@ class Builder {
   std::optional<Problem> add_start() {
     GhostParams& params = ghost_.params;
     params.start_s_m = plan_.start_s_m, params.start_mps = plan_.start_mps;
-    params.limits = plan_.limits, params.drift = plan_.drift;
+    params.limits = plan_.limits;
+    params.drift = plan_.drift, params.speed_drift = plan_.speed_drift;
     params.length_m = plan_.length_m, params.width_m = plan_.width_m;
     params.seed = plan_.seed;
     params.joins = plan_.start_n_m.has_value();

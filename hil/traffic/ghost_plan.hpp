@@ -35,6 +35,13 @@ struct GhostLimits {
   double lateral_mps2 = 4.0;  // of a change of line, and of the drift
 };
 
+// Slow wander of the speed about the one that is wanted, as lane_drift.hpp has it of the offset.
+struct SpeedDrift {
+  double sigma_mps = 0.0;  // 0: none
+  double correlation_s = 10.0;
+  double most_mps = 0.0;
+};
+
 // What an entry of the script waits for. The gap is the station of our car less that of the ghost,
 // of their centres: positive where our car is ahead.
 enum class Trigger : std::uint8_t { kTime, kStation, kGapAbove, kGapBelow };
@@ -65,6 +72,7 @@ struct GhostPlan {
   SpeedPlan speed;
   GhostLimits limits;
   DriftParams drift;
+  SpeedDrift speed_drift;
   std::vector<ScriptPlan> script;
   std::optional<LanePlan> lanes;  // of a ghost that takes orders
   double length_m = plant::Chassis{}.length_m, width_m = plant::Chassis{}.width_m;

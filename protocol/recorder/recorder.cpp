@@ -46,11 +46,16 @@ recording::Metadata program_metadata(const std::string& program) {
 
 void append_file(recording::Metadata& run, const std::string& key, const std::string& path) {
   if (path.empty()) return;
+  if (const auto text = transport::read_file(path)) return append_text(run, key, path, *text);
   run.emplace_back(key + "_file", path);
-  const auto text = transport::read_file(path);
-  if (!text) return;
+}
+
+void append_text(recording::Metadata& run, const std::string& key, const std::string& path,
+                 const std::string& text) {
+  if (path.empty()) return;
+  run.emplace_back(key + "_file", path);
   bits::Sha256 hash;
-  hash.update(as_bytes(*text));
+  hash.update(as_bytes(text));
   run.emplace_back(key + "_sha256", bits::to_hex(hash.digest()));
 }
 

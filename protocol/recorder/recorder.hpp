@@ -81,9 +81,11 @@ class Recorder {
 };
 
 // Metadata of the writing program: program, revision, schema; and of a file it was started with:
-// name and, if it can be read, SHA-256.
+// name and, if it can be read, SHA-256; or that of the text that was read from it.
 recording::Metadata program_metadata(const std::string& program);
 void append_file(recording::Metadata& run, const std::string& key, const std::string& path);
+void append_text(recording::Metadata& run, const std::string& key, const std::string& path,
+                 const std::string& text);
 // The clock of this process and machine.
 ClockMap clock_now();
 // {"type":"recorder",...}

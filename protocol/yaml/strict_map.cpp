@@ -16,6 +16,21 @@
 #include "protocol/vocabulary/text.hpp"
 
 namespace pitwall::yaml {
+
+// The same mapping in another document.
+struct Layer {
+  YAML::Node node;
+  std::string name;
+};
+
+struct Entry {
+  std::string key;
+  YAML::Node key_node, value;
+  std::string name;            // of the document that it stands in
+  std::vector<Layer> below{};  // in the documents below, the nearest first
+  bool asked = false;
+};
+
 namespace {
 
 constexpr const char* kPlainTag = "?";  // yaml-cpp's tag of an unquoted scalar without a tag
@@ -91,12 +106,56 @@ std::optional<YAML::Mark> second_document(const std::string& text) {
   return start.mark;
 }
 
+std::vector<Entry> entries_of(const Layer& layer) {
+  std::vector<Entry> entries;
+  std::set<std::string> seen;
+  for (const auto& pair : layer.node) {
+    const std::string at = place_of(layer.name, pair.first.Mark());
+    if (!pair.first.IsScalar()) throw InputError({at, "a key must be a plain text"});
+    const std::string& text = pair.first.Scalar();
+    if (!seen.insert(text).second) throw InputError({at, "duplicate key \"" + text + "\""});
+    entries.push_back({text, pair.first, pair.second, layer.name});
+  }
+  return entries;
+}
+
+// Adds what only the lower document has. Where both have a mapping the lower one lies below it.
+void lay_under(std::vector<Entry>& entries, const Layer& lower) {
+  const std::size_t own = entries.size();
+  for (Entry& entry : entries_of(lower)) {
+    const auto end = entries.begin() + static_cast<std::ptrdiff_t>(own);
+    const auto same = [&](const Entry& e) { return e.key == entry.key; };
+    const auto at = std::find_if(entries.begin(), end, same);
+    if (at == end)
+      entries.push_back(std::move(entry));
+    else
+      at->below.push_back({entry.value, entry.name});
+  }
+}
+
+// A key that takes away those below it.
+bool takes_away(const Entry& entry) { return entry.value.IsNull() && !entry.below.empty(); }
+
+std::vector<Entry> laid_over(const Layer& top, const std::vector<Layer>& below) {
+  std::vector<Entry> all = entries_of(top);
+  for (const Layer& lower : below) {
+    if (!lower.node.IsMap()) break;
+    lay_under(all, lower);
+  }
+  // A new list: the assignment of a YAML::Node would write into its document.
+  std::vector<Entry> kept;
+  for (Entry& entry : all)
+    if (!takes_away(entry)) kept.push_back(std::move(entry));
+  return kept;
+}
+
 }  // namespace
 
 struct StrictMap::Value {
   YAML::Node node;
   std::string name;
   std::string key;
+  std::vector<Layer> below{};  // the same key in the documents below, the nearest first
 
   std::string place() const { return place_of(name, node.Mark()); }
   [[noreturn]] void refuse(const std::string& what) const { throw InputError({place(), what}); }
@@ -137,12 +196,6 @@ struct StrictMap::Value {
 };
 
 struct StrictMap::State {
-  struct Entry {
-    std::string key;
-    YAML::Node key_node, value;
-    bool asked = false;
-  };
-  std::string name;
   std::string place;
   std::vector<Entry> entries;
   std::vector<std::shared_ptr<State>> below;
@@ -160,16 +213,8 @@ struct StrictMap::State {
 StrictMap StrictMap::of_value(const Value& value, const std::string& key) {
   if (!value.node.IsMap()) value.refuse(key + ": expected a mapping, found " + kind_of(value.node));
   auto state = std::make_shared<State>();
-  state->name = value.name;
   state->place = value.place();
-  std::set<std::string> seen;
-  for (const auto& pair : value.node) {
-    const std::string at = place_of(value.name, pair.first.Mark());
-    if (!pair.first.IsScalar()) throw InputError({at, "a key must be a plain text"});
-    const std::string& text = pair.first.Scalar();
-    if (!seen.insert(text).second) throw InputError({at, "duplicate key \"" + text + "\""});
-    state->entries.push_back({text, pair.first, pair.second});
-  }
+  state->entries = laid_over({value.node, value.name}, value.below);
   return StrictMap{std::move(state)};
 }
 
@@ -180,10 +225,10 @@ StrictMap StrictMap::below(const Value& value, const std::string& key) {
 }
 
 StrictMap::Value StrictMap::ask(const std::string& key) {
-  State::Entry* entry = state_->find(key);
+  Entry* entry = state_->find(key);
   if (entry == nullptr) throw InputError({state_->place, "missing key \"" + key + "\""});
   entry->asked = true;
-  return {entry->value, state_->name, key};
+  return {entry->value, entry->name, key, entry->below};
 }
 
 std::vector<StrictMap::Value> StrictMap::ask_list(const std::string& key, std::size_t count_min,
@@ -267,13 +312,13 @@ bool StrictMap::has(const std::string& key) const {
 
 std::vector<std::string> StrictMap::keys() const {
   std::vector<std::string> out;
-  for (const State::Entry& e : state_->entries) out.push_back(e.key);
+  for (const Entry& e : state_->entries) out.push_back(e.key);
   return out;
 }
 
 std::string StrictMap::place(const std::string& key) const {
-  const State::Entry* entry = static_cast<const State&>(*state_).find(key);
-  return entry == nullptr ? state_->place : place_of(state_->name, entry->value.Mark());
+  const Entry* entry = static_cast<const State&>(*state_).find(key);
+  return entry == nullptr ? state_->place : place_of(entry->name, entry->value.Mark());
 }
 
 std::string StrictMap::place() const { return state_->place; }
@@ -283,10 +328,9 @@ void StrictMap::fail(const std::string& key, const std::string& what) const {
 }
 
 void StrictMap::finish() const {
-  for (const State::Entry& e : state_->entries) {
+  for (const Entry& e : state_->entries) {
     if (!e.asked) {
-      throw InputError(
-          {place_of(state_->name, e.key_node.Mark()), "unknown key \"" + e.key + "\""});
+      throw InputError({place_of(e.name, e.key_node.Mark()), "unknown key \"" + e.key + "\""});
     }
   }
   for (const auto& child : state_->below) StrictMap{child}.finish();
@@ -294,10 +338,22 @@ void StrictMap::finish() const {
 
 struct Document::Content {
   YAML::Node root;
+  std::vector<Layer> below{};
 };
 
 StrictMap Document::root() const {
-  return StrictMap::of_value({content_->root, name_, "the document"}, "the document");
+  return StrictMap::of_value({content_->root, name_, "the document", content_->below},
+                             "the document");
+}
+
+Document Document::over(const Document& lower) const {
+  Content content = *content_;
+  content.below.push_back({lower.content_->root, lower.name_});
+  const std::vector<Layer>& more = lower.content_->below;
+  content.below.insert(content.below.end(), more.begin(), more.end());
+  Document both = *this;
+  both.content_ = std::make_shared<const Content>(std::move(content));
+  return both;
 }
 
 Result<Document, Problem> load_text(std::string_view text, const std::string& name) {

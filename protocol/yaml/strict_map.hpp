@@ -86,6 +86,10 @@ class Document {
   const std::string& name() const { return name_; }
   // New reader of the root, with no key read yet.
   StrictMap root() const;
+  // This document laid over another one, key by key, in mappings within mappings too: what it lacks
+  // is the lower one's, and `~` takes a key of the lower one away. A list or a value replaces that
+  // below it. Every error names the document that the key stands in.
+  Document over(const Document& lower) const;
 
  private:
   friend Result<Document, Problem> load_text(std::string_view text, const std::string& name);

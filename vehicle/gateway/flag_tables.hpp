@@ -89,39 +89,6 @@ constexpr world::VehicleFlag vehicle_meaning(world::FlagEncoding encoding, std::
   return world::VehicleFlag::kUnknown;
 }
 
-// From the most to the least restrictive, with every enumerator once. Unknown ranks with stop.
-inline constexpr std::array kTrackByRestriction{
-    world::TrackFlag::kUnknown,   world::TrackFlag::kRed,        world::TrackFlag::kOrange,
-    world::TrackFlag::kChequered, world::TrackFlag::kYellow,     world::TrackFlag::kNone,
-    world::TrackFlag::kGreen,     world::TrackFlag::kWavingGreen};
-
-inline constexpr std::array kVehicleByRestriction{world::VehicleFlag::kPurpleEmergency,
-                                                  world::VehicleFlag::kEngineKill,
-                                                  world::VehicleFlag::kUnknown,
-                                                  world::VehicleFlag::kStop,
-                                                  world::VehicleFlag::kOrangeStartEngine,
-                                                  world::VehicleFlag::kBlackPitIn,
-                                                  world::VehicleFlag::kChequered,
-                                                  world::VehicleFlag::kYellow,
-                                                  world::VehicleFlag::kBlue,
-                                                  world::VehicleFlag::kNone,
-                                                  world::VehicleFlag::kDefender,
-                                                  world::VehicleFlag::kAttacker};
-
-// Returns the flag that comes first in `order`.
-template <class Flag, std::size_t N>
-constexpr Flag first_of(const std::array<Flag, N>& order, Flag a, Flag b) {
-  for (const Flag flag : order)
-    if (flag == a || flag == b) return flag;
-  return order[0];
-}
-constexpr world::TrackFlag more_restrictive(world::TrackFlag a, world::TrackFlag b) {
-  return first_of(kTrackByRestriction, a, b);
-}
-constexpr world::VehicleFlag more_restrictive(world::VehicleFlag a, world::VehicleFlag b) {
-  return first_of(kVehicleByRestriction, a, b);
-}
-
 static_assert(track_meaning(world::FlagEncoding::kMyLaps, 1).flag == world::TrackFlag::kRed);
 static_assert(track_meaning(world::FlagEncoding::kMarelli, 1).flag == world::TrackFlag::kGreen);
 

@@ -181,6 +181,25 @@ void watch_frozen(const InboundParams& params, InboundState& state, Instant now)
   if (state.frozen.any()) state.seen.add(Monitor::kFrozenSignal);
 }
 
+// Whether two sources ask different things. Each has its own way to say one and the same: a stop is
+// a red track in one encoding and a vehicle flag in the other.
+bool contradict(const FlagSource& a, const FlagSource& b) {
+  using world::TrackFlag;
+  using world::VehicleFlag;
+  const auto has_flags = [](const FlagSource& s) {
+    return s.received && (s.track != TrackFlag::kNone || s.vehicle != VehicleFlag::kNone);
+  };
+  const auto role = [](VehicleFlag flag) {
+    return flag == VehicleFlag::kAttacker || flag == VehicleFlag::kDefender;
+  };
+  if (!has_flags(a) || !has_flags(b)) return false;
+  const world::FlagDemand demand = world::demand_of(a.track, a.vehicle);
+  if (demand != world::demand_of(b.track, b.vehicle)) return true;
+  const bool waves = (a.track == TrackFlag::kWavingGreen) != (b.track == TrackFlag::kWavingGreen);
+  const bool roles = role(a.vehicle) && role(b.vehicle) && a.vehicle != b.vehicle;
+  return (demand == world::FlagDemand::kRace && waves) || roles;
+}
+
 // Silence of the other source never lifts its flag, and "none" of it is no statement: it can make
 // the car slower only.
 world::RaceControl merge(const FlagSource& main, const FlagSource& other,
@@ -188,10 +207,11 @@ world::RaceControl merge(const FlagSource& main, const FlagSource& other,
   using world::TrackFlag;
   using world::VehicleFlag;
   world::RaceControl rc;
-  rc.track =
-      other.track == TrackFlag::kNone ? main.track : more_restrictive(main.track, other.track);
-  rc.vehicle = other.vehicle == VehicleFlag::kNone ? main.vehicle
-                                                   : more_restrictive(main.vehicle, other.vehicle);
+  rc.track = other.track == TrackFlag::kNone ? main.track
+                                             : world::more_restrictive(main.track, other.track);
+  rc.vehicle = other.vehicle == VehicleFlag::kNone
+                   ? main.vehicle
+                   : world::more_restrictive(main.vehicle, other.vehicle);
   rc.round_target_speed_mps = std::fmin(main.round_target_speed_mps, other.round_target_speed_mps);
   rc.raw_track = main.raw_track;
   rc.raw_vehicle = main.raw_vehicle;
@@ -203,10 +223,7 @@ world::RaceControl merge(const FlagSource& main, const FlagSource& other,
   rc.other_raw_track = other.raw_track;
   rc.other_raw_vehicle = other.raw_vehicle;
   rc.other_raw_sector = other.raw_sector;
-  const auto differ = [](auto a, auto b, auto none) { return a != none && b != none && a != b; };
-  rc.conflict = main.received && other.received &&
-                (differ(main.track, other.track, TrackFlag::kNone) ||
-                 differ(main.vehicle, other.vehicle, VehicleFlag::kNone));
+  rc.conflict = contradict(main, other);
   return rc;
 }
 

@@ -140,9 +140,8 @@ int run(int argc, const char* const* argv) {
   if (const auto clock = transport::use_clock(args.clock); !clock) return refuse(clock.error());
   auto stop = transport::StopSignal::install();
   if (!stop) return refuse(stop.error());
-  const auto text = transport::read_file(args.car_file);
-  if (!text) return refuse(text.error());
-  const auto car = parameters::read_car(*text, args.car_file);
+  const auto car = parameters::load_car(
+      args.car_file, [](const std::string& path) { return transport::read_file(path); });
   if (!car) return refuse(car.error());
   if (args.check) return 0;
   auto guardian_io = GuardianIo::open(args, car->params.receivers);

@@ -16,7 +16,7 @@ Result<BlackBox, Problem> BlackBox::open(const std::string& folder, const BlackB
   BlackBox box;
   if (folder.empty()) return box;
   recording::Metadata run = recorder::program_metadata("pitwall-vehicle");
-  recorder::append_file(run, "car", files.car);
+  recorder::append_text(run, "car", files.car, files.car_text);
   recorder::append_file(run, "track", files.track);
   if (!files.bank.empty()) recorder::append_file(run, "bank", files.bank);
   run.emplace_back(kBaseKey, no_base ? kNoBase : "watched");

@@ -30,7 +30,9 @@ namespace pitwall::io {
 
 // What the car was set up from.
 struct BlackBoxFiles {
-  std::string car = {}, track = {}, bank = {};  // no bank: empty
+  std::string car = {};
+  std::string car_text = {};          // with that of the files that it is like
+  std::string track = {}, bank = {};  // no bank: empty
 };
 
 class BlackBox {

@@ -40,6 +40,7 @@ void read_bicycle(yaml::StrictMap map, pipeline::CarParams& car) {
 
 CarFile read_root(yaml::StrictMap& map) {
   CarFile car;
+  if (map.has(kLikeKey)) map.text(kLikeKey);  // read_layers() has followed it
   if (map.integer("schema", 0, 1000) != kSchema) map.fail("schema", "this program reads schema 1");
   car.name = map.text("name");
   car.database = map.text("database");
@@ -51,6 +52,10 @@ CarFile read_root(yaml::StrictMap& map) {
   car.params.localization = read_localization(map.map("localization"), car.params.receivers);
   if (map.has("tracking")) car.params.tracking = read_tracking(map.map("tracking"));
   car.params.planning = read_planning(map.map("planning"));
+  if (map.has("fuel")) {
+    yaml::StrictMap fuel = map.map("fuel");
+    read_given_ranges(fuel, pipeline::kFuelRanges, car.params.fuel);
+  }
   car.params.control = read_control(map.map("control"));
   read_safety(map.map("safety"), car.params);
   read_radio(map.map("radio"), car.params);
@@ -77,12 +82,19 @@ CarFile read_root(yaml::StrictMap& map) {
 
 }  // namespace
 
-Result<CarFile, Problem> read_car(const std::string& text, const std::string& name) {
-  const auto document = yaml::load_text(text, name);
-  if (!document) return Unexpected{document.error()};
-  auto car = yaml::read(*document, read_root);
-  if (car) car->source = name;
+Result<CarFile, Problem> load_car(const std::string& path, const ReadFile& read_file) {
+  const auto layers = read_layers(path, read_file);
+  if (!layers) return Unexpected{layers.error()};
+  auto car = yaml::read(layers->document, read_root);
+  if (car) car->source = path, car->text = whole_text(*layers);
   return car;
+}
+
+Result<CarFile, Problem> read_car(const std::string& text, const std::string& name) {
+  return load_car(name, [&](const std::string& path) -> Result<std::string, Problem> {
+    if (path != name) return refuse(path, "is not read here");
+    return text;
+  });
 }
 
 }  // namespace pitwall::parameters

@@ -8,7 +8,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <functional>
 #include <optional>
 #include <string>
 
@@ -22,8 +21,6 @@
 #include "vehicle/world/track_map.hpp"
 
 namespace pitwall::parameters {
-
-using ReadFile = std::function<Result<std::string, Problem>(const std::string& path)>;
 
 Result<pipeline::Setup, Problem> set_up(const CarFile& car, const world::TrackDescription& track,
                                         const ReadFile& read_file);

@@ -86,7 +86,7 @@ std::string parameter_table() {
          lines_of("gateway.handshake", gateway::kHandshakeTimes) +
          lines_of("gateway.handshake", gateway::kHandshakeRanges) +
          lines_of("gateway.outbound", gateway::kOutboundRanges) +
-         lines_of("bicycle", steering::kBicycleRanges) +
+         lines_of("fuel", pipeline::kFuelRanges) + lines_of("bicycle", steering::kBicycleRanges) +
          lines_of("bicycle", control::kBicycleRanges) +
          lines_of("steering", steering::kLearningRanges) + lines_of("steering", steering::kRanges) +
          autonomy_lines() + safety_lines();

@@ -28,6 +28,7 @@ world::PitLane read_pit(yaml::StrictMap& m) {
       .offset_m = m.number("offset_m", -kWidthMax_m, kWidthMax_m),
       .width_m = m.number("width_m", 0.0, kWidthMax_m),
       .speed_limit_mps = m.number("speed_limit_mps", 0.0, kSpeedMax_mps),
+      .box_s_m = m.number_or("box_s_m", kUnset, 0.0, kLengthMax_m),
   };
 }
 

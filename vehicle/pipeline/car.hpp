@@ -6,6 +6,7 @@
 #include <optional>
 #include <type_traits>
 
+#include "protocol/rules/fuel.hpp"
 #include "protocol/vocabulary/time.hpp"
 #include "protocol/vocabulary/units.hpp"
 #include "vehicle/autonomy/control/control.hpp"
@@ -49,6 +50,7 @@ struct Car {
   safety::WatchdogState watchdog;
   safety::BusGuardState bus_guard;
   OperatorOrders orders;
+  rules::FuelEstimator fuel;
   safety::LinkLossState link_loss;
   safety::SupervisorState supervisor;
   safety::GateState gate;

@@ -100,6 +100,10 @@ void OrderHandler::take(const OperatorCommand& command) {
     }
     case OperatorCommandKind::kSensorsExcluded:
       return exclude(command);
+    case OperatorCommandKind::kFuelEntered:
+      if (!(command.argument >= 0.0)) return answer(command, CommandAnswer::kRefused);
+      orders.fuel_entered_l = command.argument;
+      return answer(command, CommandAnswer::kApplied);
     case OperatorCommandKind::kRaceLine:
     case OperatorCommandKind::kRole:
     case OperatorCommandKind::kEndRun:
@@ -107,29 +111,6 @@ void OrderHandler::take(const OperatorCommand& command) {
       break;  // this car drives one line, alone; the rest is for the I/O
   }
   answer(command, CommandAnswer::kUnsupported);
-}
-
-// By how little a flag allows; what nobody has said or nobody knows allows nothing.
-int severity(TrackFlag flag) {
-  switch (flag) {
-    case TrackFlag::kGreen:
-      return 0;
-    case TrackFlag::kWavingGreen:
-      return 1;
-    case TrackFlag::kYellow:
-      return 2;
-    case TrackFlag::kChequered:
-      return 3;
-    case TrackFlag::kOrange:
-      return 4;
-    case TrackFlag::kNone:
-      return 5;
-    case TrackFlag::kUnknown:
-      return 6;
-    case TrackFlag::kRed:
-      break;
-  }
-  return 7;
 }
 
 }  // namespace
@@ -140,6 +121,7 @@ safety::OperatorRequests execute(OperatorOrders& orders, const OrderInputs& inpu
   handler.give_what_was_let_go();
   if (inputs.switches.arm && !orders.switch_was) orders.arm.reset();
   orders.switch_was = inputs.switches.arm;
+  orders.fuel_entered_l = kUnset;
   for (const OperatorCommand& command : inputs.commands) handler.take(command);
 
   safety::OperatorRequests requests = inputs.switches;
@@ -176,10 +158,17 @@ bool enough_to_drive(world::SensorUse use) {
 
 double lower_limit_mps(double a_mps, double b_mps) { return std::fmin(a_mps, b_mps); }
 
-world::RaceControl stricter(const world::RaceControl& received, TrackFlag of_base) {
+world::RaceControl acted_on(const world::RaceControl& received, TrackFlag of_base,
+                            double speed_max_mps) {
   world::RaceControl out = received;
-  if (of_base != TrackFlag::kNone && severity(of_base) > severity(received.track))
-    out.track = of_base;
+  if (of_base != TrackFlag::kNone) {
+    out.track = world::more_restrictive(of_base, received.track);
+    out.conflict = out.conflict || of_base != received.track;
+  }
+  if (received.round_target_speed_mps > speed_max_mps) {
+    out.round_target_speed_mps = speed_max_mps;
+    out.refused_speed_mps = received.round_target_speed_mps;
+  }
   return out;
 }
 

@@ -41,6 +41,7 @@ struct OperatorOrders {
   std::optional<bool> arm_before;  // value of `arm` before `arming`
   bool close_next = false;         // the request is withdrawn in this tick, set in the next
   double speed_limit_mps = kUnset;
+  double fuel_entered_l = kUnset;                   // in this tick
   world::SensorUse use;                             // until another set is commanded
   world::TrackFlag flag = world::TrackFlag::kNone;  // kNone: no flag from the base
 };
@@ -69,7 +70,9 @@ void conclude(OperatorOrders& orders, world::Mode before, const safety::Supervis
 bool enough_to_drive(world::SensorUse use);
 // The lower limit; NaN means no limit.
 double lower_limit_mps(double a_mps, double b_mps);
-// Race control as the car acts on it: the flag of the base can only make it more restrictive.
-world::RaceControl stricter(const world::RaceControl& received, world::TrackFlag of_base);
+// Race control as the car acts on it: the flag of the base can only make it more restrictive, and
+// no round speed lets the car drive faster than its file.
+world::RaceControl acted_on(const world::RaceControl& received, world::TrackFlag of_base,
+                            double speed_max_mps);
 
 }  // namespace pitwall::pipeline

@@ -47,6 +47,8 @@ std::optional<OperatorCommandKind> kind_of(CommandType type) {
       return OperatorCommandKind::kTrackFlag;
     case CommandType::kSensorsExcluded:
       return OperatorCommandKind::kSensorsExcluded;
+    case CommandType::kFuelEntered:
+      return OperatorCommandKind::kFuelEntered;
     case CommandType::kEndRun:
       return OperatorCommandKind::kEndRun;
     case CommandType::kSendParameters:

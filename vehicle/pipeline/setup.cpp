@@ -98,13 +98,16 @@ Result<Setup, Problem> prepare(const CarParams& params, const world::TrackDescri
   if (!line) return Unexpected{line.error()};
   auto others = planning::prepare_others(params.planning, *map, bank, steering_of(params));
   if (!others) return Unexpected{others.error()};
+  auto pit = planning::pit_line(*map, params.planning.line, *line, steering_of(params));
+  if (!pit) return Unexpected{pit.error()};
   auto gains = control::prepare(params.control);
   if (!gains) return Unexpected{gains.error()};
   if (auto problem = refused_by_gate(params)) return Unexpected{*problem};
   CarParams checked = params;
   checked.localization = *localization;
-  return Setup{checked, *std::move(map),  *datum, *std::move(line), *std::move(others),
-               *gains,  angles_of(params)};
+  return Setup{checked,          *std::move(map),    *datum,
+               *std::move(line), *std::move(others), *std::move(pit),
+               *gains,           angles_of(params)};
 }
 
 }  // namespace pitwall::pipeline

@@ -13,6 +13,7 @@
 #include <optional>
 #include <vector>
 
+#include "protocol/rules/fuel.hpp"
 #include "protocol/vocabulary/fixed_vector.hpp"
 #include "protocol/vocabulary/result.hpp"
 #include "protocol/vocabulary/time.hpp"
@@ -68,6 +69,7 @@ struct CarParams {
   localization::Params localization;
   tracking::Params tracking;
   planning::Params planning;
+  rules::FuelPlan fuel;
   control::Params control;
   safety::WatchdogParams watchdog;
   safety::BusGuardParams bus_guard;
@@ -75,6 +77,14 @@ struct CarParams {
   safety::GateParams gate;
   RadioParams radio;
 };
+
+inline constexpr auto kFuelRanges = std::to_array<world::NamedRange<rules::FuelPlan>>({
+    {"attempt_laps", &rules::FuelPlan::attempt_laps, 1.0, 20.0},
+    {"home_laps", &rules::FuelPlan::home_laps, 0.5, 20.0},
+    {"reserve_l", &rules::FuelPlan::reserve_l, 0.0, 100.0},
+    {"guess_l_per_lap", &rules::FuelPlan::guess_l_per_lap, 0.1, 100.0},
+    {"spread", &rules::FuelPlan::spread, 0.0, 1.0},
+});
 
 inline constexpr auto kCarRanges = std::to_array<world::NamedRange<CarParams>>({
     {"width_m", &CarParams::width_m, 1.0, 3.0},
@@ -86,6 +96,7 @@ struct Setup {
   localization::Datum datum;
   planning::Line line;
   std::vector<planning::Line> other_lines;  // to pass on
+  std::optional<planning::PitLine> pit;
   control::LateralGains gains;
   steering::AngleLimits angles{};  // limits of the frame gate, at the road wheel
 };

@@ -72,9 +72,11 @@ void plan_when_due(const Setup& setup, Car& car, const Outputs& out, const Input
                       .race_control = out.race_control,
                       .operator_speed_limit_mps = out.speed_limit_mps,
                       .followed = followed(car),
+                      .fuel = car.fuel.left(setup.params.fuel).state,
                       .tyre_c = world::coldest_c(out.received.signals.tyre_temperature_c, in.now),
                       .steering = &angles,
                       .other_lines = setup.other_lines,
+                      .pit = setup.pit ? &*setup.pit : nullptr,
                       .cars = &out.opponents},
                      in.now);
   const bool good = !plan.output.drive.points.empty() && !plan.output.stop.points.empty();
@@ -193,7 +195,7 @@ void apply_guardian(Car& car, const GuardianView& guardian, Instant now) {
 
 // Inputs of the operator, before anything is decided. The limit of the link-loss policy is that of
 // the tick before: the watchdog judges after planning.
-void apply_operator(Car& car, const Inputs& in, Outputs& out) {
+void apply_operator(const Setup& setup, Car& car, const Inputs& in, Outputs& out) {
   out.requests = execute(car.orders,
                          {.switches = in.requests,
                           .operator_inputs = in.operator_inputs,
@@ -203,10 +205,21 @@ void apply_operator(Car& car, const Inputs& in, Outputs& out) {
                           .stands = car.supervisor.standing,
                           .now = in.now},
                          out.answers);
-  out.race_control = stricter(out.received.race_control, car.orders.flag);
+  car.fuel.enter(car.orders.fuel_entered_l);
+  out.race_control = acted_on(out.received.race_control, car.orders.flag,
+                              setup.params.planning.line.speed_max_mps);
   out.speed_limit_mps =
       lower_limit_mps(lower_limit_mps(in.operator_speed_limit_mps, car.orders.speed_limit_mps),
                       car.link_loss.speed_limit_mps);
+}
+
+void follow_fuel(Car& car, const gateway::InboundOutput& received) {
+  const auto& engine = received.signals.powertrain;
+  if (!engine.received) return;
+  car.fuel.receive_engine({.speed_rpm = engine.value.engine_speed_rpm,
+                           .throttle = engine.value.throttle_fraction,
+                           .running = engine.value.engine_running},
+                          engine.at, received.race_control.lap_count);
 }
 
 void encode_commands(const Setup& setup, Car& car, const Inputs& in, Outputs& out) {
@@ -243,7 +256,8 @@ Outputs step(const Setup& setup, Car& car, const Inputs& in) {
   out.received.bus.identity = gateway::identify(p.identity, car.identity, in.can, armed, in.now);
   gateway::observe_link(car.inbound, out.received.bus, in.link, in.now);
 
-  apply_operator(car, in, out);
+  apply_operator(setup, car, in, out);
+  follow_fuel(car, out.received);
   const auto located =
       localization::step(p.localization, setup.datum, car.localization, in.sensors,
                          out.received.signals, car.surroundings, car.orders.use, in.now);

@@ -33,8 +33,7 @@ static_assert(telemetry::label_at(telemetry::kLinkLossLevels,
                                   static_cast<std::size_t>(safety::LinkLossLevel::kStop)) ==
               "controlled stop");
 static_assert(telemetry::label_at(telemetry::kSpeedReasons,
-                                  static_cast<std::size_t>(planning::Reason::kCarAhead)) ==
-              "car ahead");
+                                  static_cast<std::size_t>(planning::Reason::kBox)) == "box");
 static_assert(telemetry::kFields[field("planner.line")].max == planning::kLinesMost);
 
 template <class E>
@@ -237,6 +236,14 @@ void put_rival(telemetry::Snapshot& snapshot, const world::Received<world::Rival
   snapshot.at(Group::kRival) = rival.at;
 }
 
+// Of a car whose operator has entered what is in the tank.
+void put_fuel(telemetry::Snapshot& snapshot, const TelemetryInputs& in) {
+  const rules::FuelLeft fuel = in.car.fuel.left(in.setup.params.fuel);
+  if (fuel.state == rules::FuelState::kUnknown) return;
+  snapshot.values[field("fuel.laps_left")] = fuel.least_laps;
+  snapshot.at(Group::kFuel) = in.now;
+}
+
 void put_uplink(telemetry::Snapshot& snapshot, const TelemetryInputs& in) {
   const IoCounters::Uplink& up = in.io.uplink;
   if (!up.known) return;
@@ -290,6 +297,7 @@ telemetry::Snapshot map_telemetry(const TelemetryInputs& in) {
   put_health(v, s);
   put_dynamics(v, in);
   put_plan(v, in);
+  put_fuel(snapshot, in);
   put_uplink(snapshot, in);
   put_rival(snapshot, s.rival);
   v[field("track.last_lap_time")] = in.log.last_lap_s();

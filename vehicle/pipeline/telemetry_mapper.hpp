@@ -5,9 +5,9 @@
 //   invariants
 //          a field with an unknown value is NaN; a group that was never sampled has no time, and
 //          the radio never sends it
-//   unset  fields that no part of this car provides yet: suspension, tread, fuel, steering_unit and
-//          brakes (the gateway does not decode those messages); torque, oil and traction of
-//          powertrain; cost of planner
+//   unset  fields that no part of this car provides yet: suspension, tread, steering_unit and
+//          brakes (the gateway does not decode those messages); of fuel all but the laps left;
+//          torque, oil and traction of powertrain; cost of planner
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

@@ -106,9 +106,8 @@ int run(const Arguments& args) {
   if (!description) return refuse(description.error());
   const auto map = world::TrackMap::build(*description);
   if (!map) return refuse(map.error());
-  const auto car_text = transport::read_file(args.car_file);
-  if (!car_text) return refuse(car_text.error());
-  const auto car = parameters::read_car(*car_text, args.car_file);
+  const auto car = parameters::load_car(
+      args.car_file, [](const std::string& path) { return transport::read_file(path); });
   if (!car) return refuse(car.error());
   const envelope::EnvelopeTable table{pipeline::envelope_of(car->params, *map, args.tyre_c)};
   const raceline::CarLimits limits = parameters::limits_of(car->params, table);

@@ -67,13 +67,14 @@ enum class Cause : std::uint8_t {
   // message only
   kFrontLock,
   kFlagsDisagree,
+  kRoundSpeedTooHigh,
   kTicksMissed,
   kProcessorBusy,
   kClockStepped,
   kClockSkewed,
   kGnssDegraded
 };
-inline constexpr std::size_t kCauses = 53;
+inline constexpr std::size_t kCauses = 54;
 
 // In rising order of severity.
 enum class Reaction : std::uint8_t { kNone, kNotify, kCoast, kControlledStop, kEmergencyStop };
@@ -159,6 +160,7 @@ inline constexpr std::array<CauseRow, kCauses> kCauseTable = [] {
     {kControlLate, "control a beat late", kCoast, ms(10)},
     {kFrontLock, "front wheels lock: less brake", kNotify, kTick},
     {kFlagsDisagree, "race control: flags unknown or contradictory", kNotify, kTick},
+    {kRoundSpeedTooHigh, "race control: round speed above the car's, capped", kNotify, kTick},
     {kTicksMissed, "computer missed ticks", kNotify, kTick},
     {kProcessorBusy, "computer busy", kNotify, ms(1'020)},
     {kClockStepped, "a clock stepped", kNotify, ms(200), kBars},

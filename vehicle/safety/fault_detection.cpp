@@ -62,8 +62,9 @@ void operators(CauseCollector& f) {
   f.add(Cause::kOperatorEmergency, f.in.operator_requests.emergency_stop);
   f.add(Cause::kOperatorStop, f.in.operator_requests.stop);
   f.add(Cause::kDisarmRequest, f.in.driving && !f.in.operator_requests.arm);
-  f.add(Cause::kPurpleFlag, f.in.race_control.vehicle == VehicleFlag::kPurpleEmergency);
-  f.add(Cause::kEngineKillFlag, f.in.race_control.vehicle == VehicleFlag::kEngineKill);
+  const world::FlagDemand flag = demand_of(f.in.race_control.vehicle);
+  f.add(Cause::kPurpleFlag, flag == world::FlagDemand::kEmergencyStop);
+  f.add(Cause::kEngineKillFlag, flag == world::FlagDemand::kControlledStop);
 }
 
 void drive_by_wire(CauseCollector& f) {
@@ -219,6 +220,8 @@ void flags(CauseCollector& f) {
       race.track == world::TrackFlag::kUnknown || race.vehicle == VehicleFlag::kUnknown;
   f.add(Monitor::kFlagAgreement, Cause::kFlagsDisagree,
         race.ever_received && (unknown || race.conflict), race.conflict ? 2.0 : 1.0);
+  f.add(Monitor::kFlagAgreement, Cause::kRoundSpeedTooHigh, std::isfinite(race.refused_speed_mps),
+        race.refused_speed_mps);
 }
 
 // While the car rolls and nobody but us tells its actuators what to do.

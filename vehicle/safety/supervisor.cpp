@@ -10,9 +10,7 @@ namespace {
 
 using world::ActuatorCommand;
 using world::Mode;
-using world::TrackFlag;
 using world::Validity;
-using world::VehicleFlag;
 
 constexpr double kEgoStanding_mps = 1.0;  // wheels that lock at speed are no standstill
 
@@ -49,18 +47,8 @@ bool bars_arming(const CauseSet& causes) {
 bool flags_allow_motion(const Tick& t) {
   const world::RaceControl& rc = t.in.race_control;
   if (!rc.ever_received) return !t.params.faults.race_control_required;
-  const bool track = rc.track == TrackFlag::kYellow || rc.track == TrackFlag::kGreen ||
-                     rc.track == TrackFlag::kWavingGreen;
-  switch (rc.vehicle) {
-    case VehicleFlag::kNone:
-    case VehicleFlag::kBlue:
-    case VehicleFlag::kYellow:
-    case VehicleFlag::kDefender:
-    case VehicleFlag::kAttacker:
-      return track;
-    default:
-      return false;
-  }
+  const world::FlagDemand demand = demand_of(rc.track, rc.vehicle);
+  return demand == world::FlagDemand::kRace || demand == world::FlagDemand::kCaution;
 }
 
 bool may_go(const Tick& t, const CauseSet& causes) {

@@ -55,6 +55,7 @@ enum class OperatorCommandKind : std::uint8_t {
   kRole,
   kTrackFlag,        // a TrackFlag; kNone: no flag from the base
   kSensorsExcluded,  // bits of world::Excludable
+  kFuelEntered,      // litres in the tank
   kEndRun,
   kSendParameters
 };

@@ -60,6 +60,12 @@ std::optional<std::string> fault_of_pit(const TrackDescription& d) {
     if (s_m < 0.0 || s_m >= d.length_m) return "a station is outside of the lap";
   if (p.width_m <= 0.0) return "the width is not positive";
   if (p.speed_limit_mps <= 0.0) return "the speed limit is not positive";
+  const auto ahead_m = [&](double s_m) {
+    return s_m >= p.entry_s_m ? s_m - p.entry_s_m : s_m - p.entry_s_m + d.length_m;
+  };
+  const double along = ahead_m(p.box_s_m) / ahead_m(p.exit_s_m);
+  const bool on_ramp = along < kPitRampShare || along > 1.0 - kPitRampShare;
+  if (on_ramp) return "the box is not where the car is in the lane's middle";
   return std::nullopt;
 }
 

@@ -26,7 +26,12 @@ struct PitLane {
   double entry_s_m = kUnset, exit_s_m = kUnset;  // stations of its ends
   double offset_m = kUnset;                      // offset n of its centre line
   double width_m = kUnset, speed_limit_mps = kUnset;
+  double box_s_m = kUnset;  // station of the car's box; unset: the middle of the lane
 };
+
+// Share of the pit lane's length on which a car crosses from the track to its middle, and back:
+// what lies between them a track file does not say.
+inline constexpr double kPitRampShare = 0.25;
 
 struct TrackDescription {
   std::string name;

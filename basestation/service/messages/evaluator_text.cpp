@@ -53,7 +53,8 @@ constexpr auto kBaseFlags = std::to_array<Members<BaseFigures, bool>>(
 constexpr auto kExpected = std::to_array<Members<Expectations, double>>(
     {{"round_speed_mps", &Expectations::round_speed_mps},
      {"track_flag", &Expectations::track_flag},
-     {"fuel_loaded_l", &Expectations::fuel_loaded_l}});
+     {"fuel_loaded_l", &Expectations::fuel_loaded_l},
+     {"fuel_used_l", &Expectations::fuel_used_l}});
 constexpr auto kLimit =
     std::to_array<Members<alarms::Limit, double>>({{"warning_low", &alarms::Limit::warning_low},
                                                    {"warning_high", &alarms::Limit::warning_high},

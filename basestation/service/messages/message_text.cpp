@@ -280,11 +280,12 @@ std::string notice_text(const alarms::Notice& notice) {
       .str();
 }
 
-std::string fuel_text(const state::FuelLeft& fuel) {
+std::string fuel_text(const rules::FuelLeft& fuel) {
   const auto label = telemetry::label_at(state::kFuelStates, static_cast<std::size_t>(fuel.state));
   return Object{}
       .text("type", "fuel")
       .number("laps", fuel.laps)
+      .number("least_laps", fuel.least_laps)
       .number("attempts", fuel.attempts)
       .number("per_lap", fuel.per_lap_l)
       .number("level", fuel.level_l)

@@ -38,7 +38,7 @@ std::string ticket_text(const command::Ticket& ticket);
 std::string stop_text(const std::optional<command::StoppedCar>& stopped);
 std::string audit_text(const command::AuditLine& line);
 std::string notice_text(const alarms::Notice& notice);
-std::string fuel_text(const state::FuelLeft& fuel);
+std::string fuel_text(const rules::FuelLeft& fuel);
 std::string event_text(const telemetry::Event& event);
 std::string mark_text(const std::string& text, const std::string& by, Instant now);
 

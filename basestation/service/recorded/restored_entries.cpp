@@ -31,7 +31,8 @@ void EntriesReader::expected(std::string_view json, Instant at) {
   entries.round_speed_by = text->text("round_speed_by");
   entries.fuel_by = text->text("fuel_by");
   entries.fuel_at = entered_at(*text, at);
-  fuel_.loaded(text->number("fuel_left_l"));
+  fuel_.enter(entries.expected.fuel_loaded_l,
+              entries.expected.fuel_loaded_l - text->number("fuel_left_l"));
   entries_ = std::move(entries);
 }
 
@@ -41,15 +42,15 @@ void EntriesReader::state(const telemetry::Snapshot& state, telemetry::GroupSet 
              .throttle = state.values[field("powertrain.throttle_position")],
              .running = state.values[field("engine.running")] > 0.0};
   engine_at_ = state.at(telemetry::Group::kPowertrain);
-  fuel_.receive(engine_, *engine_at_);
+  fuel_.receive_engine(engine_, *engine_at_, kUnset);
 }
 
 std::optional<RestoredEntries> EntriesReader::result(Instant now) const {
   if (!entries_) return std::nullopt;
-  RestoredEntries recalled{.entries = *entries_, .fuel_left_l = fuel_.level_l()};
+  RestoredEntries recalled{.entries = *entries_, .fuel_left_l = fuel_.left({}).level_l};
   if (!std::isfinite(recalled.fuel_left_l)) return recalled;
   if (engine_at_ && *engine_at_ < now && std::isfinite(engine_.throttle)) {
-    const double burnt_l = state::fuel_flow_lps(engine_) * (now - *engine_at_).seconds();
+    const double burnt_l = rules::fuel_flow_lps(engine_) * (now - *engine_at_).seconds();
     recalled.fuel_left_l = std::max(0.0, recalled.fuel_left_l - burnt_l);
   }
   return recalled;

@@ -15,7 +15,7 @@
 #include <string_view>
 
 #include "basestation/command/request_executor.hpp"
-#include "basestation/state/derived/fuel_estimate.hpp"
+#include "protocol/rules/fuel.hpp"
 #include "protocol/telemetry/registry/registry.hpp"
 
 namespace pitwall::service {
@@ -34,8 +34,8 @@ class EntriesReader {
 
  private:
   std::optional<command::OperatorEntries> entries_;
-  state::FuelEstimate fuel_;
-  state::EngineSample engine_;
+  rules::FuelEstimator fuel_;
+  rules::EngineSample engine_;
   std::optional<Instant> engine_at_;
 };
 

@@ -223,8 +223,7 @@ void derive_flags(const Pass& pass, const Expectations& expected) {
            std::isnan(round_mps) ? kUnset : (round_speed_conflict(speeds) ? 1.0 : 0.0), {kRound});
 }
 
-void derive_fuel(const Pass& pass, const MonitorState& monitors, const FuelPlan& plan) {
-  const FuelLeft left = monitors.fuel_left(plan);
+void derive_fuel(const Pass& pass, const rules::FuelLeft& left) {
   const FieldIndex source =
       left.estimated ? field("powertrain.throttle_position") : field("fuel.level");
   pass.put(BaseField::kFuelPerLap, left.per_lap_l);
@@ -232,6 +231,8 @@ void derive_fuel(const Pass& pass, const MonitorState& monitors, const FuelPlan&
   pass.put(BaseField::kFuelEstimated,
            std::isnan(left.level_l) ? kUnset : (left.estimated ? 1.0 : 0.0));
   pass.put(BaseField::kFuelLaps, left.laps, {source});
+  pass.put(BaseField::kFuelLeast, left.least_l, {source});
+  pass.put(BaseField::kFuelLeastLaps, left.least_laps, {source});
   pass.put(BaseField::kFuelAttempts, left.attempts, {source});
   pass.put(BaseField::kFuelState, static_cast<double>(left.state), {source});
 }
@@ -270,32 +271,21 @@ bool MonitorState::sampled_anew(const VehicleState& vehicle, Group group, Instan
   return true;
 }
 
-// By the car's own level where it tells one, else by what was loaded and burnt.
 void MonitorState::step_fuel(const VehicleState& vehicle, const Expectations& expectations,
                              Instant now) {
   const auto value = [&](FieldIndex index) { return vehicle.view(index, now).value; };
-  const double level_l = value(field("fuel.level")), lap = value(field("track.lap"));
-  fuel_measured_ = fuel_measured_ || !std::isnan(level_l);
-  bool reckoned = expectations.fuel_entries != fuel_entries_;
-  if (reckoned) estimate_.loaded(expectations.fuel_loaded_l);
+  const double lap = value(field("track.lap"));
+  if (expectations.fuel_entries != fuel_entries_)
+    fuel.enter(expectations.fuel_loaded_l, expectations.fuel_used_l);
   fuel_entries_ = expectations.fuel_entries;
   if (sampled_anew(vehicle, Group::kPowertrain, now, engine_at_)) {
-    estimate_.receive({.speed_rpm = value(field("engine.speed")),
-                       .throttle = value(field("powertrain.throttle_position")),
-                       .running = value(field("engine.running")) > 0.0},
-                      engine_at_);
-    reckoned = true;
+    fuel.receive_engine({.speed_rpm = value(field("engine.speed")),
+                         .throttle = value(field("powertrain.throttle_position")),
+                         .running = value(field("engine.running")) > 0.0},
+                        engine_at_, lap);
   }
-  if (sampled_anew(vehicle, Group::kFuel, now, fuel_at_)) {
-    fuel.receive(level_l, value(field("fuel.used")), lap);
-  }
-  if (!fuel_measured_ && reckoned) fuel.receive(estimate_.level_l(), estimate_.used_l(), lap);
-}
-
-FuelLeft MonitorState::fuel_left(const FuelPlan& plan) const {
-  FuelLeft left = fuel.left(plan);
-  left.estimated = !fuel_measured_ && !std::isnan(left.level_l);
-  return left;
+  if (sampled_anew(vehicle, Group::kFuel, now, fuel_at_))
+    fuel.receive_tank(value(field("fuel.level")), value(field("fuel.used")), lap);
 }
 
 void MonitorState::step(const VehicleState& vehicle, const Known& known, Instant now) {
@@ -324,7 +314,7 @@ void derive(const DeriveParams& params, const VehicleState& vehicle, const Known
   derive_sensors(pass);
   derive_flags(pass, known.expected);
   derive_race(pass, known, monitors, params.fuel, course);
-  derive_fuel(pass, monitors, params.fuel);
+  derive_fuel(pass, monitors.fuel.left(params.fuel));
   derive_place(pass, course);
 }
 

@@ -11,22 +11,21 @@
 #include "basestation/state/course.hpp"
 #include "basestation/state/derived/attempt.hpp"
 #include "basestation/state/derived/corrections.hpp"
-#include "basestation/state/derived/fuel.hpp"
-#include "basestation/state/derived/fuel_estimate.hpp"
 #include "basestation/state/derived/link_state.hpp"
 #include "basestation/state/derived/tyre_gate.hpp"
 #include "basestation/state/known.hpp"
+#include "protocol/rules/fuel.hpp"
 
 namespace pitwall::state {
 
 struct DeriveParams {
   TyreGate tyres;
-  FuelPlan fuel;
+  rules::FuelPlan fuel;
 };
 
 // Monitors that keep a memory of earlier values.
 struct MonitorState {
-  FuelEstimator fuel;
+  rules::FuelEstimator fuel;
   CorrectionMonitor corrections;
   LinkStateMonitor link;
   AttemptTracker attempts;
@@ -34,18 +33,15 @@ struct MonitorState {
   // Processes each new sample of the groups that the monitors need; call it each step of the grid.
   void step(const VehicleState& vehicle, const Known& known, Instant now);
   // Call it each step of the grid; without a course, whole laps are counted and gaps are unknown.
-  void step_race(const VehicleState& vehicle, const FuelPlan& plan, const Course* course,
+  void step_race(const VehicleState& vehicle, const rules::FuelPlan& plan, const Course* course,
                  Instant now);
-  FuelLeft fuel_left(const FuelPlan& plan) const;
 
  private:
   void step_fuel(const VehicleState& vehicle, const Expectations& expectations, Instant now);
   bool sampled_anew(const VehicleState& vehicle, telemetry::Group group, Instant now,
                     Instant& newest);
 
-  FuelEstimate estimate_;
   std::uint64_t fuel_entries_ = 0;
-  bool fuel_measured_ = false;
   Instant fuel_at_ = telemetry::kNeverSampled, engine_at_ = telemetry::kNeverSampled;
   std::array<Instant, CorrectionMonitor::kUnits> gnss_at_{telemetry::kNeverSampled,
                                                           telemetry::kNeverSampled};

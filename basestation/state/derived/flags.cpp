@@ -19,7 +19,7 @@ double binding(double a, double b) {
 }  // namespace
 
 int restriction_of_track_flag(double flag) {
-  // none, RED, ORANGE, YELLOW, GREEN, WAVING GREEN, CHEQUERED, UNKNOWN: the car's own order
+  // none, RED, ORANGE, YELLOW, GREEN, WAVING GREEN, CHEQUERED, UNKNOWN
   constexpr std::array kRestriction{2, 6, 5, 3, 1, 0, 4, 7};
   if (!(flag >= 0.0 && flag < static_cast<double>(kRestriction.size()))) return kRestriction.back();
   return kRestriction.at(static_cast<std::size_t>(flag));

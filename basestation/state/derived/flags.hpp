@@ -32,7 +32,7 @@ struct RoundSpeeds {
 bool round_speed_conflict(const RoundSpeeds& speeds);
 
 // Rank of a flag, higher for a more restrictive one. In falling order: unknown, RED, ORANGE,
-// CHEQUERED, YELLOW, none, GREEN, WAVING GREEN.
+// CHEQUERED, YELLOW, none (as a command it lifts the pit wall's flag), GREEN, WAVING GREEN.
 int restriction_of_track_flag(double flag);
 
 }  // namespace pitwall::state

@@ -56,7 +56,7 @@ Opponents opponents_of(const VehicleState& vehicle, const Course* course, Instan
 }  // namespace
 
 void derive_race(const Pass& pass, const Known& known, const MonitorState& monitors,
-                 const FuelPlan& plan, const Course* course) {
+                 const rules::FuelPlan& plan, const Course* course) {
   using enum BaseField;
   constexpr FieldIndex kVehicle = field("flags.vehicle"), kPlanned = field("planner.role"),
                        kLap = field("track.lap");
@@ -84,7 +84,7 @@ void derive_race(const Pass& pass, const Known& known, const MonitorState& monit
            {seen.source, kOwnSpeed});
 }
 
-void MonitorState::step_race(const VehicleState& vehicle, const FuelPlan& plan,
+void MonitorState::step_race(const VehicleState& vehicle, const rules::FuelPlan& plan,
                              const Course* course, Instant now) {
   const auto value = [&](FieldIndex index) { return usable_at(vehicle, index, now); };
   const Opponents seen = opponents_of(vehicle, course, now);

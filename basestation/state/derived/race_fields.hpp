@@ -13,6 +13,6 @@
 namespace pitwall::state {
 
 void derive_race(const Pass& pass, const Known& known, const MonitorState& monitors,
-                 const FuelPlan& plan, const Course* course);
+                 const rules::FuelPlan& plan, const Course* course);
 
 }  // namespace pitwall::state

@@ -50,10 +50,10 @@ void encode(M message, UtcTime at, std::vector<std::uint8_t>& bytes) {
 }  // namespace
 
 Result<DetectionPublisher, Problem> DetectionPublisher::open(const io::SensorFile& file,
-                                                             std::uint64_t seed) {
+                                                             std::uint64_t seed, double noise) {
   auto domain = dds::Domain::join(file.domain);
   if (!domain) return Unexpected{domain.error()};
-  const sensors::DetectionSensors simulated = sensors::av21_detection_sensors();
+  const auto simulated = sensors::with_noise(sensors::av21_detection_sensors(), noise);
   std::vector<Topic> topics;
   for (const io::SensorRow& row : file.sensors) {
     if (!io::detects_cars(row.type)) continue;
@@ -64,14 +64,15 @@ Result<DetectionPublisher, Problem> DetectionPublisher::open(const io::SensorFil
     if (!writer) return Unexpected{writer.error()};
     topics.push_back({row, *writer});
   }
-  return DetectionPublisher{*std::move(domain), std::move(topics), seed};
+  return DetectionPublisher{*std::move(domain), std::move(topics), simulated, seed};
 }
 
 DetectionPublisher::DetectionPublisher(std::unique_ptr<dds::Domain> domain,
-                                       std::vector<Topic> topics, std::uint64_t seed)
+                                       std::vector<Topic> topics,
+                                       const sensors::DetectionSensors& sensors, std::uint64_t seed)
     : domain_(std::move(domain)),
       topics_(std::move(topics)),
-      sensors_(sensors::av21_detection_sensors()),
+      sensors_(sensors),
       state_(sensors::make_detections(sensors_, seed, Instant{})) {}
 
 void DetectionPublisher::step(const sensors::TrueCars& cars, Instant at, Instant started) {

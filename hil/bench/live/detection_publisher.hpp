@@ -24,8 +24,9 @@ namespace pitwall::bench {
 
 class DetectionPublisher {
  public:
-  // `seed` is that of the scenario: the draws are those of lockstep.
-  static Result<DetectionPublisher, Problem> open(const io::SensorFile& file, std::uint64_t seed);
+  // `seed` and the factor on the noise are those of the scenario: the draws are those of lockstep.
+  static Result<DetectionPublisher, Problem> open(const io::SensorFile& file, std::uint64_t seed,
+                                                  double noise = 1.0);
 
   // `at` is scenario time, `started` the time of this process at its zero.
   void step(const sensors::TrueCars& cars, Instant at, Instant started);
@@ -40,7 +41,7 @@ class DetectionPublisher {
     dds::Writer* writer;
   };
   DetectionPublisher(std::unique_ptr<dds::Domain> domain, std::vector<Topic> topics,
-                     std::uint64_t seed);
+                     const sensors::DetectionSensors& sensors, std::uint64_t seed);
   void publish(const Topic& topic, const world::DetectionFrame& frame, UtcTime at);
 
   std::unique_ptr<dds::Domain> domain_;

@@ -20,13 +20,13 @@ constexpr Duration kStartLimit = seconds(15);
 constexpr std::size_t kReadBatch = 256;
 
 Result<std::optional<DetectionPublisher>, Problem> open_detections(const LivePlan& plan,
-                                                                   std::uint64_t seed) {
+                                                                   const scenario::Scenario& run) {
   using Optional = std::optional<DetectionPublisher>;
   if (plan.sensors.empty()) return Optional{};
   auto file = io::read_sensor_file(plan.sensors);
   if (!file) return Unexpected{file.error()};
   file->domain.domain = plan.sensors_domain;
-  auto opened = DetectionPublisher::open(*file, seed);
+  auto opened = DetectionPublisher::open(*file, run.seed, run.perturb.detection_noise);
   if (!opened) return Unexpected{opened.error()};
   return Optional{*std::move(opened)};
 }
@@ -71,7 +71,7 @@ Result<std::unique_ptr<LiveCar>, Problem> LiveCar::open(const scenario::Scenario
   auto receivers = ReceiverPort::open(plan.receiver_ports(),
                                       ReceiverEncoder{setup.params.receivers, faults->bytes});
   if (!receivers) return Unexpected{receivers.error()};
-  auto detections = open_detections(plan, scenario.seed);
+  auto detections = open_detections(plan, scenario);
   if (!detections) return Unexpected{detections.error()};
   return std::unique_ptr<LiveCar>{
       new LiveCar(scenario, setup, plan, has_others,

@@ -74,7 +74,8 @@ CarBench::CarBench(const scenario::Scenario& scenario, const pipeline::Setup& se
   received_.reserve(kInboxFrames);
   if (options.log) record_.emplace(scenario, "lockstep", options.log, has_others);
   if (!has_others) return;
-  detection_sensors_ = sensors::av21_detection_sensors();
+  detection_sensors_ =
+      with_noise(sensors::av21_detection_sensors(), scenario_.perturb.detection_noise);
   detection_ = sensors::make_detections(detection_sensors_, scenario_.seed, Instant{});
   detections_.reserve(kDetectionFrames);
 }

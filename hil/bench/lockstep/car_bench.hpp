@@ -55,6 +55,10 @@ class CarBench {
   void note_others(std::size_t cars, const std::optional<CarContact>& contact);
 
   const Rig& rig() const { return rig_; }
+  // Whether its planner declines the attempt that it has to make.
+  bool declines() const {
+    return car_->plan.output.next.pass.attempt == planning::AttemptChoice::kDeclined;
+  }
   RunResult finish();
 
  private:

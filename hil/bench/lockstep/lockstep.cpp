@@ -11,6 +11,7 @@
 #include "hil/bench/lockstep/car_bench.hpp"
 #include "hil/bench/lockstep/match_run.hpp"
 #include "protocol/vocabulary/check.hpp"
+#include "protocol/vocabulary/fixed_vector.hpp"
 
 namespace pitwall::bench {
 namespace {
@@ -37,7 +38,9 @@ bool is_over(const Cars& cars, Instant now) {
 
 // The judge sees the field at the end of a tick; what it calls is sent from the next step on.
 void step_match(MatchRun& match, Field& field, const Cars& cars, Instant at) {
-  match.step(field, at);
+  FixedVector<bool, kFieldMax> declines;
+  for (const auto& car : cars) CHECK(declines.push(car->declines()));
+  match.step(field, declines.span(), at);
   for (std::size_t i = 0; i < cars.size(); ++i)
     if (const auto call = match.call_for(i, at)) cars[i]->call_race_control(*call);
   if (const auto sentence = match.ended_attempt())

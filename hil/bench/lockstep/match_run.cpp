@@ -40,9 +40,10 @@ MatchRun::MatchRun(const scenario::MatchPlan& plan, const Field& field,
       state_(before_),
       track_length_m_(track.length_m()) {}
 
-void MatchRun::step(Field& field, Instant now) {
-  const race::JudgeView view{.cars = {judged(field, kOwn), judged(field, kRival)},
-                             .contact = contact(field)};
+void MatchRun::step(Field& field, std::span<const bool> declines, Instant now) {
+  const race::JudgeView view{
+      .cars = {judged(field, declines, kOwn), judged(field, declines, kRival)},
+      .contact = contact(field)};
   before_ = state_;
   state_ = race::step(params_, before_, view, now);
   if (state_.stage == race::Stage::kOver && !over_since_) over_since_ = now;
@@ -53,13 +54,15 @@ bool MatchRun::is_inside(const plant::CarPose& pose) const {
   return pose.n_m > 0.5 * (plan_.lanes.inside_m + plan_.lanes.outside_m);
 }
 
-race::JudgedCar MatchRun::judged(const Field& field, std::size_t car) const {
-  const plant::CarPose& pose = field.car(cars_[car]).pose;
+race::JudgedCar MatchRun::judged(const Field& field, std::span<const bool> declines,
+                                 std::size_t car) const {
+  const std::size_t i = cars_[car];
+  const plant::CarPose& pose = field.car(i).pose;
   return {.station_m = pose.s_m,
           .speed_mps = traffic::speed_mps(pose),
           .length_m = pose.length_m,
           .inside = is_inside(pose),
-          .declines = car == kRival && rival_declines_};
+          .declines = i < declines.size() ? declines[i] : rival_declines_};
 }
 
 std::optional<race::JudgedContact> MatchRun::contact(const Field& field) const {

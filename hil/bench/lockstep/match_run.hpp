@@ -9,6 +9,7 @@
 #include <array>
 #include <cstddef>
 #include <optional>
+#include <span>
 #include <string>
 
 #include "hil/bench/field.hpp"
@@ -29,7 +30,9 @@ class MatchRun {
   // The first car of the field is ours.
   MatchRun(const scenario::MatchPlan& plan, const Field& field, const world::TrackMap& track);
 
-  void step(Field& field, Instant now);
+  // `declines`: whether a car with a stack does not make its attempt, as its team tells race
+  // control; in the order of the field.
+  void step(Field& field, std::span<const bool> declines, Instant now);
   // What the last step changed for a car of the field.
   std::optional<race::Call> call_for(std::size_t car, Instant now) const;
   // The attempt that ended in the last step, in one sentence.
@@ -39,7 +42,7 @@ class MatchRun {
 
  private:
   bool is_inside(const plant::CarPose& pose) const;
-  race::JudgedCar judged(const Field& field, std::size_t car) const;
+  race::JudgedCar judged(const Field& field, std::span<const bool> declines, std::size_t car) const;
   std::optional<race::JudgedContact> contact(const Field& field) const;
   void order_ghost(Field& field);
   std::size_t attempts_by(std::uint8_t car) const;

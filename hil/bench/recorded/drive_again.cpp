@@ -59,23 +59,45 @@ std::string path_of(const RecordedRun& run, const std::string& key, const std::s
   return instead.empty() ? run.metadata(key + "_file") : instead;
 }
 
-// The text of a file that the run names under `key`_file, or of the one that is given instead.
+// The file that the run names under `key`_file, or the one that is given instead.
+Result<std::string, Problem> known_path(const RecordedRun& run, const std::string& key,
+                                        const std::string& instead) {
+  const std::string path = path_of(run, key, instead);
+  if (path.empty())
+    return refuse("--" + key, "expected FILE, because the recording does not name it");
+  return path;
+}
+
+void compare(const RecordedRun& run, const std::string& key, const std::string& path,
+             const std::string& text, std::vector<std::string>& remarks) {
+  bits::Sha256 hash;
+  hash.update(as_bytes(text));
+  const std::string recorded = run.metadata(key + "_sha256");
+  if (!recorded.empty() && bits::to_hex(hash.digest()) != recorded)
+    remarks.push_back(path + ": not the file that the run was driven with");
+}
+
 struct RunFile {
   std::string path, text;
 };
 Result<RunFile, Problem> file_of(const RecordedRun& run, const std::string& key,
                                  const std::string& instead, std::vector<std::string>& remarks) {
-  const std::string path = path_of(run, key, instead);
-  if (path.empty())
-    return Unexpected{Problem{"--" + key, "expected FILE, because the recording does not name it"}};
-  auto text = transport::read_file(path);
+  const auto path = known_path(run, key, instead);
+  if (!path) return Unexpected{path.error()};
+  auto text = transport::read_file(*path);
   if (!text) return Unexpected{text.error()};
-  bits::Sha256 hash;
-  hash.update(as_bytes(*text));
-  const std::string recorded = run.metadata(key + "_sha256");
-  if (!recorded.empty() && bits::to_hex(hash.digest()) != recorded)
-    remarks.push_back(path + ": not the file that the run was driven with");
-  return RunFile{path, *std::move(text)};
+  compare(run, key, *path, *text, remarks);
+  return RunFile{*path, *std::move(text)};
+}
+
+Result<parameters::CarFile, Problem> car_of(const RecordedRun& run, const std::string& instead,
+                                            std::vector<std::string>& remarks) {
+  const auto path = known_path(run, "car", instead);
+  if (!path) return Unexpected{path.error()};
+  auto car = parameters::load_car(
+      *path, [](const std::string& file) { return transport::read_file(file); });
+  if (car) compare(run, "car", *path, car->text, remarks);
+  return car;
 }
 
 }  // namespace
@@ -131,9 +153,7 @@ RunFiles files_of(const RecordedRun& run, const RunFiles& given) {
 
 Result<pipeline::Setup, Problem> setup_of(const RecordedRun& run, const RunFiles& files,
                                           std::vector<std::string>& remarks) {
-  const auto car_file = file_of(run, "car", files.car, remarks);
-  if (!car_file) return Unexpected{car_file.error()};
-  auto car = parameters::read_car(car_file->text, car_file->path);
+  auto car = car_of(run, files.car, remarks);
   if (!car) return Unexpected{car.error()};
   const auto track_file = file_of(run, "track", files.track, remarks);
   if (!track_file) return Unexpected{track_file.error()};

@@ -22,7 +22,8 @@ constexpr bool same(OperatorCommandKind kind, telemetry::CommandType type) {
 }
 static_assert(same(OperatorCommandKind::kArm, telemetry::CommandType::kArm) &&
               same(OperatorCommandKind::kSensorsExcluded,
-                   telemetry::CommandType::kSensorsExcluded));
+                   telemetry::CommandType::kSensorsExcluded) &&
+              same(OperatorCommandKind::kFuelEntered, telemetry::CommandType::kFuelEntered));
 
 std::string text_of(const world::OperatorCommand& command) {
   std::string name{telemetry::kCommandTable[static_cast<std::size_t>(command.kind)].name};

@@ -26,11 +26,12 @@ enum class CommandType : std::uint8_t {
   kRole,             // 0 none, 1 defender, 2 attacker
   kTrackFlag,        // as telemetry labels kTrackFlags; the most restrictive of all sources applies
   kSensorsExcluded,  // bit set of the sensors that the car does not use; 0: it uses all
+  kFuelEntered,      // litres in the tank, as an operator says
   kReleaseStop,      // argument: the car's challenge; see stop_latch.hpp
   kEndRun,           // 1: the car ends its run where it stands
   kSendParameters    // 1: as bulk
 };
-inline constexpr std::size_t kCommandTypes = 10;
+inline constexpr std::size_t kCommandTypes = 11;
 
 struct CommandRow {
   CommandType type;
@@ -71,6 +72,7 @@ inline constexpr auto kCommandTable = [] {
       {kTrackFlag, "track flag", "", 0, 14, 1, seconds(2), true, kShownTrackFlags},
       {kSensorsExcluded, "sensors excluded", CommandRow::kBitSet, 0, 62, 1, seconds(2), true,
        kExcludableNames},
+      {kFuelEntered, "fuel entered", "l", 0, 120, 0.1, seconds(2), true},
       {kReleaseStop, "release stop", "", 0, 65'534, 1, seconds(2), true},
       {kEndRun, "end run", "", 0, 2, 1, seconds(2), true, "-|end"},
       {kSendParameters, "send parameters", "", 0, 2, 1, seconds(5), false, "-|send", false},

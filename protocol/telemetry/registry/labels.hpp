@@ -51,7 +51,8 @@ inline constexpr std::string_view kPrimitives =
     "-|holds the line|stops|merges|trails|passes|closes the door|gives way";
 inline constexpr std::string_view kSpeedReasons =
     "-|no position|no race control|no flag|unknown flag|red|orange|black|stop|chequered|caution|"
-    "green|round speed|operator|line|tyres|governor|trail|pass|gives way|car ahead";
+    "green|round speed|operator|line|tyres|governor|trail|pass|gives way|car ahead|declined: "
+    "fuel|fuel for the way home|pit lane|box";
 inline constexpr std::string_view kStopLevels = "none|controlled stop|EMERGENCY STOP";
 inline constexpr std::string_view kStopReasons =
     "none|operator|race control|pit crew|console lost its operator|test";
@@ -75,12 +76,13 @@ inline constexpr std::string_view kStopCauses =
     "over-steer: rear wheels spin|over-steer: rear wheels lock|"
     "over-steer: the car yaws more than steered|no good position|planning a beat late|"
     "control a beat late|front wheels lock: less brake|"
-    "race control: flags unknown or contradictory|computer missed ticks|computer busy|"
+    "race control: flags unknown or contradictory|"
+    "race control: round speed above the car's, capped|computer missed ticks|computer busy|"
     "a clock stepped|clock too fast or slow|GNSS: one unit is bad";
 // Unit of the value that belongs to each cause; "-": the value has no meaning for an operator.
 inline constexpr std::string_view kStopCauseUnits =
     "-|-|-|s|-|-|-|-|-|-|-|-|-|-|-|-|-|-|-|ticks|ticks|s|-|s|m|s|s|s|s|s|-|s|m|rad|rad|kPa|of 1|"
-    "s|MiB|degC|-|-|-|s|s|ticks|-|-|s|of 1|s|ppm|-";
+    "s|MiB|degC|-|-|-|s|s|ticks|-|-|m/s|s|of 1|s|ppm|-";
 // Bits of a set of attacks and key errors, in the order of telemetry::Threat.
 inline constexpr std::string_view kThreatNames =
     "wrong key|sealed against signed|refused at rate|second peer|replayed openings|relay";

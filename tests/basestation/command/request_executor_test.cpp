@@ -24,6 +24,21 @@ struct Bench {
   }
 };
 
+TEST(RequestExecutor, TheFuelThatWasEnteredIsForTheCarToo) {
+  Bench bench;
+  ASSERT_TRUE(bench.ask(ClaimAuthority{.claim = Claim::kTake}));
+  ASSERT_TRUE(bench.ask(ReportFuel{.litres = 40.0}));
+  ASSERT_EQ(bench.executor.queue().tickets().size(), 1u);
+  const telemetry::Command& issued = bench.executor.queue().tickets().front().command;
+  EXPECT_EQ(issued.type, telemetry::CommandType::kFuelEntered);
+  EXPECT_EQ(issued.argument, 40.0);
+  EXPECT_EQ(bench.evaluator.known().expected.fuel_loaded_l, 40.0)
+      << "whether the car heard it or not: here it has no link";
+  EXPECT_FALSE(bench.ask(IssueCommand{.type = telemetry::CommandType::kFuelEntered, .argument = 9}))
+      << "nothing was said: the link's gate";
+  EXPECT_EQ(bench.evaluator.known().expected.fuel_loaded_l, 40.0);
+}
+
 // All that changes how the base judges is said by who may also command the car.
 std::vector<Request> of_the_holder() {
   const alarms::AlarmIndex slip = *alarms::find_alarm("wheel_slip");

@@ -33,7 +33,7 @@ TEST(JudgementFile, WhatPeopleChangedHolds) {
   EXPECT_EQ(config->limits.of(state::field_id("electric.battery")).bad_low, 11.5);
   EXPECT_EQ(config->limits.of(state::field_id("mode.mode")).warning_values, 0x48U);
   EXPECT_EQ(config->derive.fuel.attempt_laps, 3.0);
-  EXPECT_EQ(config->derive.fuel.home_laps, state::FuelPlan{}.home_laps);
+  EXPECT_EQ(config->derive.fuel.home_laps, rules::FuelPlan{}.home_laps);
   EXPECT_EQ(config->derive.tyres.speed_mps[4], 65.0);
   EXPECT_NE(config->alarms.version(), alarms::AlarmSettings{}.version());
 }

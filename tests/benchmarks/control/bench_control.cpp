@@ -14,6 +14,7 @@
 #include "tests/benchmarks/control/control_plan.hpp"
 #include "tests/benchmarks/control/control_table.hpp"
 #include "tests/benchmarks/control/lane_changes.hpp"
+#include "tests/benchmarks/control/planner_cost.hpp"
 
 namespace pitwall::benchmarks {
 namespace {
@@ -109,6 +110,12 @@ Result<ControlCost, Problem> cost_of_laws() {
   return control_bench::measure_cost(*on, {kLaws.begin(), kLaws.end()});
 }
 
+Result<PlannerCost, Problem> cost_of_planning() {
+  const auto match = bench::load("hil/scenarios/matches/match_won.yaml", "");
+  if (!match) return Unexpected{match.error()};
+  return control_bench::measure_planner(*match);
+}
+
 }  // namespace
 
 int bench_control(std::span<const std::string> args) {
@@ -127,13 +134,16 @@ int bench_control(std::span<const std::string> args) {
   if (!changes) return refuse(changes.error());
   const auto cost = cost_of_laws();
   if (!cost) return refuse(cost.error());
+  const auto planner = cost_of_planning();
+  if (!planner) return refuse(planner.error());
   std::vector<Gate> gates = gates_of(*rows);
   for (const Gate& gate : gates_of(*changes)) gates.push_back(gate);
-  const cost::CostGates cost_gates = gates_of(*cost);
-  std::printf("%s%s%s%s%s%zu runs\n", to_text(*rows).c_str(), to_text(*changes).c_str(),
-              to_text(*cost).c_str(), to_text(gates).c_str(), cost_gates.text().c_str(),
+  const cost::CostGates cost_gates = gates_of(*cost), planner_gates = gates_of(*planner);
+  std::printf("%s%s%s%s%s%s%s%zu runs\n", to_text(*rows).c_str(), to_text(*changes).c_str(),
+              to_text(*cost).c_str(), to_text(*planner).c_str(), to_text(gates).c_str(),
+              cost_gates.text().c_str(), planner_gates.text().c_str(),
               rows->size() + changes->size());
-  const bool held = all_held(gates) && cost_gates.held();
+  const bool held = all_held(gates) && cost_gates.held() && planner_gates.held();
   if (!json_file.empty()) {
     const auto written =
         transport::write_file(json_file, json::Object{}
@@ -143,6 +153,7 @@ int bench_control(std::span<const std::string> args) {
                                                  .json("lane_changes", to_json(*changes))
                                                  .json("gates", to_json(gates))
                                                  .json("cost_gates", cost_gates.json())
+                                                 .json("planner_gates", planner_gates.json())
                                                  .flag("held", held)
                                                  .str() +
                                              "\n");

@@ -39,6 +39,7 @@ TEST(CarsSection, IsReadInFull) {
       "    speed: {lap_share: 0.9}\n"
       "    limits: {accel_mps2: 3, brake_mps2: 9, lateral_mps2: 5}\n"
       "    drift: {sigma_m: 0.2, correlation_s: 12, most_m: 0.6}\n"
+      "    speed_drift: {sigma_mps: 0.3, correlation_s: 6, most_mps: 0.9}\n"
       "    size: {length_m: 5, width_m: 2}\n"
       "    seed: 11\n"
       "    script:\n"
@@ -64,6 +65,9 @@ TEST(CarsSection, IsReadInFull) {
   EXPECT_EQ(plan.drift.sigma_m, 0.2);
   EXPECT_EQ(plan.drift.correlation_s, 12.0);
   EXPECT_EQ(plan.drift.most_m, 0.6);
+  EXPECT_EQ(plan.speed_drift.sigma_mps, 0.3);
+  EXPECT_EQ(plan.speed_drift.correlation_s, 6.0);
+  EXPECT_EQ(plan.speed_drift.most_mps, 0.9);
   EXPECT_EQ(plan.length_m, 5.0);
   EXPECT_EQ(plan.width_m, 2.0);
   EXPECT_EQ(plan.seed, 11u);
@@ -76,7 +80,7 @@ TEST(CarsSection, IsReadInFull) {
   EXPECT_EQ(plan.script[1].action, Action::kLine);
   EXPECT_EQ(plan.script[1].line.offset_m, -2.0);
   EXPECT_EQ(plan.script[1].over_s, 3.0);
-  EXPECT_EQ(plan.script[1].place.substr(0, 14), "short.yaml:22:");
+  EXPECT_EQ(plan.script[1].place.substr(0, 14), "short.yaml:23:");
   EXPECT_EQ(plan.script[2].trigger, Trigger::kGapAbove);
   EXPECT_EQ(plan.script[2].value, -40.0);
   EXPECT_EQ(plan.script[2].decel_mps2, 6.0);
@@ -95,6 +99,7 @@ TEST(CarsSection, MayBeLeftOutAndHasDefaults) {
   const traffic::GhostPlan& plan = read->cars[0].ghost;
   EXPECT_FALSE(plan.start_n_m);
   EXPECT_EQ(plan.drift.sigma_m, 0.0);
+  EXPECT_EQ(plan.speed_drift.sigma_mps, 0.0);
   EXPECT_EQ(plan.length_m, plant::Chassis{}.length_m);
   EXPECT_TRUE(plan.script.empty());
   EXPECT_EQ(plan.seed, with_cars("cars: [{" + kShort + "}]\n")->cars[0].ghost.seed);
@@ -168,6 +173,7 @@ TEST(CarsSection, EveryMistakeIsRefusedWithItsPlaceAndReason) {
       {car("limits: {brake_mps2: 0}"), "brake_mps2"},
       {car("limits: {jerk: 3}"), "jerk"},
       {car("drift: {sigma_m: 0.2}"), "most_m"},
+      {car("speed_drift: {sigma_mps: 0.2, most_mps: 0.1}"), "most_mps"},
       {car("drift: {sigma_m: 0.2, most_m: 0.1}"), "most_m"},
       {car("size: {length_m: 5}"), "width_m"},
       {car("seed: -1"), "seed"},

@@ -4,12 +4,14 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <numbers>
 
 #include "hil/plant/compliant/brush_tyre.hpp"
 #include "hil/plant/dynamics.hpp"
+#include "hil/plant/engine.hpp"
 #include "hil/plant/tyre.hpp"
 
 namespace pitwall::plant {
@@ -36,6 +38,43 @@ TEST(Perturbed, NeutralChangesNoBit) {
   const Surface road{.bank_rad = 0.2, .bank_rate_rad_per_s = 0.01, .grip = 0.7};
   const Surface same_road = perturbed(road, {});
   EXPECT_EQ(std::memcmp(&road, &same_road, sizeof road), 0);
+}
+
+TEST(Perturbed, ConsumptionIsTheFuelForTheSameWork) {
+  const Params p;
+  for (const double factor : {0.87, 1.13}) {
+    const Params q = perturbed(p, {.consumption = factor});
+    const auto flow = [](const Params& of) {
+      return fuel_flow_kgps(of.engine, of.fuel, 6'000, engine_torque_nm(of.engine, 6'000, 0.8));
+    };
+    EXPECT_NEAR(flow(q), factor * flow(p), 1e-12);
+  }
+}
+
+TEST(Perturbed, TheSeedDrawsTheConsumptionWithinItsSpread) {
+  scenario::Scenario s;
+  s.perturb.consumption_spread = 0.13;
+  double least = 2.0, most = 0.0;
+  for (s.seed = 0; s.seed < 100; ++s.seed) {
+    const double drawn = s.plant.fuel.efficiency / plant_of(s).fuel.efficiency;
+    EXPECT_EQ(plant_of(s).fuel.efficiency, plant_of(s).fuel.efficiency) << "one seed, one draw";
+    least = std::min(least, drawn);
+    most = std::max(most, drawn);
+  }
+  EXPECT_GE(least, 0.87);
+  EXPECT_LT(least, 0.89);
+  EXPECT_LE(most, 1.13);
+  EXPECT_GT(most, 1.11);
+}
+
+TEST(Perturbed, WhatWasNotFilledInIsNotCarried) {
+  scenario::Scenario s;
+  const Params full = plant_of(s);
+  EXPECT_EQ(std::memcmp(&full, &s.plant, sizeof full), 0);
+  s.start.fuel_l = 20.0;
+  const Params p = plant_of(s);
+  EXPECT_NEAR(p.fuel.start_kg, 14.9, 1e-9);
+  EXPECT_NEAR(full.chassis.mass_kg - p.chassis.mass_kg, full.fuel.start_kg - 14.9, 1e-9);
 }
 
 TEST(Perturbed, MassLoadsTheTyresAndKeepsItsRadiusOfGyration) {

@@ -104,6 +104,7 @@ TEST(Perturbations, AreNeutralUnlessTheyAreWritten) {
     EXPECT_EQ(p.mass_kg, 0.0);
     EXPECT_EQ(p.tyre_stiffness, 1.0);
     EXPECT_EQ(p.friction, 1.0);
+    EXPECT_EQ(p.detection_noise, 1.0);
     for (const double zero : {p.bank_error_rad, p.wind_mps, p.wind_to_rad, p.steering_delay_s,
                               p.throttle_delay_s, p.brake_delay_s, p.gear_delay_s})
       EXPECT_EQ(zero, 0.0);
@@ -125,6 +126,7 @@ constexpr PerturbationKey kPerturbationKeys[] = {
     {"tyre_stiffness", 0.85, 0.49, 2.01, &Perturbations::tyre_stiffness, 1},
     {"friction", 0.8, 0.19, 1.51, &Perturbations::friction, 1},
     {"bank_error_deg", -1.5, -5.1, 5.1, &Perturbations::bank_error_rad, kDegree},
+    {"detection_noise", 1.2, 0.19, 5.1, &Perturbations::detection_noise, 1},
     {"wind_mps", 10, -0.1, 40.1, &Perturbations::wind_mps, 1},
     {"wind_to_deg", 135, -361, 361, &Perturbations::wind_to_rad, kDegree},
     {"steering_delay_s", 0.05, -0.01, 0.51, &Perturbations::steering_delay_s, 1},

@@ -24,6 +24,19 @@ TEST(DetectionParams, TheLidarIsNoBetterThanRealOnes) {
   EXPECT_GE(lidar.cadence.latency + from_seconds(lidar.cadence.jitter_mean_s), milliseconds(100));
 }
 
+TEST(DetectionParams, AFactorScalesEveryNoiseAndNothingElse) {
+  const DetectionSensors plain = av21_detection_sensors(), noisy = with_noise(plain, 2.0);
+  for (std::size_t i = 0; i < plain.size(); ++i) {
+    EXPECT_EQ(noisy[i].lidar.position_sigma_m[1].value,
+              2.0 * plain[i].lidar.position_sigma_m[1].value);
+    EXPECT_EQ(noisy[i].lidar.yaw_sigma_rad, 2.0 * plain[i].lidar.yaw_sigma_rad);
+    EXPECT_EQ(noisy[i].camera.bearing_sigma_rad, 2.0 * plain[i].camera.bearing_sigma_rad);
+    EXPECT_EQ(noisy[i].radar.rate_sigma_mps, 2.0 * plain[i].radar.rate_sigma_mps);
+    EXPECT_EQ(noisy[i].hit_rate[0].value, plain[i].hit_rate[0].value);
+    EXPECT_EQ(noisy[i].lidar.flip, plain[i].lidar.flip);
+  }
+}
+
 TEST(DetectionParams, EachSensorHasItsOwnNumberOfItsKind) {
   std::set<std::pair<DetectionSource, int>> seen;
   for (const DetectionSensor& s : av21_detection_sensors()) {

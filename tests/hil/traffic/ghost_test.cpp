@@ -240,6 +240,25 @@ TEST(Ghost, JoinsItsLineFromItsStart) {
   EXPECT_EQ(states.back().pose.n_m, 2.0);
 }
 
+TEST(Ghost, ItsSpeedWandersByTheDriftAndACarThatStandsKeepsStanding) {
+  GhostPlan plan = at_speed(40.0);
+  plan.speed_drift = {.sigma_mps = 0.5, .correlation_s = 5.0, .most_mps = 1.0};
+  plan.script = {
+      {.trigger = Trigger::kTime, .value = 60.0, .action = Action::kSpeed, .speed = {.mps = 0.0}}};
+  double least_mps = 40.0, most_mps = 40.0;
+  const std::vector<GhostState> states = driven(built(plan), 90.0);
+  for (const GhostState& state : states) {
+    if (time_of(state) >= 60.0) break;
+    least_mps = std::min(least_mps, speed_of(state));
+    most_mps = std::max(most_mps, speed_of(state));
+  }
+  EXPECT_LT(least_mps, 39.7);
+  EXPECT_GE(least_mps, 39.0);
+  EXPECT_GT(most_mps, 40.3);
+  EXPECT_LE(most_mps, 41.0);
+  EXPECT_EQ(speed_of(states.back()), 0.0);
+}
+
 TEST(Ghost, FollowsTheLapOfItsLine) {
   GhostPlan plan;
   plan.line.name = "swing";

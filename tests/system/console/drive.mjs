@@ -167,7 +167,7 @@ function body(t) {
     "fuel.level": 31.4 - t / 500,
     "fuel.used": 12 + t / 500,
     "fuel.flow": 41,
-    "fuel.laps_left": 14,
+    "fuel.laps_left": 11.6,
     "computer.processor": 0.61,
     "computer.memory": 3120,
     "computer.temperature": 68,
@@ -245,6 +245,9 @@ export function valuesAt(t, streams) {
     "derived.slip": 0.006,
     "derived.fuel_per_lap": 2.1,
     "derived.fuel_laps": 14.9,
-    "derived.fuel_attempts": 6,
+    "derived.fuel_level": 31.4,
+    "derived.fuel_least": 29.8,
+    "derived.fuel_least_laps": 11.6,
+    "derived.fuel_attempts": 5,
   };
 }

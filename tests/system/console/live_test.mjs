@@ -382,3 +382,18 @@ test("a lap is compared with a reference, place by place", async () => {
   await page.locator('.plots label:has-text("over") select').selectOption("time");
   assert.deepEqual(faults, []);
 });
+
+test("an attempt that the car declines, and the fuel that it declines by", async () => {
+  const { labels } = stage.double.catalogue.fields.find((f) => f.path === "planner.reason");
+  stage.double.set("planner.reason", labels.indexOf("declined: fuel"));
+  stage.double.set("derived.fuel_attempts", 0);
+  stage.double.set("fuel.laps_left", 2.6);
+  const { page } = await stage.open({ hash: "#/race" });
+  const digits = (path) => page.textContent(`.race-page [data-path="${path}"] .digits`);
+  await until(page, "why it is no faster", () =>
+    /DECLINED.*fuel/.test(document.querySelector('[data-path="planner.reason"]').textContent),
+  );
+  assert.equal(await digits("derived.fuel_attempts"), "0");
+  assert.equal(await digits("fuel.laps_left"), "2.6");
+  await page.screenshot({ path: join(kScreenshots, "declined.png") });
+});

@@ -114,6 +114,14 @@ class Installation(unittest.TestCase):
         self.assertRegex(said, r"broken\.yaml:\d+:\d+: .*unheard_of")
         self.assertEqual(snapshot(self.root), {})
 
+    def test_the_files_that_a_car_file_is_like_are_installed_with_it(self):
+        self.install("--car", SOURCE / "vehicle/config/cars/av21_race.yaml")
+        cars = self.root / "etc/pitwall/cars"
+        self.assertEqual({file.name for file in cars.iterdir()}, {"av21_race.yaml", "av21.yaml"})
+        elsewhere = self.root.parent / "elsewhere.yaml"
+        elsewhere.write_text("schema: 1\nlike: ../av21.yaml\n")
+        self.assertIn("like: ../av21.yaml", self.install("--car", elsewhere, expect=2).stderr)
+
     # --- the dry run
 
     def test_a_dry_run_says_exactly_what_the_installation_does_and_changes_nothing(self):

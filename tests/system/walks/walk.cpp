@@ -165,7 +165,8 @@ class Car {
   static pipeline::Setup made_setup() {
     const std::string car = root() + "/vehicle/config/cars/av21.yaml";
     const std::string track = root() + "/vehicle/config/tracks/lvms.yaml";
-    const auto read = parameters::read_car(had(transport::read_file(car)), car);
+    const auto read = parameters::load_car(
+        car, [](const std::string& path) { return transport::read_file(path); });
     if (!read) give_up(to_string(read.error()));
     return had(pipeline::prepare(
         read->params, had(parameters::read_track(had(transport::read_file(track)), track))));

@@ -27,7 +27,7 @@ EVERYWHERE = ("protocol/vocabulary/", "protocol/transport/clock", "protocol/tran
 SIDE = {
     "what else a tick does": [
         "localization::", "tracking::", "planning::", "control::", "steering::", "safety::",
-        "pipeline::map_opponents", "gateway::encode",
+        "rules::", "pipeline::map_opponents", "gateway::encode",
         "gateway::handshake", "gateway::identify", "gateway::store_command",
         "gateway::observe_link", "gateway::judge_frozen", "gateway::BusLoad",
         "pipeline::map_health", "pipeline::conclude", "pipeline::TickLog",

@@ -5,7 +5,6 @@
 
 #include <map>
 #include <set>
-#include <vector>
 
 namespace pitwall::gateway {
 namespace {
@@ -67,63 +66,6 @@ TEST(FlagTables, EveryMarelliValueHasItsMeaningAndTheRestIsUnknown) {
     EXPECT_EQ(vehicle_meaning(FlagEncoding::kMarelli, value), expected(kMarelliVehicles, raw))
         << raw;
   }
-}
-
-TEST(FlagTables, EveryFlagHasExactlyOneRank) {
-  const std::set<TrackFlag> tracks(kTrackByRestriction.begin(), kTrackByRestriction.end());
-  const std::set<VehicleFlag> vehicles(kVehicleByRestriction.begin(), kVehicleByRestriction.end());
-  EXPECT_EQ(tracks.size(), kTrackByRestriction.size());
-  EXPECT_EQ(tracks.size(), static_cast<std::size_t>(TrackFlag::kUnknown) + 1);
-  EXPECT_EQ(vehicles.size(), kVehicleByRestriction.size());
-  EXPECT_EQ(vehicles.size(), static_cast<std::size_t>(VehicleFlag::kUnknown) + 1);
-}
-
-template <class Flag>
-void expect_binding_in_order(const std::vector<Flag>& from_the_strictest) {
-  for (std::size_t i = 0; i < from_the_strictest.size(); ++i)
-    for (std::size_t k = i; k < from_the_strictest.size(); ++k)
-      EXPECT_EQ(more_restrictive(from_the_strictest[k], from_the_strictest[i]),
-                from_the_strictest[i])
-          << i << ' ' << k;
-}
-
-// By what the car may do: nothing, stand with the engine running, end its race, drive slowly, drive
-// as it was told before, drive fast. What nobody understands allows nothing.
-TEST(FlagTables, ATrackFlagBindsMoreThanThoseThatAllowMore) {
-  using enum TrackFlag;
-  expect_binding_in_order<TrackFlag>(
-      {kUnknown, kRed, kOrange, kChequered, kYellow, kNone, kGreen, kWavingGreen});
-}
-
-TEST(FlagTables, AVehicleFlagBindsMoreThanThoseThatAllowMore) {
-  using enum VehicleFlag;
-  expect_binding_in_order<VehicleFlag>({kPurpleEmergency, kEngineKill, kUnknown, kStop,
-                                        kOrangeStartEngine, kBlackPitIn, kChequered, kYellow, kBlue,
-                                        kNone, kDefender, kAttacker});
-}
-
-TEST(FlagTables, WhatIsNoFlagAtAllCountsAsTheStrictest) {
-  const auto track = static_cast<TrackFlag>(200);
-  const auto vehicle = static_cast<VehicleFlag>(200);
-  EXPECT_EQ(more_restrictive(track, track), TrackFlag::kUnknown);
-  EXPECT_EQ(more_restrictive(vehicle, vehicle), VehicleFlag::kPurpleEmergency);
-}
-
-TEST(FlagTables, MoreRestrictiveIsCommutativeIdempotentAndOneOfBoth) {
-  for (const TrackFlag a : kTrackByRestriction) {
-    EXPECT_EQ(more_restrictive(a, a), a);
-    for (const TrackFlag b : kTrackByRestriction) {
-      const TrackFlag m = more_restrictive(a, b);
-      EXPECT_EQ(m, more_restrictive(b, a));
-      EXPECT_TRUE(m == a || m == b);
-    }
-  }
-  EXPECT_EQ(more_restrictive(TrackFlag::kGreen, TrackFlag::kYellow), TrackFlag::kYellow);
-  EXPECT_EQ(more_restrictive(TrackFlag::kGreen, TrackFlag::kUnknown), TrackFlag::kUnknown);
-  EXPECT_EQ(more_restrictive(VehicleFlag::kAttacker, VehicleFlag::kDefender),
-            VehicleFlag::kDefender);
-  EXPECT_EQ(more_restrictive(VehicleFlag::kStop, VehicleFlag::kPurpleEmergency),
-            VehicleFlag::kPurpleEmergency);
 }
 
 }  // namespace

@@ -305,15 +305,39 @@ TEST(Inbound, TheSecondEncodingCanOnlyRestrict) {
         if (vehicle_other != VehicleFlag::kNone) {
           ASSERT_EQ(more_restrictive(rc.vehicle, vehicle_other), rc.vehicle) << m << ' ' << v;
         }
-        const bool differ =
-            (track_a != track_b && track_a != TrackFlag::kNone && track_b != TrackFlag::kNone) ||
-            (vehicle_a != vehicle_b && vehicle_a != VehicleFlag::kNone &&
-             vehicle_b != VehicleFlag::kNone);
-        ASSERT_EQ(rc.conflict, differ) << m << ' ' << v;
+        const bool spoken = (track_a != TrackFlag::kNone || vehicle_a != VehicleFlag::kNone) &&
+                            (track_b != TrackFlag::kNone || vehicle_b != VehicleFlag::kNone);
+        if (!spoken || demand_of(track_a, vehicle_a) != demand_of(track_b, vehicle_b)) {
+          ASSERT_EQ(rc.conflict, spoken) << m << ' ' << v;
+        }
         ASSERT_EQ(rc.raw_track, mylaps_leads ? nibble : raw);
         ASSERT_EQ(rc.other_raw_vehicle, mylaps_leads ? raw : nibble);
       }
     }
+  }
+}
+
+// Each encoding has flags that the other lacks, and its own way to say them.
+TEST(Inbound, TwoWaysToSayOneThingAreNoConflictAndTwoThingsAre) {
+  struct Case {
+    std::uint8_t mylaps_track, mylaps_vehicle, marelli_track, marelli_vehicle;
+    bool conflict;
+  };
+  for (const Case c : {Case{1, 0, 1, 34, false},    // red; stop beside green
+                       Case{3, 4, 4, 0, false},     // chequered as a vehicle flag; as the track's
+                       Case{2, 0, 0, 25, false},    // orange
+                       Case{4, 7, 1, 36, false},    // attacker
+                       Case{4, 7, 1, 35, true},     // attacker and defender
+                       Case{8, 7, 1, 36, true},     // waving and green
+                       Case{4, 0, 9, 0, true},      // green and yellow
+                       Case{4, 2, 1, 0, true},      // black in one alone
+                       Case{4, 0, 0, 0, false}}) {  // the other says nothing
+    InboundReceiver car;
+    car.receive(summary({.track = c.mylaps_track, .vehicle = c.mylaps_vehicle}), at_ms(0));
+    const auto rc =
+        car.receive(marelli({.track = c.marelli_track, .vehicle = c.marelli_vehicle}), at_ms(0));
+    EXPECT_EQ(rc.race_control.conflict, c.conflict)
+        << int{c.mylaps_track} << ' ' << int{c.marelli_track} << ' ' << int{c.marelli_vehicle};
   }
 }
 

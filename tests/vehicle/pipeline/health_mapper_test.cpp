@@ -115,7 +115,7 @@ const std::vector<Row> kHealthRows{
     {field("computer.memory"), 512},
     {field("computer.temperature"), 61.5},
     {field("faults.now"), 1.0 + 1073741824.0},  // first and last of them
-    {field("faults.now_more"), 1.0 + 1048576.0},
+    {field("faults.now_more"), 1.0 + 2097152.0},
     {field("faults.recorded"), 2},
     {field("faults.last_cause"), 28},
     {field("faults.last_age"), 4},

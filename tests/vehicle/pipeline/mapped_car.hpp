@@ -173,6 +173,7 @@ inline std::unique_ptr<Car> full_car() {
   car->supervisor.log.record({ago_ms(4'000), safety::Cause::kImuLost, 1.0}, true);
   car->follow = safety::Follow::kStop;
   car->bank_rad = 0.25;
+  car->fuel.enter(40.0);
   car->control.gear.missed = 3;
   car->plan.ever = true;
   car->plan.at = ago_ms(22);

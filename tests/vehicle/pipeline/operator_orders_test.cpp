@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -14,6 +15,8 @@ using world::Mode;
 using world::OperatorCommand;
 using world::OperatorCommandKind;
 using world::TrackFlag;
+
+constexpr double kFastest_mps = 68.0;  // of the car's file
 
 // The orders, and a supervisor that arms what it is allowed to.
 struct Rig {
@@ -188,6 +191,16 @@ TEST(OperatorOrders, WhatIsNoSetOfSensorsIsRefused) {
   EXPECT_EQ(rig.orders.use, world::SensorUse{});
 }
 
+TEST(OperatorOrders, TheFuelEnteredIsThatOfOneTick) {
+  Rig rig;
+  EXPECT_EQ(rig.done(OperatorCommandKind::kFuelEntered, 31.5), CommandAnswer::kApplied);
+  EXPECT_EQ(rig.orders.fuel_entered_l, 31.5);
+  rig.tick();
+  EXPECT_TRUE(std::isnan(rig.orders.fuel_entered_l)) << "an entry of before is none";
+  for (const double argument : {-1.0, kUnset})
+    EXPECT_EQ(rig.done(OperatorCommandKind::kFuelEntered, argument), CommandAnswer::kRefused);
+}
+
 TEST(OperatorOrders, WhatThisCarDoesNotHaveIsUnsupported) {
   for (const auto kind : {OperatorCommandKind::kRaceLine, OperatorCommandKind::kRole,
                           OperatorCommandKind::kEndRun, OperatorCommandKind::kSendParameters}) {
@@ -200,7 +213,7 @@ TEST(OperatorOrders, EveryCommandOfATickIsAnsweredOnce) {
   Rig rig;
   std::vector<OperatorCommand> commands(world::kOperatorCommandsMax);
   for (std::size_t i = 0; i < commands.size(); ++i) {
-    commands[i].kind = static_cast<OperatorCommandKind>(i % 9);
+    commands[i].kind = static_cast<OperatorCommandKind>(i % 10);
     commands[i].argument = 1.0;
   }
   std::vector<int> answered(commands.size() + 1);
@@ -223,21 +236,40 @@ TEST(OperatorOrders, ALatchedStopIsARequest) {
 
 TEST(OperatorOrders, OfTwoFlagsTheStricterHolds) {
   const std::vector<TrackFlag> by_strictness{
-      TrackFlag::kGreen,  TrackFlag::kWavingGreen, TrackFlag::kYellow, TrackFlag::kChequered,
-      TrackFlag::kOrange, TrackFlag::kUnknown,     TrackFlag::kRed};
+      TrackFlag::kWavingGreen, TrackFlag::kGreen, TrackFlag::kYellow, TrackFlag::kChequered,
+      TrackFlag::kOrange,      TrackFlag::kRed,   TrackFlag::kUnknown};
   for (std::size_t can = 0; can < by_strictness.size(); ++can) {
     world::RaceControl received;
     received.track = by_strictness[can];
     received.raw_track = 9;
-    EXPECT_EQ(stricter(received, TrackFlag::kNone).track, received.track) << "no opinion";
+    EXPECT_EQ(acted_on(received, TrackFlag::kNone, kFastest_mps).track, received.track)
+        << "no opinion";
     for (std::size_t base = 0; base < by_strictness.size(); ++base) {
-      const world::RaceControl held = stricter(received, by_strictness[base]);
+      const world::RaceControl held = acted_on(received, by_strictness[base], kFastest_mps);
       EXPECT_EQ(held.track, by_strictness[std::max(can, base)]);
       EXPECT_EQ(held.raw_track, 9) << "what was heard is acknowledged as it was";
+      EXPECT_EQ(held.conflict, can != base);
     }
   }
-  EXPECT_EQ(stricter({}, TrackFlag::kGreen).track, TrackFlag::kNone)
+  EXPECT_EQ(acted_on({}, TrackFlag::kGreen, kFastest_mps).track, TrackFlag::kNone)
       << "the base cannot wave a car off that race control has not";
+}
+
+TEST(OperatorOrders, ARoundSpeedAboveTheCarsIsCappedAndTold) {
+  world::RaceControl received;
+  for (const double asked_mps : {kUnset, 30.0, kFastest_mps, 71.5}) {
+    received.round_target_speed_mps = asked_mps;
+    const world::RaceControl held = acted_on(received, TrackFlag::kNone, kFastest_mps);
+    const bool too_fast = asked_mps > kFastest_mps;
+    EXPECT_EQ(std::isfinite(held.refused_speed_mps), too_fast) << asked_mps;
+    if (std::isnan(asked_mps)) {
+      EXPECT_TRUE(std::isnan(held.round_target_speed_mps));
+      continue;
+    }
+    EXPECT_EQ(held.round_target_speed_mps, std::min(asked_mps, kFastest_mps));
+    if (!too_fast) continue;
+    EXPECT_EQ(held.refused_speed_mps, asked_mps);
+  }
 }
 
 TEST(OperatorOrders, OfTwoLimitsTheLowerHolds) {

@@ -88,6 +88,9 @@ class StandingCar {
  public:
   bool race_control = true;
   std::uint8_t mylaps_track = 4;  // green
+  std::uint8_t mylaps_vehicle = 0, marelli_track = 0, marelli_vehicle = 0;
+  double round_speed_mph = 0;
+  bool marelli_hears = false;  // its base
   world::SysState sys = world::SysState::kDriving;
   double station_m = 30.0;
 
@@ -119,11 +122,18 @@ class StandingCar {
       case av21::BaseToCarSummary::kId:
         return encoded(av21::BaseToCarSummary{.base_to_car_heartbeat = static_cast<double>(n % 8),
                                               .track_flag = static_cast<double>(mylaps_track),
-                                              .veh_flag = 0,
+                                              .veh_flag = static_cast<double>(mylaps_vehicle),
                                               .veh_rank = 1,
-                                              .round_target_speed = 0,
+                                              .round_target_speed = round_speed_mph,
                                               .lap_count = 3,
                                               .lap_distance = 0});
+      case av21::MarelliReport1::kId:
+        return encoded(
+            av21::MarelliReport1{.marelli_track_flag = static_cast<double>(marelli_track),
+                                 .marelli_vehicle_flag = static_cast<double>(marelli_vehicle),
+                                 .marelli_sector_flag = 0,
+                                 .marelli_rc_base_sync_check = marelli_hears ? 1.0 : 0.0,
+                                 .marelli_rc_lte_rssi = 0});
       case av21::BrakePressureReport::kId:
         return encoded(av21::BrakePressureReport{1500, 1400, counter});
       case av21::AcceleratorReport::kId:

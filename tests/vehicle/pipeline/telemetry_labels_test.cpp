@@ -134,7 +134,11 @@ TEST(TelemetryLabels, NameWhyTheSpeedIsWhatItIs) {
                                         {kTrail, "trail"},
                                         {kPass, "pass"},
                                         {kGiveWay, "gives way"},
-                                        {kCarAhead, "car ahead"}}),
+                                        {kCarAhead, "car ahead"},
+                                        {kDeclined, "declined: fuel"},
+                                        {kFuelHome, "fuel for the way home"},
+                                        {kPitLane, "pit lane"},
+                                        {kBox, "box"}}),
             names_in(telemetry::kSpeedReasons));
 }
 

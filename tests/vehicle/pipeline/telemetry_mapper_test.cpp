@@ -26,12 +26,18 @@ using telemetry::Group;
 // What no part of the car tells yet, as the header says, or only while it trails a rival.
 bool is_nobodys(std::size_t i) {
   using enum Group;
-  static const std::set<Group> kNobodys{kSuspension, kTread, kFuel, kSteeringUnit, kBrakes};
-  static const std::set<std::string> kUnknown{
-      "dynamics.roll",           "dynamics.pitch",
-      "powertrain.torque",       "powertrain.oil",
-      "powertrain.traction_aim", "powertrain.traction_range",
-      "planner.target_gap",      "planner.cost"};
+  static const std::set<Group> kNobodys{kSuspension, kTread, kSteeringUnit, kBrakes};
+  static const std::set<std::string> kUnknown{"dynamics.roll",
+                                              "dynamics.pitch",
+                                              "powertrain.torque",
+                                              "powertrain.oil",
+                                              "powertrain.traction_aim",
+                                              "powertrain.traction_range",
+                                              "planner.target_gap",
+                                              "planner.cost",
+                                              "fuel.level",
+                                              "fuel.used",
+                                              "fuel.flow"};
   const telemetry::FieldRow& row = telemetry::kFields[i];
   return kNobodys.contains(row.group) || kUnknown.contains(name_of(i)) ||
          telemetry::row_of(row.group).direction == telemetry::Direction::kUp;
@@ -82,6 +88,7 @@ const std::vector<Row> kTelemetryRows{
     {field("engine.speed"), 6100},
     {field("engine.running"), 1},
     {field("engine.fuel_pressure"), 350},
+    {field("fuel.laps_left"), (40.0 - 2.0) / (2.2 * 1.13)},
     {field("engine.oil_pressure"), 480},
     {field("engine.coolant"), 91},
     {field("electric.battery"), 13.6},
@@ -174,7 +181,7 @@ TEST(TelemetryTap, TimesAreThoseOfTheSamples) {
       {kEngine, 16},   {kPowertrain, 16}, {kElectric, 15}, {kPlanner, 22},  {kLocalization, 0},
       {kStreams, 0},   {kSensors, 0},     {kGnss1, 0},     {kReceivers, 0}, {kComputer, 0},
       {kFaults, 0},    {kBus, 0},         {kRadio, 0},     {kRival, 21},    {kOpponent1, 0},
-      {kOpponent2, 0}, {kOpponent3, 0},   {kOpponent4, 0}};
+      {kOpponent2, 0}, {kOpponent3, 0},   {kOpponent4, 0}, {kFuel, 0}};
   for (const telemetry::GroupRow& row : telemetry::kGroupTable) {
     const auto expected = ages_ms.find(row.group);
     ASSERT_EQ(snapshot.ever(row.group), expected != ages_ms.end()) << row.name;

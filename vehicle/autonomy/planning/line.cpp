@@ -44,6 +44,7 @@ LinePoint sample(const world::TrackMap& track, double offset_m, double s_m, doub
   const double curvature_per_m = p.curvature_per_m / (1.0 - p.curvature_per_m * offset_m);
   return {.s_m = s_m,
           .track_s_m = track.wrap_station(track_s_m),
+          .n_m = offset_m,
           .x_m = p.x_m,
           .y_m = p.y_m,
           .yaw_rad = wrap_pi(p.yaw_rad),
@@ -82,6 +83,7 @@ void place_points(const world::TrackMap& track, const world::Raceline& raceline,
     hint_m = place.s_m;
     line.points.push_back({.s_m = line.spacing_m * static_cast<double>(line.points.size()),
                            .track_s_m = place.s_m,
+                           .n_m = place.n_m,
                            .x_m = p.x_m,
                            .y_m = p.y_m,
                            .yaw_rad = wrap_pi(p.yaw_rad),
@@ -172,6 +174,7 @@ LinePoint Line::at(double s_m) const {
   p.cos_yaw = p.sin_yaw = kUnset;
   const bool across_start = b.track_s_m < a.track_s_m;
   p.track_s_m = across_start ? a.track_s_m + along : mix(a.track_s_m, b.track_s_m, t);
+  p.n_m = mix(a.n_m, b.n_m, t);
   p.x_m = hermite(a.x_m, a.cos_yaw, b.x_m, b.cos_yaw);
   p.y_m = hermite(a.y_m, a.sin_yaw, b.y_m, b.sin_yaw);
   p.yaw_rad = within_a_turn(a.yaw_rad + t * within_a_turn(b.yaw_rad - a.yaw_rad));

@@ -46,8 +46,8 @@ inline constexpr auto kLineRanges = std::to_array<world::NamedRange<LineParams>>
 });
 
 struct LinePoint {
-  double s_m = kUnset;        // along the line
-  double track_s_m = kUnset;  // station on the track's reference line
+  double s_m = kUnset;                      // along the line
+  double track_s_m = kUnset, n_m = kUnset;  // place on the track's reference line
   double x_m = kUnset, y_m = kUnset, yaw_rad = kUnset;
   double cos_yaw = kUnset, sin_yaw = kUnset;  // set in `points`; unset in the result of at()
   double curvature_per_m = kUnset, bank_rad = kUnset;

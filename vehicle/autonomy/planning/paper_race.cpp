@@ -16,6 +16,7 @@ PassState advance_paper(const PassParams& p, const PassState& state, const PassI
   if (!in.rival.known || s.ahead) {
     s.phase = in.rival.known && s.line != 0 ? PassPhase::kAhead : PassPhase::kFree;
     if (!in.rival.known || in.rival.gap_m >= p.complete_gap_m) s.line = 0;
+    if (in.may_pass && s.line != 0) s.pass_mps = in.most_mps;
   } else if (in.may_pass && lines > 1) {
     s.phase = PassPhase::kPass;
     s.line = 1;

@@ -3,11 +3,14 @@
 //   invariants
 //          behind: the attacker trails on green; on waving green it merges to the other line and
 //          drives at the speed of a pass
-//          ahead: it is the leader, and maintains the round speed; from the rule's gap on it merges
-//          back to its own line
-//          no state but the line: each tick decides anew
-//   source Saba et al., on planning; research notes state what the paper leaves open: which line
-//          (here the first other one) and the speed of a pass (here that of pass.hpp)
+//          ahead on waving green: the merge goes on, as fast as the car may, up to the rule's gap;
+//          from there it merges back to its own line and maintains the round speed
+//          ahead else: it is the leader, and maintains the round speed
+//          no state but the line: each tick decides anew, so that a gap that is noisy around zero
+//          changes the speed at every change of its sign
+//   source Saba et al., on planning. It leaves open: which line (here the first other one), the
+//          speed of a pass (here that of pass.hpp) and that of an attacker just ahead: the paper
+//          passed up to 125 mph, so it is none that keeps the gap as it is
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

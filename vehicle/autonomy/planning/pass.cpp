@@ -107,6 +107,16 @@ void from_yield(const PassParams& p, PassState& s, const PassInputs& in, Instant
 
 }  // namespace
 
+AttemptChoice choose_attempt(AttemptChoice before, rules::FuelState fuel, bool attacks,
+                             bool waving) {
+  if (!attacks) return AttemptChoice::kOpen;
+  if (before == AttemptChoice::kDeclined || fuel == rules::FuelState::kHomeNow)
+    return AttemptChoice::kDeclined;
+  if (before == AttemptChoice::kOpen && fuel == rules::FuelState::kNoAttempt)
+    return AttemptChoice::kDeclined;
+  return waving ? AttemptChoice::kCommitted : before;
+}
+
 PassState advance(const PassParams& p, const PassState& state, const PassInputs& in, Instant now) {
   PassState s = state;
   s.rival = in.rival;
@@ -154,9 +164,10 @@ double pass_speed_mps(const PassParams& p, const PassState& s, const PassInputs&
   return std::min(speed_mps, in.most_mps);
 }
 
-double follow_mps(const PassParams& p, double ahead_m, double car_mps, bool trails) {
+double follow_mps(const PassParams& p, double brake_mps2, double ahead_m, double car_mps,
+                  bool trails) {
   const double room_m = std::max(ahead_m - kLeastGap_m, 0.0);
-  const double met_mps = std::sqrt(car_mps * car_mps + 2.0 * p.brake_mps2 * room_m);
+  const double met_mps = std::sqrt(car_mps * car_mps + 2.0 * brake_mps2 * room_m);
   const double stop_short_mps = ahead_m < kLeastGap_m ? 0.5 * car_mps : met_mps;
   if (!trails) return stop_short_mps;
   const double wanted_mps = car_mps + p.trail_gain_per_s * (ahead_m - p.trail_gap_m);

@@ -25,6 +25,7 @@
 #include <cstdint>
 #include <span>
 
+#include "protocol/rules/fuel.hpp"
 #include "protocol/vocabulary/time.hpp"
 #include "protocol/vocabulary/units.hpp"
 #include "vehicle/autonomy/planning/rival.hpp"
@@ -80,10 +81,18 @@ enum class PassBar : std::uint8_t {
   kRivalCloses,  // it moves into the line of the pass
 };
 
+// Of the attempt that our car has to make. kCommitted: it has been given waving green.
+enum class AttemptChoice : std::uint8_t { kOpen, kCommitted, kDeclined };
+
+// For an attacker on a green track. Fuel that nobody knows bars nothing.
+AttemptChoice choose_attempt(AttemptChoice before, rules::FuelState fuel, bool attacks,
+                             bool waving);
+
 struct PassState {
   PassPhase phase = PassPhase::kFree;
   PassBar bar = PassBar::kNone;
   Instant since{};
+  AttemptChoice attempt = AttemptChoice::kOpen;  // advance() keeps it
   Rival rival;
   std::size_t line = 0;      // in use; 0 is the own one
   double pass_mps = kUnset;  // latched
@@ -120,6 +129,7 @@ double pass_speed_mps(const PassParams& params, const PassState& state, const Pa
 inline constexpr double kLeastGap_m = 12.0;
 
 // Speed behind a car that is in the way, ahead_m in front of ours.
-double follow_mps(const PassParams& params, double ahead_m, double car_mps, bool trails);
+double follow_mps(const PassParams& params, double brake_mps2, double ahead_m, double car_mps,
+                  bool trails);
 
 }  // namespace pitwall::planning

@@ -15,11 +15,10 @@ namespace {
 
 using world::EgoState;
 using world::LegalRange;
-using world::TrackFlag;
-using world::VehicleFlag;
 
 constexpr double kTickMax_s = 0.2;      // a longer gap between steps moves the reference no further
 constexpr double kBeyondStop_m = 40.0;  // path past the standstill: control looks ahead
+constexpr double kGentleShare = 0.7;    // of comfort, with which a car ahead is met behind flags
 constexpr double kCoastLeast_mps2 = 1.0;  // with the engine's own drag
 
 std::optional<Problem> illegal_line(const LineParams& p) {
@@ -120,16 +119,18 @@ struct Limits {
 };
 
 // Racing is for what race control wants on a green track; behind flags, and when the operator or a
-// silent radio slows the car, it drives gently.
-const Pace& pace_of(const Params& p, Reason reason) {
-  const bool races = reason == Reason::kGreen || reason == Reason::kRoundSpeed ||
-                     (reason >= Reason::kTrail && reason <= Reason::kCarAhead);
-  return races ? p.racing : p.comfort;
+// silent radio slows the car, it drives gently, but for a car in the way that it sees late.
+Pace pace_of(const Params& p, const SpeedDemand& demand) {
+  if (demand.races) return p.racing;
+  Pace pace = p.comfort;
+  if (demand.reason == Reason::kCarAhead || demand.reason == Reason::kTrail)
+    pace.decel_max_mps2 = p.racing.decel_max_mps2, pace.jerk_max_mps3 = p.racing.jerk_max_mps3;
+  return pace;
 }
 
 // In the order of RaceReason.
-constexpr std::array kRaceReasons{Reason::kUnknown, Reason::kTrail, Reason::kPass, Reason::kGiveWay,
-                                  Reason::kCarAhead};
+constexpr std::array kRaceReasons{Reason::kUnknown, Reason::kTrail,    Reason::kPass,
+                                  Reason::kGiveWay, Reason::kCarAhead, Reason::kDeclined};
 
 Limits limits_of(const Params& p, const Inputs& in, const SpeedDemand& demand, double speed_mps) {
   const envelope::FrictionParams friction = on_tyres(p.line.friction, in.tyre_c);
@@ -138,7 +139,7 @@ Limits limits_of(const Params& p, const Inputs& in, const SpeedDemand& demand, d
   const bool coasts = in.followed == Followed::kCoast;
   const double coast_mps2 = std::max(coasting_mps2(friction, speed_mps), kCoastLeast_mps2);
   const bool hard = in.followed == Followed::kEmergency;
-  Pace pace = pace_of(p, demand.reason);
+  Pace pace = pace_of(p, demand);
   Pace corners = p.racing;
   if (coasts) pace.decel_max_mps2 = corners.decel_max_mps2 = coast_mps2;
   return {.drive = {.target_mps = coasts ? 0.0 : demand.speed_mps,
@@ -155,6 +156,15 @@ Limits limits_of(const Params& p, const Inputs& in, const SpeedDemand& demand, d
                    .jerk_max_mps3 = hard ? p.emergency_jerk_max_mps3 : p.stop_jerk_max_mps3}};
 }
 
+// The path that is driven goes on, and merges with another line.
+void go_to_line(const Lines& lines, std::size_t line, double length_m, const EgoState& ego,
+                LinePosition& car, State& next) {
+  const Line& to = lines[line];
+  next.merge = change_line(lines[next.line], next.merge, car.s_m, to, length_m);
+  next.line = line;
+  car = to.project(ego.x_m, ego.y_m);
+}
+
 // The line and the speed that the other cars leave, from the demand of flags and operator.
 SpeedDemand race_on(const Params& p, const Lines& lines, const world::TrackMap& track,
                     const Inputs& in, const SpeedDemand& demand, LinePosition& car, State& next,
@@ -167,23 +177,54 @@ SpeedDemand race_on(const Params& p, const Lines& lines, const world::TrackMap& 
                                       .track = track,
                                       .cars = *in.cars,
                                       .race_control = in.race_control,
+                                      .fuel = in.fuel,
                                       .line = next.line,
                                       .car = car,
                                       .merge = next.merge,
                                       .own = own,
                                       .base_mps = demand.speed_mps,
                                       .most_mps = in.operator_speed_limit_mps,
+                                      .gentle_mps2 = kGentleShare * p.comfort.decel_max_mps2,
                                       .limits = limits.drive},
                                      now);
-  if (next.pass.line != next.line) {
-    const Line& to = lines[next.pass.line];
+  if (next.pass.line != next.line && next.line < lines.size()) {
     const double length_m = std::max(in.ego.vx_mps * p.passing->pass.merge_time_s, p.merge_least_m);
-    next.merge = change_line(lines[next.line], next.merge, car.s_m, to, length_m);
-    next.line = next.pass.line;
-    car = to.project(in.ego.x_m, in.ego.y_m);
+    go_to_line(lines, next.pass.line, length_m, in.ego, car, next);
   }
   if (decision.reason == RaceReason::kNone) return demand;
-  return {decision.speed_mps, kRaceReasons[static_cast<std::size_t>(decision.reason)]};
+  return {decision.speed_mps, kRaceReasons[static_cast<std::size_t>(decision.reason)],
+          is_racing(in.race_control)};
+}
+
+// Comes in, stops at the box, drives out again. The pit's line is that after all others.
+SpeedDemand by_pit(const Params& p, const Lines& lines, const Inputs& in, const SpeedDemand& demand,
+                   LinePosition& car, State& next) {
+  if (in.pit == nullptr) return demand;
+  const world::RaceControl& rc = in.race_control;
+  const bool comes_in =
+      rc.ever_received && demand_of(rc.track, rc.vehicle) == world::FlagDemand::kComeIn;
+  const double speed_mps = std::max(in.ego.vx_mps, 0.0);
+  OnTheWay way{.speed_mps = speed_mps,
+               .merge_m = std::max(speed_mps * p.merge_time_s, p.merge_least_m),
+               .decel_mps2 = p.comfort.decel_max_mps2};
+  const bool on_own = next.line == 0 && next.pass.line == 0;
+  if (on_own && comes_in) {
+    way.s_m = in.pit->line.project(in.ego.x_m, in.ego.y_m).s_m;
+    if (turns_in(*in.pit, way)) go_to_line(lines, lines.size(), way.merge_m, in.ego, car, next);
+  }
+  if (next.line != lines.size()) return demand;
+  way.s_m = car.s_m;
+  if (!is_in_lane(*in.pit, car.s_m)) {
+    const bool is_out = in.pit->line.wrap(car.s_m) < 0.5 * in.pit->line.length_m;
+    if (!comes_in || is_out) {
+      go_to_line(lines, 0, way.merge_m, in.ego, car, next);
+      return demand;
+    }
+    const double lane_mps = to_lane_mps(*in.pit, way);
+    return lane_mps < demand.speed_mps ? SpeedDemand{lane_mps, Reason::kPitLane} : demand;
+  }
+  const double box_mps = comes_in ? to_box_mps(*in.pit, way) : HUGE_VAL;
+  return box_mps < demand.speed_mps ? SpeedDemand{box_mps, Reason::kBox} : demand;
 }
 
 // The path that is followed stays; before, it is chosen anew from where the car is.
@@ -213,56 +254,6 @@ SpeedReference reference(const Params& params, const SpeedsAhead& ahead, const S
   return {std::clamp(next.speed_mps, low, speed_mps + params.speed_band_mps), next.accel_mps2};
 }
 
-SpeedDemand by_track_flag(const Params& params, const world::RaceControl& rc) {
-  switch (rc.track) {
-    case TrackFlag::kNone:
-      return {0.0, Reason::kNoFlag};
-    case TrackFlag::kRed:
-      return {0.0, Reason::kRed};
-    case TrackFlag::kOrange:
-      return {0.0, Reason::kOrange};
-    case TrackFlag::kChequered:
-      return {0.0, Reason::kChequered};
-    case TrackFlag::kUnknown:
-      return {0.0, Reason::kUnknownFlag};
-    case TrackFlag::kYellow:
-      return {params.caution_speed_mps, Reason::kCaution};
-    case TrackFlag::kGreen:
-    case TrackFlag::kWavingGreen:
-      if (rc.round_target_speed_mps > 0.0 && std::isfinite(rc.round_target_speed_mps)) {
-        return {rc.round_target_speed_mps, Reason::kRoundSpeed};
-      }
-      return {params.green_speed_mps, Reason::kGreen};
-  }
-  return {0.0, Reason::kUnknownFlag};
-}
-
-SpeedDemand by_vehicle_flag(const Params& params, VehicleFlag flag) {
-  constexpr double kNoLimit_mps = 1e3;
-  switch (flag) {
-    case VehicleFlag::kNone:
-    case VehicleFlag::kBlue:
-    case VehicleFlag::kDefender:
-    case VehicleFlag::kAttacker:
-      return {kNoLimit_mps, Reason::kGreen};
-    case VehicleFlag::kYellow:
-      return {params.caution_speed_mps, Reason::kCaution};
-    case VehicleFlag::kBlackPitIn:
-      return {0.0, Reason::kBlack};
-    case VehicleFlag::kStop:
-    case VehicleFlag::kPurpleEmergency:
-    case VehicleFlag::kEngineKill:
-      return {0.0, Reason::kStopFlag};
-    case VehicleFlag::kOrangeStartEngine:
-      return {0.0, Reason::kOrange};
-    case VehicleFlag::kChequered:
-      return {0.0, Reason::kChequered};
-    case VehicleFlag::kUnknown:
-      return {0.0, Reason::kUnknownFlag};
-  }
-  return {0.0, Reason::kUnknownFlag};
-}
-
 // The demand, or the road where that is slower.
 SpeedDemand with_road(const LinePoint& here, const DriveLimits& limits, const SpeedsAhead& ahead,
                       const SpeedDemand& demand) {
@@ -281,6 +272,17 @@ std::optional<Problem> illegal_pace(const Params& p) {
       LegalRange{"racing.accel_max_mps2", most.accel_max_mps2, least.accel_max_mps2, 10.0},
       LegalRange{"racing.decel_max_mps2", most.decel_max_mps2, least.decel_max_mps2, 10.0},
       LegalRange{"racing.jerk_max_mps3", most.jerk_max_mps3, least.jerk_max_mps3, 30.0}});
+}
+
+// A car that starts in the pit lane, or finds itself there, is on the pit's line.
+std::size_t line_at_start(const Lines& lines, const Inputs& in, std::size_t line) {
+  constexpr double kBeside_m = 4.0;
+  if (in.pit == nullptr) return line;
+  const LinePosition at = in.pit->line.project(in.ego.x_m, in.ego.y_m);
+  const double from_own_m = lines.own.project(in.ego.x_m, in.ego.y_m).offset_m;
+  const bool in_pit = is_in_lane(*in.pit, at.s_m) && std::abs(at.offset_m) < kBeside_m &&
+                      std::abs(from_own_m) > kBeside_m;
+  return in_pit ? lines.size() : line;
 }
 
 }  // namespace
@@ -320,18 +322,6 @@ Result<std::vector<Line>, Problem> prepare_others(
   return lines;
 }
 
-SpeedDemand demanded_speed(const Params& params, const world::RaceControl& race_control,
-                           double operator_speed_limit_mps) {
-  if (!race_control.ever_received) return {0.0, Reason::kNoRaceControl};
-  SpeedDemand demand = by_track_flag(params, race_control);
-  const SpeedDemand vehicle = by_vehicle_flag(params, race_control.vehicle);
-  if (vehicle.speed_mps < demand.speed_mps) demand = vehicle;
-  if (operator_speed_limit_mps < demand.speed_mps) {
-    demand = {std::max(operator_speed_limit_mps, 0.0), Reason::kOperatorLimit};
-  }
-  return demand;
-}
-
 Output step(const Params& params, const Line& own_line, const world::TrackMap& track,
             const State& state, const Inputs& in, Instant now) {
   Output out;
@@ -342,12 +332,19 @@ Output step(const Params& params, const Line& own_line, const world::TrackMap& t
     next.started = false;
     return out;
   }
-  const Lines lines{own_line, in.other_lines};
-  CHECK(next.line < lines.size());
+  const Lines lines{own_line, in.other_lines, in.pit == nullptr ? nullptr : &in.pit->line};
+  if (!state.started) next.line = line_at_start(lines, in, next.line);
+  CHECK(next.line < lines.size() || (in.pit != nullptr && next.line == lines.size()));
   const std::optional<double> hint = state.started ? std::optional{state.line_s_m} : std::nullopt;
   LinePosition car = lines[next.line].project(in.ego.x_m, in.ego.y_m, hint);
   const double speed_mps = std::max(in.ego.vx_mps, 0.0);
-  SpeedDemand demand = demanded_speed(params, in.race_control, in.operator_speed_limit_mps);
+  SpeedDemand demand = demanded_speed({.green_mps = params.green_speed_mps,
+                                       .caution_mps = params.caution_speed_mps,
+                                       .has_pit = in.pit != nullptr},
+                                      in.race_control, in.operator_speed_limit_mps);
+  if (in.fuel == rules::FuelState::kHomeNow && params.caution_speed_mps < demand.speed_mps)
+    demand = {params.caution_speed_mps, Reason::kFuelHome};
+  if (!stops(in.followed)) demand = by_pit(params, lines, in, demand, car, next);
   if (params.passing && in.cars != nullptr && !stops(in.followed))
     demand = race_on(params, lines, track, in, demand, car, next, now);
   const Line& line = lines[next.line];
@@ -376,7 +373,9 @@ Output step(const Params& params, const Line& own_line, const world::TrackMap& t
   const bool unlimited = params.speed_law == SpeedLaw::kPaper;
   if (unlimited) demand_everywhere(out.drive, limits.drive.target_mps);
   const LinePoint here = line.at(car.s_m);
-  const SpeedDemand limited = unlimited ? demand : with_road(here, limits.drive, ahead, demand);
+  SpeedDemand limited = unlimited ? demand : with_road(here, limits.drive, ahead, demand);
+  if (next.line == lines.size() && limited.reason != demand.reason && is_in_lane(*in.pit, car.s_m))
+    limited.reason = Reason::kPitLane;
   out.target_speed_mps = limited.speed_mps;
   out.reason = limited.reason;
   out.line_number = line.number;

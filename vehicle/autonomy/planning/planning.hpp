@@ -14,7 +14,11 @@
 //          stop is the same path with more brake
 //          while the car coasts the drive trajectory slows like a car with closed throttle
 //          a car far off the line returns by a minimum-jerk offset over merge_time_s
+//          with fuel for the way home only the car drives at the speed of a caution; fuel that
+//          nobody has entered limits nothing
 //          other cars are regarded where params.passing is set (race.hpp); a stop keeps its line
+//          a car that shall come in does so by the pit line and stops at its box; one that starts
+//          in the pit lane, or shall race again, drives out by it
 //   errors without a usable ego state both trajectories are empty, with the reason kNoEgo
 //   cost   O(points + horizon steps), below 1 ms; no allocation
 // SPDX-License-Identifier: Apache-2.0
@@ -27,12 +31,15 @@
 #include <string>
 #include <vector>
 
+#include "protocol/rules/fuel.hpp"
 #include "protocol/vocabulary/result.hpp"
 #include "protocol/vocabulary/time.hpp"
+#include "vehicle/autonomy/planning/flag_speed.hpp"
 #include "vehicle/autonomy/planning/governor.hpp"
 #include "vehicle/autonomy/planning/line.hpp"
 #include "vehicle/autonomy/planning/offset.hpp"
 #include "vehicle/autonomy/planning/pass.hpp"
+#include "vehicle/autonomy/planning/pit_line.hpp"
 #include "vehicle/autonomy/planning/stop_plan.hpp"
 #include "vehicle/steering/angle_limits.hpp"
 #include "vehicle/world/ego_state.hpp"
@@ -104,31 +111,6 @@ inline constexpr auto kPaceRanges = std::to_array<world::NamedRange<Pace>>({
     {"jerk_max_mps3", &Pace::jerk_max_mps3, 0.5, 30.0},
 });
 
-// Source of the target speed.
-enum class Reason : std::uint8_t {
-  kUnknown,
-  kNoEgo,
-  kNoRaceControl,
-  kNoFlag,
-  kUnknownFlag,
-  kRed,
-  kOrange,
-  kBlack,
-  kStopFlag,
-  kChequered,
-  kCaution,
-  kGreen,
-  kRoundSpeed,
-  kOperatorLimit,
-  kLineLimit,    // what the car can do at this place of its line
-  kTyreLimit,    // the same, where warm tyres could do more
-  kCornerAhead,  // the governor slows the car for what lies ahead
-  kTrail,        // behind the rival
-  kPass,
-  kGiveWay,  // a pass was given up
-  kCarAhead  // a car in the way
-};
-
 enum class Followed : std::uint8_t {
   kNothing,
   kDrive,
@@ -142,16 +124,18 @@ struct Inputs {
   const world::RaceControl& race_control;
   double operator_speed_limit_mps = kUnset;  // unset: no limit
   Followed followed = Followed::kNothing;
+  rules::FuelState fuel = rules::FuelState::kUnknown;
   double tyre_c = kUnset;                           // coldest tyre; unset counts as cold
   const steering::AngleBudget* steering = nullptr;  // null: no limit
   std::span<const Line> other_lines = {};           // as prepare_others() made them
+  const PitLine* pit = nullptr;                     // null: the car stops where it should come in
   const world::Opponents* cars = nullptr;           // tracked; null: none
 };
 
 struct State {
   bool started = false;
   Instant at{};
-  std::size_t line = 0;                         // in use: 0 the own one, then the others
+  std::size_t line = 0;                         // in use: 0 the own one, the others, the pit's
   double line_s_m = kUnset;                     // station of the car on it
   double speed_mps = kUnset, accel_mps2 = 0.0;  // reference speed
   OffsetChange merge;                           // return to the line
@@ -183,14 +167,5 @@ Result<std::vector<Line>, Problem> prepare_others(
 
 Output step(const Params& params, const Line& line, const world::TrackMap& track,
             const State& state, const Inputs& inputs, Instant now);
-
-struct SpeedDemand {
-  double speed_mps = kUnset;
-  Reason reason = Reason::kUnknown;
-};
-
-// The flag table alone, for tests and displays.
-SpeedDemand demanded_speed(const Params& params, const world::RaceControl& race_control,
-                           double operator_speed_limit_mps);
 
 }  // namespace pitwall::planning

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "vehicle/autonomy/planning/flag_speed.hpp"
 #include "vehicle/autonomy/planning/paper_race.hpp"
 
 namespace pitwall::planning {
@@ -16,11 +17,7 @@ constexpr double kWayStep_m = 20.0, kWay_m = 400.0;
 constexpr double kInWay_m =
     2.6;  // lateral distance of the centres, below which a car is in the way
 constexpr double kAnyLimit_mps = 1e3;
-
-// Offset n of a line at a place of it.
-double n_of(const world::TrackMap& track, const LinePoint& p) {
-  return track.at(p.track_s_m).width_left_m - p.room_left_m;
-}
+constexpr double kMoves_mps = 2.0;  // a slower car beside the way is passed even behind flags
 
 // The places of our car on every line, once.
 struct Places {
@@ -45,7 +42,7 @@ struct OtherPath {
 OtherPath path_of(const RaceInputs& in, const Places& at, const Rival& car) {
   OtherPath best;
   for (std::size_t i = 0; i < in.lines.size(); ++i) {
-    const double n_m = n_of(in.track, in.lines[i].at(at.s_m[i] - car.gap_m));
+    const double n_m = in.lines[i].at(at.s_m[i] - car.gap_m).n_m;
     const double aside_m = car.n_m - n_m;
     if (i == 0 || std::abs(aside_m) < std::abs(best.aside_m)) best = {i, aside_m, car.drift_mps};
   }
@@ -56,8 +53,8 @@ OtherPath path_of(const RaceInputs& in, const Places& at, const Rival& car) {
 double beside_m(const RaceInputs& in, const Places& at, std::size_t line, const OtherPath& path) {
   double least_m = HUGE_VAL;
   for (double d_m = 0.0; d_m <= kWay_m; d_m += kWayStep_m) {
-    const double own_n_m = n_of(in.track, in.lines[line].at(at.s_m[line] + d_m));
-    const double n_m = n_of(in.track, in.lines[path.line].at(at.s_m[path.line] + d_m));
+    const double own_n_m = in.lines[line].at(at.s_m[line] + d_m).n_m;
+    const double n_m = in.lines[path.line].at(at.s_m[path.line] + d_m).n_m;
     const double after_s = std::min(d_m / std::max(in.own.speed_mps, 1.0), kDrift_s);
     const double beside_m = own_n_m - n_m - path.aside_m;
     least_m =
@@ -117,12 +114,14 @@ double in_way_mps(const PassParams& p, const RaceInputs& in, const PassState& st
     const double ahead_m = -other.gap_m;
     if (!other.known || !(ahead_m > 0.0)) continue;
     const double s_m = in.car.s_m + ahead_m;
-    const double path_n_m = n_of(in.track, line.at(s_m)) + offset_at(line, in.merge, s_m).n_m;
+    const double path_n_m = line.at(s_m).n_m + offset_at(line, in.merge, s_m).n_m;
     const bool is_rival = state.rival.known && other.id == state.rival.id;
     const bool trails = is_rival && state.phase == PassPhase::kTrail;
     const bool blocks = std::abs(path_n_m - other.n_m) < kInWay_m;
-    if (!blocks && !(is_rival && trails && keeps_behind)) continue;
-    least_mps = std::min(least_mps, follow_mps(p, ahead_m, other.speed_mps, trails));
+    if (!blocks && !(is_rival && trails && keeps_behind && other.speed_mps > kMoves_mps)) continue;
+    const double brake_mps2 =
+        is_racing(in.race_control) ? p.brake_mps2 : std::min(p.brake_mps2, in.gentle_mps2);
+    least_mps = std::min(least_mps, follow_mps(p, brake_mps2, ahead_m, other.speed_mps, trails));
   }
   return least_mps;
 }
@@ -144,36 +143,40 @@ RaceReason reason_of(PassPhase phase) {
 }  // namespace
 
 RaceDecision race(const PassParams& p, PassState& state, const RaceInputs& in, Instant now) {
-  const bool attacks = in.race_control.vehicle == world::VehicleFlag::kAttacker;
+  bool attacks = in.race_control.vehicle == world::VehicleFlag::kAttacker;
   const bool waving = in.race_control.track == world::TrackFlag::kWavingGreen;
   const bool green = waving || in.race_control.track == world::TrackFlag::kGreen;
+  state.attempt = choose_attempt(state.attempt, in.fuel, attacks && green, waving);
+  attacks = attacks && state.attempt != AttemptChoice::kDeclined;
   const Rival rival = follow(p.rival, state.rival, in.track, in.own, in.cars, now);
   std::array<PassWay, kRaceLines> ways;
   std::size_t known_ways = 0;
-  if (rival.known && attacks && waving && state.phase == PassPhase::kTrail) {
+  if (rival.known && attacks && waving && in.line < in.lines.size() &&
+      state.phase == PassPhase::kTrail) {
     ways = ways_past(p, in, places_of(in), rival);
     known_ways = in.lines.size();
   }
   const double rival_gap_m = rival.known ? rival.gap_m : 0.0;
-  const PassInputs inputs{
-      .rival = rival,
-      .base_mps = in.base_mps,
-      .most_mps = std::isfinite(in.most_mps) ? in.most_mps : kAnyLimit_mps,
-      .may_pass = attacks && waving,
-      .may_close = attacks && green,
-      .ways = {ways.data(), known_ways},
-      .line_n_m = n_of(in.track, in.lines[in.line].at(in.car.s_m - rival_gap_m)),
-      .speed_mps = in.own.speed_mps,
-      .has_merged = is_over(in.lines[in.line], in.merge, in.car.s_m)};
+  const PassInputs inputs{.rival = rival,
+                          .base_mps = in.base_mps,
+                          .most_mps = std::isfinite(in.most_mps) ? in.most_mps : kAnyLimit_mps,
+                          .may_pass = attacks && waving && in.line < in.lines.size(),
+                          .may_close = attacks && green,
+                          .ways = {ways.data(), known_ways},
+                          .line_n_m = in.lines[in.line].at(in.car.s_m - rival_gap_m).n_m,
+                          .speed_mps = in.own.speed_mps,
+                          .has_merged = is_over(in.lines[in.line], in.merge, in.car.s_m)};
   state = p.law == PassLaw::kPaper ? advance_paper(p, state, inputs, in.lines.size(), now)
                                    : advance(p, state, inputs, now);
   RaceDecision out{pass_speed_mps(p, state, inputs), RaceReason::kNone};
   if (out.speed_mps != in.base_mps) out.reason = reason_of(state.phase);
-  const double behind_mps = in_way_mps(p, in, state, attacks);
+  // Behind flags nobody overtakes.
+  const double behind_mps = in_way_mps(p, in, state, attacks || !is_racing(in.race_control));
   if (behind_mps < out.speed_mps) {
     out.speed_mps = behind_mps;
     out.reason = state.phase == PassPhase::kTrail ? RaceReason::kTrail : RaceReason::kCarAhead;
   }
+  if (state.attempt == AttemptChoice::kDeclined) out.reason = RaceReason::kDeclined;
   return out;
 }
 

@@ -8,6 +8,8 @@
 //          no speed above what the operator allows; none above the demand but for an attacker
 //          on a green track
 //          a car that is in the way of our path is followed or met standing, whatever the phase is
+//          an attempt is declined as long as it has not been given waving green, by fuel; later
+//          it is finished, unless there is fuel for the way home only. What was declined stays so
 //          another car goes on along the line that it is nearest to, at its distance from it
 //   cost   some 0.3 ms where a pass is looked for, otherwise 10 us; no allocation
 // SPDX-License-Identifier: Apache-2.0
@@ -27,14 +29,19 @@
 
 namespace pitwall::planning {
 
-// The own line and those that a pass may use; the own one has number 0 here.
+// The own line and those that a pass may use; the own one has number 0 here, and the pit's, where
+// there is one, the number after all others.
 inline constexpr std::size_t kRaceLines = 4;
 struct Lines {
   const Line& own;
   std::span<const Line> others = {};
+  const Line* pit = nullptr;
 
-  std::size_t size() const { return 1 + others.size(); }
-  const Line& operator[](std::size_t i) const { return i == 0 ? own : others[i - 1]; }
+  std::size_t size() const { return 1 + others.size(); }  // to race on
+  const Line& operator[](std::size_t i) const {
+    if (i == size()) return *pit;
+    return i == 0 ? own : others[i - 1];
+  }
 };
 
 struct RaceInputs {
@@ -42,16 +49,18 @@ struct RaceInputs {
   const world::TrackMap& track;
   const world::Opponents& cars;
   const world::RaceControl& race_control;
+  rules::FuelState fuel = rules::FuelState::kUnknown;
   std::size_t line = 0;  // in use
   LinePosition car;      // of our car on it
   OffsetChange merge;    // on it
   OwnPlace own;
-  double base_mps = kUnset;  // demanded by flags and operator
-  double most_mps = kUnset;  // by the operator; unset: no limit
+  double base_mps = kUnset;     // demanded by flags and operator
+  double most_mps = kUnset;     // by the operator; unset: no limit
+  double gentle_mps2 = kUnset;  // with which a car in the way is met behind flags
   const DriveLimits& limits;
 };
 
-enum class RaceReason : std::uint8_t { kNone, kTrail, kPass, kYield, kCarAhead };
+enum class RaceReason : std::uint8_t { kNone, kTrail, kPass, kYield, kCarAhead, kDeclined };
 
 struct RaceDecision {
   double speed_mps = kUnset;

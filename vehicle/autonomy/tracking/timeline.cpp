@@ -11,6 +11,13 @@ namespace {
 
 constexpr Duration kMarkEvery = milliseconds(100);
 
+// Without the places that are not used.
+void copy(const Tracks& from, Tracks& to) {
+  to.started = from.started, to.at = from.at, to.crowded = from.crowded;
+  to.list.clear();
+  for (const Track& track : from.list) (void)to.list.push(track);
+}
+
 }  // namespace
 
 Timeline::Timeline() {
@@ -81,7 +88,7 @@ std::size_t Timeline::go_back(Tracks& tracks) {
     return 0;
   }
   const Checkpoint& from = checkpoint(marks_ - 1);
-  tracks = from.tracks;
+  copy(from.tracks, tracks);
   std::size_t first = first_new_;
   while (first > 0 && frames_[first - 1].key > from.key) --first;
   return first;
@@ -103,7 +110,7 @@ void Timeline::mark(const FrameKey& key, const Tracks& tracks) {
   if (marks_ > 0 && key.at - checkpoint(marks_ - 1).key.at < kMarkEvery) return;
   Checkpoint& made = checkpoint(marks_++);
   made.key = key;
-  made.tracks = tracks;
+  copy(tracks, made.tracks);
 }
 
 void Timeline::settle(const Params& params, const world::TrackMap* map, Tracks& tracks) {

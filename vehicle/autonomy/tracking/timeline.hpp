@@ -30,7 +30,7 @@ namespace pitwall::tracking {
 
 inline constexpr std::size_t kFramesMax = 256;      // of 1 s: ten sensors at 25 Hz
 inline constexpr std::size_t kStoredMax = 1024;     // their detections
-inline constexpr std::size_t kCheckpointsMax = 13;  // one each 0.1 s, and the one before the window
+inline constexpr std::size_t kCheckpointsMax = 12;  // one each 0.1 s, and the one before the window
 
 struct StoredFrame {
   FrameKey key;

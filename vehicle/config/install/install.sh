@@ -73,6 +73,19 @@ render() {
   printf '%s' "$out"
 }
 
+# The car file and those that it is like, which lie beside it.
+plan_car_files() {
+  local file=$car like
+  for _ in 1 2 3 4; do
+    plan_file config 0644 "/etc/pitwall/cars/${file##*/}" "$file"
+    like=$(sed -nE 's/^like:[[:space:]]*"?([^"#[:space:]]+).*/\1/p' "$file")
+    [[ -n $like ]] || return 0
+    [[ $like != */* ]] || refuse "$file: like: $like; expected a file beside it, because they are installed together"
+    file=$(dirname "$file")/$like
+    check_file "$car: like" "$file"
+  done
+}
+
 # Programs in /opt: add-on software that no Debian package owns (FHS 3.13). Configuration and state
 # where an administrator looks first.
 plan_files() {
@@ -81,7 +94,7 @@ plan_files() {
   plan_file program 0755 /opt/pitwall/bin/pitwall-guardian \
     "$build/vehicle/guardian/pitwall-guardian"
   plan_file program 0755 /opt/pitwall/bin/pitwall-hil "$build/hil/pitwall-hil"
-  plan_file config 0644 "/etc/pitwall/cars/${car##*/}" "$car"
+  plan_car_files
   plan_file config 0644 "/etc/pitwall/tracks/${track##*/}" "$track"
   plan_file config 0644 /etc/pitwall/vehicle.env "$(render vehicle.env)"
   plan_keys

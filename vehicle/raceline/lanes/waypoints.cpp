@@ -14,7 +14,6 @@ namespace {
 constexpr double kWalkStep_m = 1.0;          // of the walk along the track
 constexpr double kStraightSpacing_m = 60.0;  // of waypoints where the track is straight
 constexpr double kTurnSpacing_rad = 0.35;    // and at most so much turn between two
-constexpr double kPitRampShare = 0.25;       // of the pit lane, to get to its middle and back
 constexpr double kSampleStep_m = 1.0;        // at which a spline is compared with its lane
 constexpr double kNearShare = 0.4;  // of the spacing: a second waypoint so near would make waves
 constexpr int kRoundsMax = 60;
@@ -136,7 +135,7 @@ Result<std::vector<Waypoint>, Problem> pit_waypoints(const Lanes& lanes, double 
     const auto along = lanes.along_pit(w.s_m);
     if (!along) {
       way.push_back(w);
-    } else if (*along > kPitRampShare && *along < 1.0 - kPitRampShare) {
+    } else if (*along > world::kPitRampShare && *along < 1.0 - world::kPitRampShare) {
       way.push_back({w.s_m, lanes.track().pit()->offset_m});
     }
   }

@@ -236,6 +236,8 @@ export interface Fuel {
   level?: number | null;
   estimated?: boolean;
   laps: number | null;
+  /** At the highest consumption; attempts follow from it. */
+  least_laps?: number | null;
   attempts: number | null;
   per_lap: number | null;
   text: string;

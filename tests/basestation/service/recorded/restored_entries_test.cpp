@@ -37,7 +37,7 @@ void drive(EntriesReader& restored, Instant from, Instant to) {
   }
 }
 
-constexpr state::EngineSample kFull{.speed_rpm = 5'000.0, .throttle = 1.0, .running = true};
+constexpr rules::EngineSample kFull{.speed_rpm = 5'000.0, .throttle = 1.0, .running = true};
 
 TEST(EntriesReader, NobodyEnteredAnything) {
   EntriesReader restored;
@@ -73,7 +73,7 @@ TEST(EntriesReader, FuelIsReckonedOnThroughTheRecording) {
   drive(restored, kEntered - seconds(100), kEntered);  // before it was filled in
   restored.expected(expected_text(entries(), 40.0, kEntered), kEntered);
   drive(restored, kEntered + milliseconds(100), kEntered + seconds(100));
-  const double flow_lps = state::fuel_flow_lps(kFull);
+  const double flow_lps = rules::fuel_flow_lps(kFull);
   EXPECT_GT(flow_lps, 0.01);
   EXPECT_NEAR(restored.result(kEntered + seconds(100))->fuel_left_l, 40.0 - 100.0 * flow_lps, 1e-6);
   // WHEN the newest text says how much was left
@@ -87,7 +87,7 @@ TEST(EntriesReader, WhatNobodyHeardWasBurntButNeverMoreThanThereWas) {
   EntriesReader restored;
   restored.expected(expected_text(entries(), 40.0, kEntered), kEntered);
   drive(restored, kEntered, kEntered + seconds(1));
-  const double flow_lps = state::fuel_flow_lps(kFull);
+  const double flow_lps = rules::fuel_flow_lps(kFull);
   EXPECT_NEAR(restored.result(kEntered + seconds(61))->fuel_left_l, 40.0 - 61.0 * flow_lps, 1e-6);
   EXPECT_EQ(restored.result(kEntered + seconds(100'000))->fuel_left_l, 0.0);
 }

@@ -67,6 +67,28 @@ TEST(DriveAgain, ACommentIsNoDifferenceAndIsToldAsAnotherFile) {
             (std::vector<std::string>{car + ": not the file that the run was driven with"}));
 }
 
+TEST(DriveAgain, AFileThatTheCarFileIsLikeBelongsToIt) {
+  const auto folder = *transport::TemporaryFolder::create("pitwall-again-");
+  const std::string base = changed_car(folder, "name: AV-21", "name: AV-21");
+  const std::string car = folder.path() + "/race.yaml";
+  const std::string like = base.substr(base.rfind('/') + 1);
+  ASSERT_TRUE(transport::write_file(car, "schema: 1\nlike: " + like + "\n"));
+  {
+    RecordedDrive{folder.path() + "/run",
+                  {.car = car, .track = RecordedDrive::path_of("tracks/lvms.yaml")}};
+  }
+  std::vector<std::string> remarks;
+  const auto setup_again = [&] {
+    return setup_of(*RecordedRun::open(folder.path() + "/run"), {}, remarks);
+  };
+  EXPECT_TRUE(setup_again());
+  EXPECT_TRUE(remarks.empty());
+  ASSERT_EQ(changed_car(folder, "control:", "# a comment\ncontrol:"), base);
+  EXPECT_TRUE(setup_again());
+  EXPECT_EQ(remarks,
+            (std::vector<std::string>{car + ": not the file that the run was driven with"}));
+}
+
 TEST(DriveAgain, TheBankIsThatOfTheRunOrLiesBesideTheCarFile) {
   const auto folder = *transport::TemporaryFolder::create("pitwall-again-");
   const std::string car =
@@ -78,7 +100,8 @@ TEST(DriveAgain, TheBankIsThatOfTheRunOrLiesBesideTheCarFile) {
                             parameters::bank_for(pipeline::testing::av21_file().params)));
   ASSERT_TRUE(transport::write_file(kept, bank));
   {
-    RecordedDrive{folder.path() + "/run", {car, RecordedDrive::path_of("tracks/lvms.yaml"), kept}};
+    RecordedDrive{folder.path() + "/run",
+                  {.car = car, .track = RecordedDrive::path_of("tracks/lvms.yaml"), .bank = kept}};
   }
   std::vector<std::string> remarks;
   const auto setup_from = [&](const std::string& recording, const RunFiles& files) {

@@ -26,7 +26,8 @@ TEST(OperatorTexts, EveryCommandIsATextThatMeansItAgain) {
       std::pair{OperatorCommandKind::kRaceLine, telemetry::CommandType::kRaceLine},
       std::pair{OperatorCommandKind::kRole, telemetry::CommandType::kRole},
       std::pair{OperatorCommandKind::kTrackFlag, telemetry::CommandType::kTrackFlag},
-      std::pair{OperatorCommandKind::kSensorsExcluded, telemetry::CommandType::kSensorsExcluded}};
+      std::pair{OperatorCommandKind::kSensorsExcluded, telemetry::CommandType::kSensorsExcluded},
+      std::pair{OperatorCommandKind::kFuelEntered, telemetry::CommandType::kFuelEntered}};
   for (const auto& [kind, type] : kKinds) {
     OperatorTexts texts;
     const world::OperatorCommand command{.id = 1, .kind = kind, .argument = 1.0, .expires = {}};

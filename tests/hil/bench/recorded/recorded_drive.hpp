@@ -34,9 +34,16 @@ class RecordedDrive {
   explicit RecordedDrive(const std::string& folder)
       : RecordedDrive(folder,
                       {.car = path_of("cars/av21.yaml"), .track = path_of("tracks/lvms.yaml")}) {}
-  RecordedDrive(const std::string& folder, const io::BlackBoxFiles& files)
-      : box_(*io::BlackBox::open(folder, files)) {
+  // The text of the car is read here.
+  RecordedDrive(const std::string& folder, io::BlackBoxFiles files)
+      : box_(*io::BlackBox::open(folder, with_text(std::move(files)))) {
     for (std::uint64_t tick = 0; tick < kDrivenTicks; ++tick) drive(tick);
+  }
+  static io::BlackBoxFiles with_text(io::BlackBoxFiles files) {
+    files.car_text = parameters::load_car(files.car, [](const std::string& path) {
+                       return transport::read_file(path);
+                     })->text;
+    return files;
   }
   static std::string path_of(const std::string& in_config) {
     return std::string{PITWALL_SOURCE_DIR} + "/vehicle/config/" + in_config;

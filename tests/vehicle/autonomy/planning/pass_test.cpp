@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "protocol/vocabulary/random.hpp"
+#include "tests/support/reversals.hpp"
 #include "tests/vehicle/autonomy/planning/race_rig.hpp"
 #include "vehicle/autonomy/planning/paper_race.hpp"
 
@@ -54,25 +55,6 @@ struct Machine {
   }
 };
 
-// Falls of the commanded speed after it rose, or the reverse, by more than this.
-struct Reversals {
-  double at_mps = kUnset, extreme_mps = kUnset;
-  int direction = 0, count = 0;
-
-  void take(double mps) {
-    constexpr double kLeast_mps = 1.0;
-    if (std::isnan(extreme_mps)) extreme_mps = mps;
-    const double moved_mps = mps - extreme_mps;
-    if (direction * moved_mps > 0.0) extreme_mps = mps;
-    if (direction * moved_mps < -kLeast_mps ||
-        (direction == 0 && std::abs(moved_mps) > kLeast_mps)) {
-      if (direction != 0) ++count;
-      direction = moved_mps > 0.0 ? 1 : -1;
-      extreme_mps = mps;
-    }
-  }
-};
-
 // Box and Muller.
 double gaussian(Random& random) {
   const double turn_rad = 2.0 * std::numbers::pi * random.uniform();
@@ -80,26 +62,26 @@ double gaussian(Random& random) {
 }
 
 // An hour side by side, with noise of 1 m rms on the gap: so the paper lost its last pass.
-int reversals_in_an_hour(PassLaw law, double correlation_s, bool may_pass) {
+std::size_t reversals_in_an_hour(PassLaw law, double correlation_s, bool may_pass) {
   Machine machine;
   machine.params.law = law;
   Random random{17};
   const double keep = std::exp(-0.05 / correlation_s), add = std::sqrt(1.0 - keep * keep);
   double noise_m = gaussian(random);
   for (int i = 0; i < 40; ++i) machine.tick(-25.0 + i * 0.625, may_pass);  // up to its side
-  Reversals reversals;
+  pitwall::testing::Reversals reversals;
   for (int i = 0; i < 72'000; ++i) {
     noise_m = keep * noise_m + add * gaussian(random);
     reversals.take(machine.tick(noise_m, may_pass));
   }
-  return reversals.count;
+  return reversals.count();
 }
 
 TEST(Pass, AnHourSideBySideReversesNoSpeed) {
   for (const double correlation_s : {0.05, 0.5, 2.0}) {
-    EXPECT_EQ(reversals_in_an_hour(PassLaw::kCommitted, correlation_s, true), 0) << correlation_s;
-    EXPECT_EQ(reversals_in_an_hour(PassLaw::kCommitted, correlation_s, false), 0) << correlation_s;
-    EXPECT_GT(reversals_in_an_hour(PassLaw::kPaper, correlation_s, true), 100) << correlation_s;
+    EXPECT_EQ(reversals_in_an_hour(PassLaw::kCommitted, correlation_s, true), 0U) << correlation_s;
+    EXPECT_EQ(reversals_in_an_hour(PassLaw::kCommitted, correlation_s, false), 0U) << correlation_s;
+    EXPECT_GT(reversals_in_an_hour(PassLaw::kPaper, correlation_s, true), 100U) << correlation_s;
   }
 }
 
@@ -170,10 +152,10 @@ TEST(Pass, ACarInTheWayIsNeverApproachedFasterThanItsBrakesAllow) {
   const PassParams p = testing::pass_params();
   for (double ahead_m = 0.0; ahead_m < 200.0; ahead_m += 3.0)
     for (const double car_mps : {0.0, 10.0, 40.0}) {
-      const double mps = follow_mps(p, ahead_m, car_mps, false);
+      const double mps = follow_mps(p, p.brake_mps2, ahead_m, car_mps, false);
       const double room_m = std::max(ahead_m - kLeastGap_m, 0.0);
       EXPECT_LE(mps * mps - car_mps * car_mps, 2.0 * p.brake_mps2 * room_m + 1e-9);
-      EXPECT_LE(follow_mps(p, ahead_m, car_mps, true), mps);
+      EXPECT_LE(follow_mps(p, p.brake_mps2, ahead_m, car_mps, true), mps);
     }
 }
 

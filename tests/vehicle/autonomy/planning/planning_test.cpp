@@ -18,7 +18,6 @@ using testing::ego_on;
 using testing::green;
 using testing::recommended;
 using world::TrackFlag;
-using world::VehicleFlag;
 
 struct PlanningRig {
   Params params = recommended();
@@ -61,43 +60,6 @@ void expect_drivable(const world::Trajectory& t) {
         << i;
     EXPECT_GE(b.speed_mps, 0.0);
   }
-}
-
-TEST(Planning, EveryFlagHasItsSpeed) {
-  const Params p = recommended();
-  const auto demand = [&](TrackFlag track, VehicleFlag vehicle) {
-    world::RaceControl rc = green(57.0);
-    rc.track = track, rc.vehicle = vehicle;
-    return demanded_speed(p, rc, kUnset);
-  };
-  for (const auto flag : {TrackFlag::kNone, TrackFlag::kRed, TrackFlag::kOrange,
-                          TrackFlag::kChequered, TrackFlag::kUnknown}) {
-    EXPECT_EQ(demand(flag, VehicleFlag::kNone).speed_mps, 0.0) << static_cast<int>(flag);
-  }
-  EXPECT_EQ(demand(TrackFlag::kYellow, VehicleFlag::kNone).speed_mps, p.caution_speed_mps);
-  EXPECT_EQ(demand(TrackFlag::kGreen, VehicleFlag::kNone).speed_mps, 57.0);
-  EXPECT_EQ(demand(TrackFlag::kWavingGreen, VehicleFlag::kAttacker).speed_mps, 57.0);
-  for (const auto flag : {VehicleFlag::kBlackPitIn, VehicleFlag::kStop, VehicleFlag::kUnknown,
-                          VehicleFlag::kPurpleEmergency, VehicleFlag::kEngineKill,
-                          VehicleFlag::kChequered, VehicleFlag::kOrangeStartEngine}) {
-    EXPECT_EQ(demand(TrackFlag::kGreen, flag).speed_mps, 0.0) << static_cast<int>(flag);
-  }
-  EXPECT_EQ(demand(TrackFlag::kGreen, VehicleFlag::kBlackPitIn).reason, Reason::kBlack);
-  EXPECT_EQ(demand(TrackFlag::kGreen, VehicleFlag::kYellow).speed_mps, p.caution_speed_mps);
-}
-
-TEST(Planning, MostRestrictiveWins) {
-  const Params p = recommended();
-  EXPECT_EQ(demanded_speed(p, green(), kUnset).speed_mps, p.green_speed_mps);
-  EXPECT_EQ(demanded_speed(p, green(0.0), kUnset).reason, Reason::kGreen);  // zero is "not given"
-  EXPECT_EQ(demanded_speed(p, green(57.0), 31.0).speed_mps, 31.0);
-  EXPECT_EQ(demanded_speed(p, green(57.0), 31.0).reason, Reason::kOperatorLimit);
-  EXPECT_EQ(demanded_speed(p, green(57.0), 90.0).reason, Reason::kRoundSpeed);
-  EXPECT_EQ(demanded_speed(p, green(57.0), -5.0).speed_mps, 0.0);
-  world::RaceControl silent = green(57.0);
-  silent.ever_received = false;
-  EXPECT_EQ(demanded_speed(p, silent, kUnset).speed_mps, 0.0);
-  EXPECT_EQ(demanded_speed(p, silent, kUnset).reason, Reason::kNoRaceControl);
 }
 
 TEST(Planning, SpeedNeverStepsWhateverIsDemanded) {

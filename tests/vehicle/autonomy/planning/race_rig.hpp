@@ -68,6 +68,7 @@ struct RaceRig {
                              .race_control = rc,
                              .operator_speed_limit_mps = operator_limit_mps,
                              .followed = Followed::kDrive,
+                             .fuel = fuel,
                              .tyre_c = 85.0,
                              .other_lines = others,
                              .cars = &cars},
@@ -97,6 +98,7 @@ struct RaceRig {
   double other_s_m = 220.0, other_n_m = 3.0, other_mps = 36.0, other_drift_mps = 0.0;
   double gap_noise_m = 0.0, operator_limit_mps = kUnset;
   bool other_is_seen = true;
+  rules::FuelState fuel = rules::FuelState::kUnknown;
 };
 
 }  // namespace pitwall::planning::testing

@@ -47,7 +47,8 @@ TEST(Race, ThePublishedPrimitivesPassWhereNothingIsNoisy) {
   drive(rig, 600, TrackFlag::kGreen);
   EXPECT_NEAR(rig.gap_m(), -25.0, 2.0);
   drive(rig, 600, TrackFlag::kWavingGreen);
-  EXPECT_GT(rig.gap_m(), 0.0);
+  EXPECT_GT(rig.gap_m(), 30.0);
+  EXPECT_NEAR(rig.n_m, 3.0, 0.1) << "the door is closed";
 }
 
 TEST(Race, NobodyPassesWithoutTheRight) {
@@ -141,6 +142,41 @@ TEST(Race, ARivalThatMovesIntoTheLineEndsThePassWhileBrakingKeepsUsBehind) {
   EXPECT_GT(beside.gap_m(), 6.0);
 }
 
+// Behind flags a slower car is met gently and followed; none is overtaken, but one that stands.
+TEST(Race, BehindFlagsACarAheadIsFollowedAndNotOvertaken) {
+  for (const double n_m : {3.0, -3.0}) {
+    RaceRig rig;
+    rig.other_n_m = n_m, rig.other_mps = 15.0, rig.other_s_m = 320.0, rig.speed_mps = 22.0;
+    double last_mps = rig.speed_mps;
+    for (int i = 0; i < 1200; ++i) {
+      rig.tick(TrackFlag::kYellow, VehicleFlag::kNone, 60.0);
+      EXPECT_LE((last_mps - rig.speed_mps) / 0.05, rig.params.comfort.decel_max_mps2 + 0.01) << i;
+      EXPECT_LE((rig.speed_mps - last_mps) / 0.05, rig.params.comfort.accel_max_mps2 + 0.01) << i;
+      ASSERT_LT(rig.gap_m(), -testing::pass_params().trail_gap_m + 3.0) << i;
+      last_mps = rig.speed_mps;
+    }
+    EXPECT_NEAR(rig.gap_m(), -testing::pass_params().trail_gap_m, 1.0);
+    EXPECT_NEAR(rig.speed_mps, 15.0, 0.2);
+  }
+  RaceRig rig;
+  rig.other_n_m = -3.0, rig.other_mps = 0.0, rig.other_s_m = 320.0, rig.speed_mps = 22.0;
+  for (int i = 0; i < 400; ++i) rig.tick(TrackFlag::kYellow, VehicleFlag::kNone, 60.0);
+  EXPECT_GT(rig.gap_m(), 50.0);
+}
+
+// Another role than the attacker's, at any moment of a pass, is the same as no right to pass.
+TEST(Race, ARoleThatChangesInAPassEndsIt) {
+  for (const VehicleFlag role : {VehicleFlag::kDefender, VehicleFlag::kNone, VehicleFlag::kBlue}) {
+    RaceRig rig;
+    drive(rig, 600, TrackFlag::kGreen);
+    while (rig.gap_m() < -8.0) rig.tick(TrackFlag::kWavingGreen, VehicleFlag::kAttacker, kSlow_mps);
+    drive(rig, 400, TrackFlag::kWavingGreen, role);
+    EXPECT_LT(rig.gap_m(), -10.0);
+    EXPECT_EQ(rig.state.line, 0u);
+    EXPECT_EQ(rig.state.pass.phase, PassPhase::kTrail);
+  }
+}
+
 TEST(Race, ALineChangeGoesOnWithPlaceDirectionAndCurvature) {
   RaceRig rig;
   const Line &from = rig.own, &to = rig.others[0];
@@ -155,6 +191,72 @@ TEST(Race, ALineChangeGoesOnWithPlaceDirectionAndCurvature) {
     const double end_m = change.from_s_m + 151.0;
     EXPECT_EQ(offset_at(to, change, end_m).n_m, 0.0);
   }
+}
+
+Reason reason_after(RaceRig& rig, int ticks, TrackFlag flag) {
+  Reason reason = Reason::kUnknown;
+  for (int i = 0; i < ticks; ++i) reason = rig.tick(flag, VehicleFlag::kAttacker, kSlow_mps).reason;
+  return reason;
+}
+
+TEST(Race, AnAttemptWithoutFuelIsDeclinedBeforeItsWavingGreen) {
+  for (const auto fuel : {rules::FuelState::kNoAttempt, rules::FuelState::kHomeNow}) {
+    RaceRig rig;
+    drive(rig, 400, TrackFlag::kGreen);
+    EXPECT_EQ(rig.state.pass.attempt, AttemptChoice::kOpen);
+    rig.fuel = fuel;
+    EXPECT_EQ(reason_after(rig, 1, TrackFlag::kGreen), Reason::kDeclined);
+    EXPECT_EQ(rig.state.pass.attempt, AttemptChoice::kDeclined);
+    rig.fuel = rules::FuelState::kEnough;
+    EXPECT_EQ(reason_after(rig, 200, TrackFlag::kWavingGreen), Reason::kDeclined) << "it stays so";
+    EXPECT_LT(rig.gap_m(), -12.0);
+    // WHEN the attempt is over, the next one is another matter
+    drive(rig, 1, TrackFlag::kGreen, VehicleFlag::kDefender);
+    EXPECT_EQ(rig.state.pass.attempt, AttemptChoice::kOpen);
+    drive(rig, 400, TrackFlag::kGreen);
+    EXPECT_EQ(drive(rig, 500, TrackFlag::kWavingGreen).back(), PassPhase::kFree);
+    EXPECT_GT(rig.gap_m(), 30.0);
+  }
+}
+
+TEST(Race, WavingGreenAndNoFuelInTheSameTickIsDeclined) {
+  RaceRig rig;
+  drive(rig, 800, TrackFlag::kGreen);
+  rig.fuel = rules::FuelState::kNoAttempt;
+  EXPECT_EQ(reason_after(rig, 600, TrackFlag::kWavingGreen), Reason::kDeclined);
+  EXPECT_LT(rig.gap_m(), -12.0);
+}
+
+TEST(Race, AnAttemptThatHasBegunIsFinished) {
+  RaceRig rig;
+  drive(rig, 800, TrackFlag::kGreen);
+  drive(rig, 1, TrackFlag::kWavingGreen);
+  EXPECT_EQ(rig.state.pass.attempt, AttemptChoice::kCommitted);
+  rig.fuel = rules::FuelState::kNoAttempt;
+  drive(rig, 600, TrackFlag::kWavingGreen);
+  EXPECT_GT(rig.gap_m(), 30.0);
+  EXPECT_NEAR(rig.n_m, 3.0, 0.1) << "the door is closed";
+}
+
+// The way home is worth more than the attempt, at any moment of it.
+TEST(Race, WithFuelForTheWayHomeNobodyRaces) {
+  RaceRig passing;
+  drive(passing, 400, TrackFlag::kGreen);
+  for (int moment = 0; moment < 4; ++moment) {
+    drive(passing, 60, TrackFlag::kWavingGreen);
+    RaceRig rig = passing;
+    rig.fuel = rules::FuelState::kHomeNow;
+    // Its rival drives on, through what is in its way.
+    EXPECT_EQ(reason_after(rig, 300, TrackFlag::kWavingGreen), Reason::kDeclined);
+    EXPECT_LE(rig.speed_mps, rig.params.caution_speed_mps + 0.1);
+  }
+  RaceRig defends;
+  defends.fuel = rules::FuelState::kHomeNow;
+  Reason reason = Reason::kUnknown;
+  for (int i = 0; i < 400; ++i)
+    reason = defends.tick(TrackFlag::kGreen, VehicleFlag::kDefender, kSlow_mps).reason;
+  EXPECT_EQ(reason, Reason::kFuelHome);
+  EXPECT_LE(defends.speed_mps, defends.params.caution_speed_mps + 0.1);
 }
 
 TEST(Race, PlanningAmongCarsDoesNotAllocate) {

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <numbers>
+#include <optional>
 
 #include "tests/vehicle/envelope/car.hpp"
 #include "vehicle/autonomy/planning/planning.hpp"
@@ -11,12 +12,14 @@
 namespace pitwall::planning::testing {
 
 // Turns of the given radius joined to 400 m straights by 100 m of linearly changing curvature.
-inline world::TrackMap stadium(double radius_m = 200.0) {
+inline world::TrackMap stadium(double radius_m = 200.0,
+                               std::optional<world::PitLane> pit = std::nullopt) {
   constexpr double kStraight_m = 400.0, kJoin_m = 100.0;
   const double arc_m = std::numbers::pi * radius_m - kJoin_m, k = 1.0 / radius_m;
   const double half_m = kStraight_m + 2.0 * kJoin_m + arc_m;
   world::TrackDescription d;
   d.name = "stadium";
+  d.pit = pit;
   d.length_m = 2.0 * half_m;
   d.datum_latitude_deg = 36.27, d.datum_longitude_deg = -115.01, d.datum_height_m = 594.0;
   for (const double from : {0.0, half_m}) {

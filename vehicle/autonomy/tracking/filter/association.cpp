@@ -1,40 +1,35 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "vehicle/autonomy/tracking/filter/association.hpp"
 
-#include <algorithm>
 #include <cmath>
-
-#include "protocol/vocabulary/fixed_vector.hpp"
 
 namespace pitwall::tracking {
 namespace {
-
-struct Pair {
-  double cost = 0.0;
-  std::uint8_t track = 0, detection = 0;
-};
 
 void join(Assignment& a, std::size_t track, std::size_t detection) {
   a.of_track[track] = static_cast<std::uint8_t>(detection);
   a.of_detection[detection] = static_cast<std::uint8_t>(track);
 }
 
-Assignment greedy(const Costs& c) {
-  FixedVector<Pair, kTracksMax * kMeasurementsMax> pairs;
-  for (std::size_t t = 0; t < c.tracks; ++t)
+// Of the pairs that are still free the one with the least cost; the first of equal ones.
+bool join_least(const Costs& c, Assignment& a) {
+  double least = Costs::kOutside;
+  std::size_t track = kNone, detection = kNone;
+  for (std::size_t t = 0; t < c.tracks; ++t) {
+    if (a.of_track[t] != kNone) continue;
     for (std::size_t d = 0; d < c.detections; ++d)
-      if (std::isfinite(c.cost[t][d]))
-        (void)pairs.push(
-            {c.cost[t][d], static_cast<std::uint8_t>(t), static_cast<std::uint8_t>(d)});
-  std::sort(pairs.begin(), pairs.end(), [](const Pair& a, const Pair& b) {
-    if (a.cost != b.cost) return a.cost < b.cost;
-    return a.track != b.track ? a.track < b.track : a.detection < b.detection;
-  });
+      if (c.cost[t][d] < least && a.of_detection[d] == kNone)
+        least = c.cost[t][d], track = t, detection = d;
+  }
+  if (track != kNone) join(a, track, detection);
+  return track != kNone;
+}
+
+Assignment greedy(const Costs& c) {
   Assignment a;
   a.of_track.fill(kNone), a.of_detection.fill(kNone);
-  for (const Pair& p : pairs)
-    if (a.of_track[p.track] == kNone && a.of_detection[p.detection] == kNone)
-      join(a, p.track, p.detection);
+  while (join_least(c, a)) {
+  }
   return a;
 }
 

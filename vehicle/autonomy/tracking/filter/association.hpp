@@ -5,7 +5,7 @@
 //   invariants
 //          a detection has at most one track. kBestTwo: no exchange between two tracks and no move
 //          to a free detection lowers the cost or lets one more track be assigned
-//   cost   O(pairs log pairs); no allocation
+//   cost   O(pairs * assigned pairs); no allocation
 //   source Chiu et al. (2020), arXiv 2001.05673 (greedy); Bar-Shalom and Li (1995), section 6.2
 // SPDX-License-Identifier: Apache-2.0
 #pragma once

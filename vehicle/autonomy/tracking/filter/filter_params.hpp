@@ -14,6 +14,8 @@ struct RoadParams {
   // of a steady car, and of one that begins to brake, to speed up or to change its lane.
   double steady_accel_sigma_mps2 = 0.4, accel_sigma_mps2 = 4.0, accel_time_s = 2.0;
   double steady_turn_sigma_rad_per_s = 0.009, turn_sigma_rad_per_s = 0.03, turn_time_s = 0.6;
+  // With a map a car comes back to the direction of the road in this time.
+  double heading_time_s = 1.4;
   double steady_s = 20.0, maneuver_s = 6.0;  // mean length of both
   // The same without a map, where the turn rate is that of the road too.
   double plane_turn_sigma_rad_per_s = 0.3, plane_turn_time_s = 5.0;
@@ -34,7 +36,15 @@ struct RoadParams {
   // Chi-square gates by the number of values; these let 1 of 100000 good ones out. More would leave
   // where two modes are one normal distribution.
   double gate_1 = 19.51, gate_2 = 23.03, gate_3 = 25.90;
-  double apart_m = 1.8;      // closer to a confirmed track no track begins
+  double apart_m = 1.8;  // closer to a confirmed track no track begins
+  // Of a car that is out of sight (courses.hpp): its acceleration, how long it may have it; how
+  // often it has one, and how often it changes its lane; sigma across the road of one that keeps
+  // it, as a share.
+  double unseen_accel_sigma_mps2 = 2.5, unseen_accel_s = 3.0;
+  double other_speed_share = 0.2, other_lane_share = 0.2, lane_sigma_share = 0.5;
+  // So long a car is known when it is seen again. After coast_s it then has a new number: no other
+  // car gets the number of one that may have come to its place.
+  double remembered_s = 30.0;
   double size_share = 0.02;  // of a detection in the size, after the first 1 / size_share
 };
 
@@ -45,6 +55,7 @@ inline constexpr auto kRoadRanges = std::to_array<world::NamedRange<RoadParams>>
     {"accel_sigma_mps2", &RoadParams::accel_sigma_mps2, 0.1, 20.0},
     {"steady_turn_sigma_rad_per_s", &RoadParams::steady_turn_sigma_rad_per_s, 1e-4, 1.0},
     {"turn_sigma_rad_per_s", &RoadParams::turn_sigma_rad_per_s, 0.001, 1.0},
+    {"heading_time_s", &RoadParams::heading_time_s, 0.1, 1000.0},
     {"steady_s", &RoadParams::steady_s, 0.1, 1000.0},
     {"maneuver_s", &RoadParams::maneuver_s, 0.1, 1000.0},
     {"plane_turn_sigma_rad_per_s", &RoadParams::plane_turn_sigma_rad_per_s, 0.001, 2.0},
@@ -68,6 +79,12 @@ inline constexpr auto kRoadRanges = std::to_array<world::NamedRange<RoadParams>>
     {"gate_2", &RoadParams::gate_2, 4.0, 50.0},
     {"gate_3", &RoadParams::gate_3, 5.0, 50.0},
     {"apart_m", &RoadParams::apart_m, 0.0, 5.0},
+    {"unseen_accel_sigma_mps2", &RoadParams::unseen_accel_sigma_mps2, 0.0, 10.0},
+    {"unseen_accel_s", &RoadParams::unseen_accel_s, 0.0, 20.0},
+    {"other_speed_share", &RoadParams::other_speed_share, 0.001, 0.999},
+    {"other_lane_share", &RoadParams::other_lane_share, 0.001, 0.999},
+    {"lane_sigma_share", &RoadParams::lane_sigma_share, 0.05, 1.0},
+    {"remembered_s", &RoadParams::remembered_s, 0.0, 60.0},
     {"size_share", &RoadParams::size_share, 0.001, 1.0},
 });
 

@@ -26,7 +26,7 @@ bool has_ended(const Frame& frame, Duration coast, const Track& t) {
 
 // By a detection of the frame.
 bool is_confirmed_heir(const Frame& frame, const Track& t) {
-  return t.confirmed && t.first != t.tried && t.newest.frame == frame.key &&
+  return t.confirmed && t.is_heir && t.newest.frame == frame.key &&
          t.detections == kDetectionsToConfirm;
 }
 
@@ -62,11 +62,14 @@ bool is_lost(const Frame& frame, const Track& t) {
   return t.confirmed && frame.key.at - t.newest.frame.at > kLostAfter;
 }
 
-Track heir_of(const Track& lost, const Frame& frame, std::size_t index) {
+Track heir_of(const Track& lost, Duration coast, const Frame& frame, std::size_t index) {
   Track heir = lost;
   heir.confirmed = false;
+  heir.is_heir = true;
+  heir.lost = lost.first;
   heir.previous = lost.newest;
   heir.newest = heir.tried = key_of(frame, index);
+  if (is_unseen(frame, coast, lost)) heir.first = heir.previous = heir.tried;
   heir.detections = 1;
   heir.confidence = frame.measurements[index].confidence;
   return heir;
@@ -76,6 +79,16 @@ void add_track(const Track& track, Tracks& tracks) {
   if (!tracks.list.push(track)) ++tracks.crowded;
 }
 
+void make_room(const Frame& frame, Duration coast, Tracks& tracks) {
+  while (tracks.list.size() + frame.measurements.size() > kTracksMax && !tracks.list.empty()) {
+    const Track* const oldest = std::min_element(
+        tracks.list.begin(), tracks.list.end(),
+        [](const Track& a, const Track& b) { return a.newest.frame.at < b.newest.frame.at; });
+    if (!is_unseen(frame, coast, *oldest)) return;
+    remove_tracks(tracks, [oldest](const Track& t) { return &t == oldest; });
+  }
+}
+
 void end_unseen(const Frame& frame, Duration coast, Tracks& tracks) {
   remove_tracks(tracks, [&](const Track& t) { return is_unseen(frame, coast, t); });
 }
@@ -83,10 +96,12 @@ void end_unseen(const Frame& frame, Duration coast, Tracks& tracks) {
 void end_tracks(const Frame& frame, Duration coast, Tracks& tracks) {
   remove_tracks(tracks, [&](const Track& t) { return has_ended(frame, coast, t); });
   for (std::size_t i = 0; i < tracks.list.size(); ++i) {
-    const DetectionKey first = tracks.list[i].first, tried = tracks.list[i].tried;
+    const DetectionKey lost = tracks.list[i].lost, tried = tracks.list[i].tried;
     if (!is_confirmed_heir(frame, tracks.list[i])) continue;
     const std::size_t before = tracks.list.size();
-    remove_tracks(tracks, [&](const Track& t) { return t.first == first && t.tried != tried; });
+    remove_tracks(tracks, [&](const Track& t) {
+      return (t.first == lost || (t.is_heir && t.lost == lost)) && t.tried != tried;
+    });
     if (tracks.list.size() < before) i = 0;
   }
 }

@@ -2,7 +2,7 @@
 //   invariants
 //          a track is confirmed by its second detection; on trial it ends with the first frame of
 //          the sensor that began it without a detection of it. A confirmed track ends when its
-//          newest detection is older than coast_s, or when its heir is confirmed
+//          newest detection is too old, or when its heir is confirmed
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -22,11 +22,15 @@ void note_detection(const Frame& frame, std::size_t index, Track& track);
 bool is_lost(const Frame& frame, const Track& track);
 
 // The track as it is with a detection of the frame, on trial. Confirmed, it takes the place of the
-// lost track.
-Track heir_of(const Track& lost, const Frame& frame, std::size_t index);
+// lost track; its name too, unless nothing was seen of that for longer than `coast`.
+Track heir_of(const Track& lost, Duration coast, const Frame& frame, std::size_t index);
 
 // Adds a track on trial; counts it in `crowded` where there is no room.
 void add_track(const Track& track, Tracks& tracks);
+
+// Before the detections of a frame: removes tracks that nothing was seen of for longer than
+// `coast`, those of the longest time first, until each detection finds room for a track.
+void make_room(const Frame& frame, Duration coast, Tracks& tracks);
 
 // Before the detections of a frame: removes the tracks that nothing was seen of for too long.
 void end_unseen(const Frame& frame, Duration coast, Tracks& tracks);

@@ -43,7 +43,7 @@ struct Seen {
 
 Seen bearing_of(const OwnMotion& own, const Sight& s) {
   const double square_m2 = s.distance_m * s.distance_m;
-  return {wrap_pi(std::atan2(s.dy_m, s.dx_m) - own.yaw_rad),
+  return {full_turn(std::atan2(s.dy_m, s.dx_m) - own.yaw_rad),
           {-s.dy_m / square_m2, s.dx_m / square_m2, 0.0, 0.0}};
 }
 
@@ -81,11 +81,6 @@ void set(Expectation& e, std::size_t i, const Seen& seen, const Place& p) {
 }
 
 double square(double v) { return v * v; }
-
-// Most differences are small, and the remainder is slow.
-double full_turn(double angle_rad) {
-  return std::abs(angle_rad) <= std::numbers::pi ? angle_rad : wrap_pi(angle_rad);
-}
 
 double half_turn(double angle_rad) {
   constexpr double kHalf_rad = 0.5 * std::numbers::pi;
@@ -149,7 +144,7 @@ Place place_of(const world::TrackMap* map, const StateVector& x) {
   const double left = 1.0 - line.curvature_per_m * x[kAcross];
   p.x_m = line.x_m - x[kAcross] * sin_yaw;
   p.y_m = line.y_m + x[kAcross] * cos_yaw;
-  p.yaw_rad = wrap_pi(line.yaw_rad + x[kHeading]);
+  p.yaw_rad = full_turn(line.yaw_rad + x[kHeading]);
   p.curvature_per_m = line.curvature_per_m;
   p.jacobian[0] = {left * cos_yaw, -sin_yaw, 0.0, 0.0};
   p.jacobian[1] = {left * sin_yaw, cos_yaw, 0.0, 0.0};
@@ -179,6 +174,21 @@ Expectation expectation_of(DetectionSource source, const OwnMotion& own, const P
     }
   }
   return e;
+}
+
+Expectation expectation_at(const world::TrackMap* map, DetectionSource source, const OwnMotion& own,
+                           const world::Curvilinear& at, const StateVector& x) {
+  StateVector there = x;
+  there[kAlong] = at.s_m, there[kAcross] = at.n_m;
+  Expectation e = expectation_of(source, own, place_of(map, there));
+  const double ahead_m = way_m(map, at.s_m, x[kAlong]), left_m = x[kAcross] - at.n_m;
+  for (std::size_t i = 0; i < kValuesMax; ++i)
+    e.value[i] += e.jacobian[i][kAlong] * ahead_m + e.jacobian[i][kAcross] * left_m;
+  return e;
+}
+
+double way_m(const world::TrackMap* map, double from_m, double to_m) {
+  return map == nullptr ? to_m - from_m : std::remainder(to_m - from_m, map->length_m());
 }
 
 Spread spread_of(const Expectation& e, const StateMatrix& p) {
@@ -266,7 +276,7 @@ void update(const Expectation& e, const Innovation& in, const world::TrackMap* m
     m.apart[i] = x[kManeuver][i] - x[kSteady][i];
     track.x[i] += x[kSteady][i] + m.maneuver * m.apart[i];
   }
-  track.x[kHeading] = wrap_pi(track.x[kHeading]);
+  track.x[kHeading] = full_turn(track.x[kHeading]);
   if (map != nullptr) track.x[kAlong] = map->wrap_station(track.x[kAlong]);
   join_modes(track);
 }

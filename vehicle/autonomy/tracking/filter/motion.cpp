@@ -20,7 +20,7 @@ RoadMatrix times_covariance(const MotionStep& step, const Advance& a, const Road
       for (std::size_t k = 0; k < kRoadStates; ++k) sum += a.jacobian[i][k] * p[k][j];
       fp[i][j] = sum;
     }
-    fp[kHeading][j] = p[kHeading][j] + step.turn.gain_s * p[kTurn][j];
+    fp[kHeading][j] = step.heading_kept * p[kHeading][j] + step.turn.gain_s * p[kTurn][j];
     fp[kSpeed][j] = p[kSpeed][j] + step.accel.gain_s * p[kAccel][j];
     fp[kAccel][j] = step.accel.kept * p[kAccel][j];
     fp[kTurn][j] = step.turn.kept * p[kTurn][j];
@@ -45,7 +45,7 @@ void move_covariance(const MotionStep& step, const Advance& a, std::size_t mode,
       for (std::size_t k = 0; k < kRoadStates; ++k) sum += row[k] * a.jacobian[j][k];
       p[i][j] = sum;
     }
-    p[i][kHeading] = row[kHeading] + step.turn.gain_s * row[kTurn];
+    p[i][kHeading] = step.heading_kept * row[kHeading] + step.turn.gain_s * row[kTurn];
     p[i][kSpeed] = row[kSpeed] + step.accel.gain_s * row[kAccel];
     p[i][kAccel] = step.accel.kept * row[kAccel];
     p[i][kTurn] = step.turn.kept * row[kTurn];
@@ -64,7 +64,7 @@ void move_apart(const MotionStep& step, const Advance& a, RoadVector& d) {
     d[i] = 0.0;
     for (std::size_t k = 0; k < kRoadStates; ++k) d[i] += a.jacobian[i][k] * before[k];
   }
-  d[kHeading] += step.turn.gain_s * before[kTurn];
+  d[kHeading] = step.heading_kept * before[kHeading] + step.turn.gain_s * before[kTurn];
   d[kSpeed] += step.accel.gain_s * before[kAccel];
   d[kAccel] *= step.accel.kept;
   d[kTurn] *= step.turn.kept;
@@ -76,9 +76,14 @@ std::size_t nearest_point(const world::TrackMap& map, double s_m) {
   return place < count ? static_cast<std::size_t>(place) : 0;
 }
 
-// Second derivative of the middle between the walls against the reference line, over the lap. A
+struct Bend {
+  double road_per_m = 0.0;
+  double middle_per_m = 0.0, middle_slope = 0.0;
+};
+
+// Derivatives of the middle between the walls against the reference line, over the lap. A
 // reference line may swing from wall to wall, as a racing line does; other cars keep to the road.
-double middle_bend_per_m(const world::TrackMap& map, std::size_t point) {
+Bend bend_of(const world::TrackMap& map, std::size_t point) {
   constexpr double kSpan_m = 90.0;  // to both sides: what is shorter is the survey of the walls
   const std::size_t count = map.size();
   const double spacing_m = map.length_m() / static_cast<double>(count);
@@ -88,18 +93,15 @@ double middle_bend_per_m(const world::TrackMap& map, std::size_t point) {
     return 0.5 * (p.width_left_m - p.width_right_m);
   };
   const double span_m = static_cast<double>(span) * spacing_m;
-  return (middle_m(point + span) - 2.0 * middle_m(point) + middle_m(point + count - span)) /
-         (span_m * span_m);
+  const double before_m = middle_m(point + count - span), after_m = middle_m(point + span);
+  return {map.point(point).curvature_per_m,
+          (after_m - 2.0 * middle_m(point) + before_m) / (span_m * span_m),
+          0.5 * (after_m - before_m) / span_m};
 }
-
-struct Bend {
-  double road_per_m = 0.0, middle_per_m = 0.0;
-};
 
 Bend bend_at(const world::TrackMap* map, double s_m) {
   if (map == nullptr) return {};
-  const std::size_t point = nearest_point(*map, s_m);
-  return {map->point(point).curvature_per_m, middle_bend_per_m(*map, point)};
+  return bend_of(*map, nearest_point(*map, s_m));
 }
 
 void take_step(const MotionStep& step, const world::TrackMap* map, Track& track) {
@@ -107,7 +109,9 @@ void take_step(const MotionStep& step, const world::TrackMap* map, Track& track)
   const Bend bend = bend_at(map, half_way_m);
   const Advance a = advanced(step, bend.road_per_m, track.x);
   track.x = a.x;
-  track.x[kHeading] = wrap_pi(track.x[kHeading] + step.dt_s * track.x[kSpeed] * bend.middle_per_m);
+  track.x[kHeading] =
+      full_turn(track.x[kHeading] + step.dt_s * track.x[kSpeed] * bend.middle_per_m +
+                (1.0 - step.heading_kept) * bend.middle_slope);
   if (map != nullptr) track.x[kAlong] = map->wrap_station(track.x[kAlong]);
   mix_modes(step.change, track.modes);
   move_apart(step, a, track.modes.apart);
@@ -158,6 +162,7 @@ MotionStep motion_step(const RoadParams& p, bool with_map, double dt_s) {
               with_map ? squares(p.steady_turn_sigma_rad_per_s, p.turn_sigma_rad_per_s)
                        : squares(p.plane_turn_sigma_rad_per_s, p.plane_turn_sigma_rad_per_s),
           .wander_variance = p.wander_m_per_sqrt_s * p.wander_m_per_sqrt_s * dt_s,
+          .heading_kept = with_map ? std::exp(-dt_s / p.heading_time_s) : 1.0,
           .change = mode_change(p, dt_s)};
 }
 
@@ -178,7 +183,7 @@ Advance advanced(const MotionStep& step, double curvature_per_m, const StateVect
   a.x = x;
   a.x[kAlong] += speed_mps * along;
   a.x[kAcross] += speed_mps * across;
-  a.x[kHeading] = wrap_pi(x[kHeading] + step.turn.gain_s * x[kTurn]);
+  a.x[kHeading] = full_turn(step.heading_kept * x[kHeading] + step.turn.gain_s * x[kTurn]);
   a.x[kSpeed] += step.accel.gain_s * x[kAccel];
   a.x[kAccel] *= step.accel.kept;
   a.x[kTurn] *= step.turn.kept;

@@ -1,6 +1,7 @@
 // Motion of a car between two frames: constant turn rate and acceleration, both of which are
 // forgotten with time (first-order Gauss-Markov). With a map the turn rate adds to that of the
-// road, so a car of which nothing is seen follows the road: the middle between its walls.
+// road and the heading comes back to that of the road, so a car of which nothing is seen follows
+// it: the middle between its walls.
 //   in     a track and a step in time
 //   out    its states and covariance after it
 //   source Bar-Shalom, Li and Kirubarajan (2001), section 8.2.3 (Singer model)
@@ -11,7 +12,9 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstddef>
+#include <numbers>
 
 #include "protocol/vocabulary/time.hpp"
 #include "vehicle/autonomy/tracking/filter/filter_params.hpp"
@@ -42,6 +45,7 @@ struct MotionStep {
   Fading accel, turn;  // of a sigma of one
   std::array<double, kModes> accel_variance{}, turn_variance{};
   double wander_variance = 0.0;
+  double heading_kept = 1.0;  // share of the heading after the step
   ModeChange change;
 };
 MotionStep motion_step(const RoadParams& params, bool with_map, double dt_s);
@@ -58,6 +62,11 @@ struct Advance {
   std::array<std::array<double, kRoadStates>, 2> jacobian{};
 };
 Advance advanced(const MotionStep& step, double curvature_per_m, const StateVector& x);
+
+// As wrap_pi; most angles are small, and its remainder is slow.
+inline double full_turn(double angle_rad) {
+  return std::abs(angle_rad) <= std::numbers::pi ? angle_rad : wrap_pi(angle_rad);
+}
 
 // Moves the tracks by a time of any length, in steps of at most 0.1 s.
 void coast(const RoadParams& params, const world::TrackMap* map, Duration time, Tracks& tracks);

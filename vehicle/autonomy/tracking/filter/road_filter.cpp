@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "vehicle/autonomy/tracking/filter/association.hpp"
+#include "vehicle/autonomy/tracking/filter/courses.hpp"
 #include "vehicle/autonomy/tracking/filter/life.hpp"
 #include "vehicle/autonomy/tracking/filter/measurement.hpp"
 #include "vehicle/autonomy/tracking/filter/modes.hpp"
@@ -21,15 +22,16 @@ using world::TrackMap;
 constexpr double kTrialCost = 1e3, kLostCost = 2e3;  // a confirmed track has the first choice
 // A detection this many gates away from a track without another one is no new car.
 constexpr double kNearGates = 2.0;
+constexpr double kFarNoise_m = 5.0;        // of the position by camera or radar, at most
 constexpr double kBackwards_mps = 2.0;     // faster than that a car does not roll back
 constexpr double kPlaneHeading_rad = 0.6;  // without map and box: about our own direction
 
 // What the gates of a frame found; reused for the updates.
 struct Gates {
   std::array<Expectation, kTracksMax> expected;
-  std::array<Spread, kTracksMax> spread;
-  std::array<Place, kTracksMax> place;
+  std::array<Position, kTracksMax> place;
   std::array<Innovation, kMeasurementsMax> reading;
+  std::array<world::Curvilinear, kMeasurementsMax> spot;  // as the first states; for lost tracks
   std::array<std::array<bool, kMeasurementsMax>, kTracksMax> near;
   Costs costs;
 };
@@ -38,20 +40,55 @@ double gate_of(const RoadParams& p, std::size_t values) {
   return values == 1 ? p.gate_1 : values == 2 ? p.gate_2 : p.gate_3;
 }
 
-double handicap_of(const Frame& frame, const Track& track) {
-  if (!track.confirmed) return kTrialCost;
-  return is_lost(frame, track) ? kLostCost : 0.0;
+// Beyond it no gate can be met.
+bool may_fit(const TrackMap* map, const Track& wide, const world::Curvilinear& spot,
+             double noise_m2) {
+  constexpr double kSigmas = 7.5;
+  const auto is_near = [&](double apart_m, double variance_m2) {
+    return apart_m * apart_m <= kSigmas * kSigmas * (variance_m2 + noise_m2);
+  };
+  return is_near(way_m(map, spot.s_m, wide.x[kAlong]), wide.p[kAlong][kAlong]) &&
+         is_near(spot.n_m - wide.x[kAcross], wide.p[kAcross][kAcross]);
 }
 
-void judge_pair(const RoadParams& params, const Frame& frame, const Track& track, std::size_t t,
-                std::size_t d, Gates& g) {
-  const Innovation in = innovation_of(frame.key.source, g.reading[d], g.expected[t]);
-  const double gate = gate_of(params, in.size);
-  const Distance distance = distance_of(g.spread[t], in, kNearGates * gate);
-  g.near[t][d] = distance.square <= kNearGates * gate;
-  g.costs.cost[t][d] = distance.square <= gate
-                           ? distance.square + distance.log_det + handicap_of(frame, track)
-                           : Costs::kOutside;
+void judge_lost(const RoadParams& params, const TrackMap* map, const Frame& frame,
+                const Track& track, std::size_t t, Gates& g) {
+  const Courses courses = courses_of(params, frame.key.at - track.newest.frame.at, track);
+  for (std::size_t d = 0; d < frame.measurements.size(); ++d) {
+    g.near[t][d] = false;
+    g.costs.cost[t][d] = Costs::kOutside;
+    const double noise_m2 = frame.key.source == DetectionSource::kLidar ? g.reading[d].variance[0]
+                                                                        : kFarNoise_m * kFarNoise_m;
+    if (!may_fit(map, courses.track[kOtherLane], g.spot[d], noise_m2)) continue;
+    const Expectation e = expectation_at(map, frame.key.source, frame.own, g.spot[d], track.x);
+    const Innovation in = innovation_of(frame.key.source, g.reading[d], e);
+    const double gate = gate_of(params, in.size);
+    const CourseFit fit = course_fit(courses, e, in);
+    g.near[t][d] = fit.square <= kNearGates * gate;
+    if (fit.square <= gate) g.costs.cost[t][d] = fit.cost + kLostCost;
+  }
+}
+
+void judge_seen(const RoadParams& params, const Frame& frame, const Place& place,
+                const Track& track, std::size_t t, Gates& g) {
+  g.expected[t] = expectation_of(frame.key.source, frame.own, place);
+  const Spread spread = spread_of(g.expected[t], track.p);
+  for (std::size_t d = 0; d < frame.measurements.size(); ++d) {
+    const Innovation in = innovation_of(frame.key.source, g.reading[d], g.expected[t]);
+    const double gate = gate_of(params, in.size);
+    const Distance distance = distance_of(spread, in, kNearGates * gate);
+    g.near[t][d] = distance.square <= kNearGates * gate;
+    g.costs.cost[t][d] = distance.square <= gate ? distance.square + distance.log_det +
+                                                       (track.confirmed ? 0.0 : kTrialCost)
+                                                 : Costs::kOutside;
+  }
+}
+
+// Unset for a bearing without a depth.
+world::Curvilinear spot_of(const TrackMap* map, const Frame& frame, std::size_t d) {
+  const Position at = position_of(frame.key.source, frame.own, frame.measurements[d]);
+  if (map == nullptr || !std::isfinite(at.x_m)) return {at.x_m, at.y_m};
+  return station_of(*map, frame.own, at);
 }
 
 void judge_pairs(const RoadParams& params, const TrackMap* map, const Frame& frame,
@@ -59,13 +96,19 @@ void judge_pairs(const RoadParams& params, const TrackMap* map, const Frame& fra
   g.costs.tracks = tracks.list.size(), g.costs.detections = frame.measurements.size();
   for (std::size_t d = 0; d < frame.measurements.size(); ++d)
     g.reading[d] = reading_of(params, frame.key, frame.own, frame.measurements[d]);
+  bool has_spots = false;
   for (std::size_t t = 0; t < tracks.list.size(); ++t) {
     const Track& track = tracks.list[t];
-    g.place[t] = place_of(map, track.x);
-    g.expected[t] = expectation_of(frame.key.source, frame.own, g.place[t]);
-    g.spread[t] = spread_of(g.expected[t], track.p);
-    for (std::size_t d = 0; d < frame.measurements.size(); ++d)
-      judge_pair(params, frame, track, t, d, g);
+    const Place place = place_of(map, track.x);
+    g.place[t] = {place.x_m, place.y_m};
+    if (!is_lost(frame, track)) {
+      judge_seen(params, frame, place, track, t, g);
+      continue;
+    }
+    for (std::size_t d = 0; d < frame.measurements.size() && !has_spots; ++d)
+      g.spot[d] = spot_of(map, frame, d);
+    has_spots = true;
+    judge_lost(params, map, frame, track, t, g);
   }
 }
 
@@ -96,48 +139,58 @@ void turn_around(Track& track) {
 }
 
 void update_track(const RoadParams& params, const TrackMap* map, const Frame& frame, const Gates& g,
-                  std::size_t t, std::size_t d, Track& track) {
-  update(g.expected[t], innovation_of(frame.key.source, g.reading[d], g.expected[t]), map, track);
+                  const Expectation& expected, std::size_t d, Track& track) {
+  update(expected, innovation_of(frame.key.source, g.reading[d], expected), map, track);
   if (map == nullptr) turn_around(track);
   if (frame.key.source == DetectionSource::kLidar)
     average_size(params, frame.measurements[d], track);
 }
 
-void update_tracks(const RoadParams& params, const TrackMap* map, const Frame& frame,
-                   const Gates& g, const Assignment& a, Tracks& tracks) {
+// Of a lost track with a detection: on the course that fits best.
+Track heir_on_course(const RoadParams& params, const TrackMap* map, Duration coast_for,
+                     const Frame& frame, const Gates& g, std::size_t d, const Track& lost) {
+  const Courses courses = courses_of(params, frame.key.at - lost.newest.frame.at, lost);
+  const Expectation e = expectation_at(map, frame.key.source, frame.own, g.spot[d], lost.x);
+  const Innovation in = innovation_of(frame.key.source, g.reading[d], e);
+  const CourseFit fit = course_fit(courses, e, in);
+  Track heir = heir_of(courses.track[fit.best], coast_for, frame, d);
+  update_track(params, map, frame, g, e, d, heir);
+  return heir;
+}
+
+void update_tracks(const RoadParams& params, const TrackMap* map, Duration coast_for,
+                   const Frame& frame, const Gates& g, const Assignment& a, Tracks& tracks) {
   for (std::size_t t = 0; t < g.costs.tracks; ++t) {
     if (a.of_track[t] == kNone) continue;
     const std::size_t d = a.of_track[t];
     if (is_lost(frame, tracks.list[t])) {
-      Track heir = heir_of(tracks.list[t], frame, d);
-      update_track(params, map, frame, g, t, d, heir);
-      add_track(heir, tracks);
+      add_track(heir_on_course(params, map, coast_for, frame, g, d, tracks.list[t]), tracks);
     } else {
-      update_track(params, map, frame, g, t, d, tracks.list[t]);
+      update_track(params, map, frame, g, g.expected[t], d, tracks.list[t]);
       note_detection(frame, d, tracks.list[t]);
     }
   }
 }
 
-// Whether a detection without a track belongs to a known car all the same.
-bool is_known(const RoadParams& params, const Gates& g, const Assignment& a, const Tracks& tracks,
-              std::size_t d, const Position& at) {
+// Whether a detection without a track belongs all the same to a car that was seen since `oldest`.
+bool is_known(const RoadParams& params, Instant oldest, const Gates& g, const Assignment& a,
+              const Tracks& tracks, std::size_t d, const Position& at) {
   for (std::size_t t = 0; t < g.costs.tracks; ++t) {
-    if (!tracks.list[t].confirmed) continue;
+    if (!tracks.list[t].confirmed || tracks.list[t].newest.frame.at < oldest) continue;
     if (a.of_track[t] == kNone && g.near[t][d]) return true;
     if (std::hypot(at.x_m - g.place[t].x_m, at.y_m - g.place[t].y_m) < params.apart_m) return true;
   }
   return false;
 }
 
-void begin_tracks(const RoadParams& params, const TrackMap* map, const Frame& frame, const Gates& g,
-                  const Assignment& a, Tracks& tracks) {
+void begin_tracks(const RoadParams& params, const TrackMap* map, Duration coast_for,
+                  const Frame& frame, const Gates& g, const Assignment& a, Tracks& tracks) {
   for (std::size_t d = 0; d < frame.measurements.size(); ++d) {
     if (a.of_detection[d] != kNone) continue;
     const std::optional<Track> track = first_track(params, map, frame, d);
     if (!track) continue;
     const Position at = position_of(frame.key.source, frame.own, frame.measurements[d]);
-    if (!is_known(params, g, a, tracks, d, at)) add_track(*track, tracks);
+    if (!is_known(params, frame.key.at - coast_for, g, a, tracks, d, at)) add_track(*track, tracks);
   }
 }
 
@@ -182,16 +235,18 @@ void use_range_rate(const RoadParams& params, const TrackMap* map, const Frame& 
 
 void filter_road(const RoadParams& params, const TrackMap* map, Duration coast_for,
                  const Frame& frame, Tracks& tracks) {
-  end_unseen(frame, coast_for, tracks);
+  const Duration known_for = std::max(coast_for, from_seconds(params.remembered_s));
+  end_unseen(frame, known_for, tracks);
+  make_room(frame, coast_for, tracks);
   if (tracks.started) coast(params, map, frame.key.at - tracks.at, tracks);
   tracks.started = true;
   tracks.at = frame.key.at;
   Gates g;
   judge_pairs(params, map, frame, tracks, g);
   const Assignment a = assign(g.costs, Search::kBestTwo);
-  update_tracks(params, map, frame, g, a, tracks);
-  begin_tracks(params, map, frame, g, a, tracks);
-  end_tracks(frame, coast_for, tracks);
+  update_tracks(params, map, coast_for, frame, g, a, tracks);
+  begin_tracks(params, map, coast_for, frame, g, a, tracks);
+  end_tracks(frame, known_for, tracks);
 }
 
 std::optional<Track> first_track(const RoadParams& params, const TrackMap* map, const Frame& frame,

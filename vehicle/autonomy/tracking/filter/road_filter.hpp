@@ -2,6 +2,10 @@
 //
 //     coast to the frame -> gates -> assignment -> updates -> birth and death
 //
+// A car that was not seen for a while is looked for on the courses that it may have taken
+// (courses.hpp). One that was gone for longer than `coast` is still known: what comes to its place
+// is a new car, and not another one that is out of sight.
+//
 //   in     tracks at the time of an older frame, the frame
 //   out    tracks at the time of the frame
 //   source Chiu et al. (2020): greedy by Mahalanobis distance; here with the logarithm of the

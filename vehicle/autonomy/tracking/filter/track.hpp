@@ -56,7 +56,9 @@ struct Track {
   bool confirmed = false;
   DetectionKey first, previous, newest;
   DetectionKey tried;  // first one of the trial
-  Instant born_at{};   // confirmed
+  DetectionKey lost;   // of a heir: the first one of the track that it takes the place of
+  bool is_heir = false;
+  Instant born_at{};  // confirmed
 };
 
 inline constexpr std::size_t kTracksMax = 24;  // confirmed and on trial

@@ -22,6 +22,8 @@ const kReasons: Record<string, string> = {
   "round speed": "round speed of race control",
   operator: "limit of the operator",
   line: "curve ahead: line and grip",
+  "declined: fuel": "ATTEMPT DECLINED: not enough fuel",
+  "fuel for the way home": "FUEL: for the way home only",
 };
 
 export function reasonText(value: number, info: FieldInfo): string {

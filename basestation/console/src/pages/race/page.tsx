@@ -11,6 +11,7 @@ import { Bar } from "../../view/bar";
 import { Line, Tile } from "../../view/value";
 import { Notices } from "../link/notices";
 import { FuelPanel } from "../primary/fuel_panel";
+import { reasonText } from "../primary/limit_words";
 import { OpponentPanel } from "./opponents";
 import "./race.css";
 
@@ -91,6 +92,7 @@ function AttemptPanel() {
         <Line label="conflict of the roles" path="derived.role_conflict" />
         <Line label="manoeuvre" path="planner.primitive" />
         <Line label="last lap" path="track.last_lap_time" decimals={2} />
+        <Line label="limited by" path="planner.reason" text={reasonText} />
       </div>
     </section>
   );
@@ -147,6 +149,9 @@ export function RacePage() {
           <FuelPanel />
           <div class="lines">
             <Line label="state" path="derived.fuel_state" />
+            <Line label="laps at least" path="derived.fuel_least_laps" decimals={1} />
+            <Line label="level at least" path="derived.fuel_least" decimals={1} />
+            <Line label="laps at least, by the car" path="fuel.laps_left" decimals={1} />
           </div>
         </section>
         <OpponentPanel />

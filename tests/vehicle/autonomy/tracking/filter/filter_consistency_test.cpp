@@ -46,7 +46,7 @@ struct RandomCar {
     const double wander_m = p.wander_m_per_sqrt_s * std::sqrt(dt_s);
     s_m += speed_mps * std::cos(heading_rad) / left * dt_s + wander_m * draw_normal(random);
     n_m += speed_mps * std::sin(heading_rad) * dt_s + wander_m * draw_normal(random);
-    heading_rad += turn_rad_per_s * dt_s;
+    heading_rad += (turn_rad_per_s - (on_road ? heading_rad / p.heading_time_s : 0.0)) * dt_s;
     speed_mps += accel_mps2 * dt_s;
     accel_mps2 += -accel_mps2 / p.accel_time_s * dt_s +
                   p.accel_sigma_mps2 * std::sqrt(2.0 * dt_s / p.accel_time_s) * draw_normal(random);

@@ -78,6 +78,40 @@ TEST(Life, UnseenTrackEndsBeforeTheDetections) {
   EXPECT_EQ(tracks.list.size(), 0U);
 }
 
+Tracks with_a_lost_one() {
+  Tracks tracks = with_one_on_trial();
+  note_detection(frame_at(50), 0, tracks.list[0]);
+  return tracks;
+}
+
+// A heir is on trial; its second detection gives it the place and the name of the lost track.
+TEST(Life, HeirTakesThePlaceOfTheLostTrack) {
+  Tracks tracks = with_a_lost_one();
+  const DetectionKey name = tracks.list[0].first;
+  ASSERT_TRUE(is_lost(frame_at(1000), tracks.list[0]));
+  add_track(heir_of(tracks.list[0], seconds(5), frame_at(1000), 0), tracks);
+  add_track(heir_of(tracks.list[0], seconds(5), frame_at(1000), 1), tracks);
+  end_tracks(frame_at(1000), seconds(30), tracks);
+  ASSERT_EQ(tracks.list.size(), 3U);
+  note_detection(frame_at(1050), 0, tracks.list[2]);
+  end_tracks(frame_at(1050), seconds(30), tracks);
+  ASSERT_EQ(tracks.list.size(), 1U);
+  EXPECT_TRUE(tracks.list[0].confirmed);
+  EXPECT_EQ(tracks.list[0].first, name);
+  EXPECT_EQ(tracks.list[0].born_at, at_ms(50));
+}
+
+// After `coast` the car was gone for the others: what comes to its place is a new one to them.
+TEST(Life, HeirOfATrackThatHasEndedIsNew) {
+  Tracks tracks = with_a_lost_one();
+  add_track(heir_of(tracks.list[0], seconds(5), frame_at(6000), 1), tracks);
+  note_detection(frame_at(6050), 0, tracks.list[1]);
+  end_tracks(frame_at(6050), seconds(30), tracks);
+  ASSERT_EQ(tracks.list.size(), 1U);
+  EXPECT_EQ(tracks.list[0].first, (DetectionKey{frame_at(6000).key, 1}));
+  EXPECT_EQ(tracks.list[0].born_at, at_ms(6050));
+}
+
 TEST(Life, OthersKeepTheirOrder) {
   Tracks tracks;
   for (std::int64_t ms = 0; ms < 6; ++ms) {
@@ -97,6 +131,27 @@ TEST(Life, TrackWithoutRoomIsCounted) {
   for (std::size_t i = 0; i < kTracksMax + 3; ++i) add_track(Track{}, tracks);
   EXPECT_EQ(tracks.list.size(), kTracksMax);
   EXPECT_EQ(tracks.crowded, 3U);
+}
+
+// Tracks that are only remembered make room for what is seen; the others stay in their order.
+TEST(Life, TracksThatAreOnlyRememberedMakeRoom) {
+  Tracks tracks;
+  for (std::size_t i = 0; i < kTracksMax; ++i) {
+    Track track;
+    const Frame frame = frame_at(i == 7 ? 0 : i == 9 ? 10 : 4000);
+    note_first(frame, 0, track);
+    note_detection(frame, 1, track);
+    add_track(track, tracks);
+  }
+  make_room(frame_at(5000), seconds(5), tracks);
+  EXPECT_EQ(tracks.list.size(), kTracksMax) << "all are shown still";
+  make_room(frame_at(5005), seconds(5), tracks);
+  ASSERT_EQ(tracks.list.size(), kTracksMax - 1) << "two detections, but only one is older";
+  EXPECT_EQ(tracks.list[8].newest.frame.at, at_ms(10));
+  make_room(frame_at(5011), seconds(5), tracks);
+  ASSERT_EQ(tracks.list.size(), kTracksMax - 2);
+  make_room(frame_at(9001), seconds(5), tracks);
+  EXPECT_EQ(tracks.list.size(), kTracksMax - 2) << "there is room for two";
 }
 
 }  // namespace

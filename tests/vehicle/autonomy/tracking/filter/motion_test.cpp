@@ -114,6 +114,21 @@ TEST(Motion, FollowsTheRoadForFiveSeconds) {
   EXPECT_NEAR(track.x[kAcross], -4.0, 1e-12);
 }
 
+// A car that crosses the road comes back to its direction; on a plane there is none.
+TEST(Motion, HeadingComesBackToTheRoad) {
+  const world::TrackMap map = circle();
+  const RoadParams params;
+  constexpr double kHeading_rad = 0.03;
+  for (const world::TrackMap* ground : {&map, static_cast<const world::TrackMap*>(nullptr)}) {
+    Track track;
+    track.x = {1500.0, 0.0, kHeading_rad, 60.0, 0.0, 0.0};
+    begin_modes(params, track);
+    coast(params, ground, from_seconds(params.heading_time_s), track);
+    const double left = ground != nullptr ? std::exp(-1.0) : 1.0;
+    EXPECT_NEAR(track.x[kHeading], left * kHeading_rad, 1e-12);
+  }
+}
+
 // On a plane a car turns on the circle of its turn rate while that is not forgotten.
 TEST(Motion, TurnsOnAPlane) {
   RoadParams params = without_noise();

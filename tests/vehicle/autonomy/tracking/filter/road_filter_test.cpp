@@ -8,6 +8,7 @@
 
 #include "tests/support/instants.hpp"
 #include "tests/vehicle/autonomy/tracking/filter/circle.hpp"
+#include "vehicle/autonomy/tracking/filter/courses.hpp"
 #include "vehicle/autonomy/tracking/filter/motion.hpp"
 
 namespace pitwall::tracking {
@@ -159,6 +160,63 @@ TEST(RoadFilter, LostCarIsFoundByTwoDetections) {
   EXPECT_TRUE(drive.tracks.list[0].confirmed);
   EXPECT_EQ(drive.tracks.list[0].first, first);
   EXPECT_EQ(drive.tracks.list[0].newest.frame.at, at_s(2.7));
+}
+
+// A car that brakes while nothing is seen of it is where no steady car can be; it keeps its name.
+TEST(RoadFilter, CarThatBrakedOutOfSightIsTheSame) {
+  const Car car{.s_m = 150.0, .n_m = 0.0, .speed_mps = 58.0};
+  Drive drive;
+  for (int i = 0; i <= 60; ++i) drive.see(0.05 * i, DetectionSource::kLidar, {car.at(0.05 * i)});
+  const DetectionKey first = drive.tracks.list[0].first;
+  const auto braked = [&](double t_s) {
+    Car slower = car;
+    slower.s_m -= 0.5 * 5.0 * (t_s - 3.0) * (t_s - 3.0), slower.speed_mps = 58.0;
+    TruePose pose = slower.at(t_s);
+    pose.speed_mps -= 5.0 * (t_s - 3.0);
+    return pose;
+  };
+  drive.see(4.95, DetectionSource::kLidar, {});
+  const Track& lost = drive.tracks.list[0];
+  EXPECT_LT(6.0 * std::sqrt(lost.p[kAlong][kAlong]), 0.5 * 5.0 * 1.95 * 1.95);
+  for (int i = 100; i < 104; ++i) drive.see(0.05 * i, DetectionSource::kLidar, {braked(0.05 * i)});
+  ASSERT_EQ(drive.tracks.list.size(), 1U);
+  EXPECT_EQ(drive.tracks.list[0].first, first);
+  EXPECT_NEAR(drive.tracks.list[0].x[kSpeed], braked(5.15).speed_mps, 3.0);
+}
+
+// Two cars out of sight, one of them for longer than cars are shown. What is seen near its place
+// is not the other one, whose gate is as wide.
+TEST(RoadFilter, CarThatWasGoneForLongIsNoOther) {
+  const Car near{.s_m = 150.0, .n_m = -5.0, .speed_mps = 58.0},
+      far{.s_m = 165.0, .n_m = 5.0, .speed_mps = 58.0};
+  Drive drive;
+  for (int i = 0; i < 60; ++i)
+    drive.see(0.05 * i, DetectionSource::kLidar, {near.at(0.05 * i), far.at(0.05 * i)});
+  ASSERT_EQ(drive.tracks.list.size(), 2U);
+  const DetectionKey first_near = drive.tracks.list[0].first;
+  for (int i = 60; i < 120; ++i) drive.see(0.05 * i, DetectionSource::kLidar, {near.at(0.05 * i)});
+  for (int i = 120; i < 180; ++i) drive.see(0.05 * i, DetectionSource::kLidar, {});
+  for (int i = 180; i < 183; ++i) drive.see(0.05 * i, DetectionSource::kLidar, {far.at(0.05 * i)});
+  ASSERT_EQ(drive.tracks.list.size(), 2U);
+  EXPECT_EQ(drive.tracks.list[0].first, first_near);
+  EXPECT_EQ(drive.tracks.list[1].first.frame.at, at_s(9.0)) << "six seconds later: a new name";
+}
+
+// A car just outside of the wide gate of one that has ended for the others is seen at once.
+TEST(RoadFilter, CarThatWasGoneForLongHidesNoNewOne) {
+  Drive drive;
+  const Car gone{.s_m = 150.0, .n_m = -5.0, .speed_mps = 58.0};
+  for (int i = 0; i < 60; ++i) drive.see(0.05 * i, DetectionSource::kLidar, {gone.at(0.05 * i)});
+  drive.see(8.4, DetectionSource::kLidar, {});
+  ASSERT_EQ(drive.tracks.list.size(), 1U);
+  const Track unseen =
+      courses_of(drive.params, from_seconds(5.45), drive.tracks.list[0]).track[kOtherLane];
+  Car fresh = gone;
+  fresh.s_m += 6.2 * std::sqrt(unseen.p[kAlong][kAlong]);  // the gate is 5.1, stray ones up to 7.2
+  for (const double t_s : {8.4, 8.45, 8.5})
+    drive.see(t_s + 0.01, DetectionSource::kLidar, {fresh.at(t_s + 0.01)});
+  ASSERT_EQ(drive.tracks.list.size(), 2U);
+  EXPECT_TRUE(drive.tracks.list[1].confirmed);
 }
 
 // A car that brakes is in a maneuver, one that goes on is not.

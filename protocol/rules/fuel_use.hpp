@@ -1,9 +1,7 @@
-// Estimate of the fuel in the tank of a car that does not measure it: the fuel loaded, less the
-// fuel that its engine must have burnt. Good to about a tenth; shown as an estimate, and never used
-// instead of a measurement.
-//   in     litres in the tank as an operator entered them; engine speed, throttle and whether it
-//          runs, with the time of each sample
-//   out    litres left, litres used since the first sample
+// Fuel that an engine must have burnt, by its speed and its throttle: what a car knows that
+// measures neither level nor flow.
+//   in     engine speed, throttle and whether it runs, with the time of each sample
+//   out    litres used since the first sample
 //   invariants
 //          Willans line: flow = indicated torque x speed / (efficiency x heating value x density),
 //          where indicated torque is that of full throttle times the share of the throttle;
@@ -23,7 +21,9 @@
 #include "protocol/vocabulary/time.hpp"
 #include "protocol/vocabulary/units.hpp"
 
-namespace pitwall::state {
+namespace pitwall::rules {
+
+inline constexpr double kFuelDensity_kgpl = 0.745;
 
 struct EngineSample {
   double speed_rpm = kUnset, throttle = kUnset;
@@ -31,21 +31,17 @@ struct EngineSample {
 };
 double fuel_flow_lps(const EngineSample& sample);
 
-class FuelEstimate {
+class FuelUse {
  public:
   static constexpr double kIdle_lph = 3.0;
   static constexpr Duration kGap = seconds(2);
 
-  void loaded(double litres);
   void receive(const EngineSample& sample, Instant sampled);
-
-  double level_l() const;  // at least zero; unset if no level was entered
   double used_l() const { return used_l_; }
 
  private:
-  double loaded_l_ = kUnset, used_when_loaded_l_ = 0.0, used_l_ = 0.0;
-  double flow_lps_ = 0.0;
+  double used_l_ = 0.0, flow_lps_ = 0.0;
   std::optional<Instant> newest_;
 };
 
-}  // namespace pitwall::state
+}  // namespace pitwall::rules

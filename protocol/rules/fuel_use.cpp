@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "basestation/state/derived/fuel_estimate.hpp"
+#include "protocol/rules/fuel_use.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
 
-namespace pitwall::state {
+namespace pitwall::rules {
 namespace {
 
-constexpr double kEfficiency = 0.30, kHeating_jpkg = 42.7e6, kDensity_kgpl = 0.745;
+constexpr double kEfficiency = 0.30, kHeating_jpkg = 42.7e6;
 constexpr double kSecondsPerHour = 3'600.0;
 
 struct Point {
@@ -40,17 +40,11 @@ double fuel_flow_lps(const EngineSample& sample) {
   if (!sample.running || !(sample.speed_rpm > 0.0)) return 0.0;
   const double indicated_w =
       at(kFull_nm, sample.speed_rpm) * at(kShare, sample.throttle) * from_rpm(sample.speed_rpm);
-  return std::max(indicated_w / (kEfficiency * kHeating_jpkg * kDensity_kgpl),
-                  FuelEstimate::kIdle_lph / kSecondsPerHour);
+  return std::max(indicated_w / (kEfficiency * kHeating_jpkg * kFuelDensity_kgpl),
+                  FuelUse::kIdle_lph / kSecondsPerHour);
 }
 
-void FuelEstimate::loaded(double litres) {
-  if (!std::isfinite(litres)) return;
-  loaded_l_ = litres;
-  used_when_loaded_l_ = used_l_;
-}
-
-void FuelEstimate::receive(const EngineSample& sample, Instant sampled) {
+void FuelUse::receive(const EngineSample& sample, Instant sampled) {
   if (!std::isfinite(sample.speed_rpm) || !std::isfinite(sample.throttle)) return;
   if (newest_ && sampled <= *newest_) return;
   const double flow_lps = fuel_flow_lps(sample);
@@ -64,9 +58,4 @@ void FuelEstimate::receive(const EngineSample& sample, Instant sampled) {
   newest_ = sampled;
 }
 
-double FuelEstimate::level_l() const {
-  if (std::isnan(loaded_l_)) return kUnset;
-  return std::max(0.0, loaded_l_ - (used_l_ - used_when_loaded_l_));
-}
-
-}  // namespace pitwall::state
+}  // namespace pitwall::rules

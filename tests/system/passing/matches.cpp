@@ -1,0 +1,80 @@
+// Attempts to pass in every bracket, ours and the published planner's: `./pitwall long matches`.
+// Exit: 0 the gates hold, 1 one does not, 2 the command line is wrong.
+// SPDX-License-Identifier: Apache-2.0
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <string>
+#include <vector>
+
+#include "hil/sweep/in_parallel.hpp"
+#include "protocol/transport/file.hpp"
+#include "tests/system/passing/attempt_table.hpp"
+
+namespace pitwall::testing {
+namespace {
+
+constexpr double kAttempt_s = 7.0;  // processor time of one, on the reference machine
+
+std::vector<AttemptCase> cases_of(Seeds seeds, const std::string& commit, std::size_t attempts) {
+  std::vector<AttemptCase> cases;
+  for (const BracketGate& bracket : kBrackets)
+    for (std::size_t i = 0; i < attempts; ++i)
+      for (const Driver driver : kDrivers)
+        cases.push_back(case_of(seeds, commit, i, bracket.round_mph, driver));
+  return cases;
+}
+
+// The file shows the attempt again: pitwall-hil run FILE.
+void keep(const AttemptRun& run, const std::string& folder) {
+  const std::string file = folder + "/lost_" + std::to_string(static_cast<int>(run.of.round_mph)) +
+                           "_" + std::to_string(run.of.seed) + ".yaml";
+  if (transport::write_file(file, scenario_text(run.of)))
+    std::printf("  written: %s\n", file.c_str());
+}
+
+bool run_all(Seeds seeds, const std::string& commit, std::size_t attempts, unsigned processes,
+             const std::string& lost_folder) {
+  const std::vector<AttemptCase> cases = cases_of(seeds, commit, attempts);
+  std::vector<AttemptRun> runs(cases.size());
+  sweep::in_parallel(runs.size(), processes, [&](std::size_t i) {
+    runs[i] = run_attempt(cases[i]);
+    std::printf("%s\n", row_of(runs[i]).c_str());
+    std::fflush(stdout);
+  });
+  std::printf("\n%s", table_of(runs, seeds).c_str());
+  for (const AttemptRun& run : runs) {
+    if (run.of.driver != Driver::kOurs || run.verdict == Verdict::kPassed) continue;
+    std::printf("%s\n", row_of(run).c_str());
+    if (!lost_folder.empty()) keep(run, lost_folder);
+  }
+  const std::vector<std::string> missed = missed_gates(runs, seeds);
+  for (const std::string& why : missed) std::printf("MISSED %s\n", why.c_str());
+  if (missed.empty()) std::printf("all gates hold\n");
+  return missed.empty();
+}
+
+}  // namespace
+}  // namespace pitwall::testing
+
+int main(int argc, char** argv) {
+  using namespace pitwall::testing;
+  std::size_t attempts = kGateAttempts;
+  unsigned processes = 2;
+  std::string commit, lost_folder;
+  CLI::App app{"Attempts to pass a defender at every round speed: ours and the published planner."};
+  app.add_option("--attempts", attempts, "of each driver at each speed, for each kind of seeds")
+      ->check(CLI::Range(1, 1'000));
+  app.add_option("--commit", commit, "its name gives the second kind of seeds; without: none");
+  app.add_option("--processes", processes, "at once")->check(CLI::Range(1, 256));
+  app.add_option("--lost", lost_folder, "scenarios of attempts that ours did not make go here");
+  CLI11_PARSE(app, argc, argv);
+  const std::size_t kinds = commit.empty() ? 1 : 2;
+  const std::size_t all = kinds * attempts * kBrackets.size() * kDrivers.size();
+  std::printf("simulated: %zu attempts, about %.0f min on %u processors\n", all,
+              static_cast<double>(all) * kAttempt_s / 60.0 / processes, processes);
+  std::fflush(stdout);
+  bool held = run_all(Seeds::kCommitted, commit, attempts, processes, lost_folder);
+  if (!commit.empty())
+    held = run_all(Seeds::kOfCommit, commit, attempts, processes, lost_folder) && held;
+  return held ? 0 : 1;
+}
