@@ -149,7 +149,8 @@ DriftParams wander_of(const SpeedDrift& drift) {
       .sigma_m = drift.sigma_mps, .correlation_s = drift.correlation_s, .most_m = drift.most_mps};
 }
 
-// What the speed is off the wanted one; less below a walking pace, nothing for a car that shall stand.
+// What the speed is off the wanted one; less below a walking pace, nothing for a car that is to
+// stand.
 double strays_mps(const Ghost& ghost, const GhostState& state, double wanted_mps) {
   const double share = std::min(wanted_mps / kWalkingPace_mps, 1.0);
   return share * drift_at(wander_of(ghost.params.speed_drift), state.speed_drift).n_m;

@@ -1,14 +1,17 @@
-// by_wall_clock COMMAND...: runs a test that only the wall clock can judge. One that says by its
-// exit code that nothing but time failed (tests/support/in_time.hpp) is run again. All tests of a
-// suite together have five minutes for that (the file that PITWALL_TRIES_FILE names holds what they
-// took); when these are spent, the test is not judged. Any other failure is one at once.
+// by_wall_clock COMMAND...: runs a test that limits by the wall clock can fail. It is run again
+// where it says by its exit code that nothing but time failed (tests/support/in_time.hpp), and where
+// it failed in any way while the machine stood still (StallWatch). All tests of a suite together
+// have five minutes for that (the file that PITWALL_TRIES_FILE names holds what they took); when
+// these are spent, a test that was only late is not judged. Any other failure is one.
 //   exit   that of the command; 1: the command could not be run; 3: not judged
 // SPDX-License-Identifier: Apache-2.0
+#include <atomic>
 #include <charconv>
 #include <cstdio>
 #include <cstdlib>
 #include <optional>
 #include <string>
+#include <thread>
 
 #include "protocol/transport/clock.hpp"
 #include "protocol/transport/file.hpp"
@@ -21,7 +24,8 @@ namespace {
 
 constexpr Duration kForTries = seconds(300);
 constexpr Duration kRest = seconds(2);  // of a busy machine
-constexpr int kFailed = 1, kNotJudged = 3;
+constexpr Duration kStall = milliseconds(250);
+constexpr int kFailed = 1, kNotJudged = 3, kMostStalls = 3;
 
 // What tries of this suite took, those of other tests included, as far as they have ended.
 class SpentOnTries {
@@ -51,6 +55,28 @@ class SpentOnTries {
   Duration own_{};
 };
 
+// How late a thread with nothing to do came to run at worst: so long no process of its priority had
+// a processor.
+class StallWatch {
+ public:
+  Duration worst() const { return worst_; }
+
+ private:
+  static constexpr Duration kNap = milliseconds(5);
+
+  void watch(const std::stop_token& stop) {
+    for (Instant slept = transport::monotonic_now(); !stop.stop_requested();) {
+      transport::nap(kNap);
+      const Instant now = transport::monotonic_now();
+      worst_ = std::max(worst_.load(), now - slept - kNap);
+      slept = now;
+    }
+  }
+
+  std::atomic<Duration> worst_{Duration{}};
+  std::jthread thread_{[this](const std::stop_token& stop) { watch(stop); }};
+};
+
 // 1 where it cannot be run.
 int run_once(const transport::ProcessPlan& plan) {
   const transport::KeepAwake awake;
@@ -60,19 +86,43 @@ int run_once(const transport::ProcessPlan& plan) {
   return kFailed;
 }
 
+struct Try {
+  int code = 0;
+  Duration stall{};
+  bool stood_still() const { return code != 0 && code != kOnlyLate && stall >= kStall; }
+};
+
+Try try_once(const transport::ProcessPlan& plan) {
+  const StallWatch watch;
+  const int code = run_once(plan);
+  return {code, watch.worst()};
+}
+
 int run(const transport::ProcessPlan& plan) {
   SpentOnTries spent;
+  int stalls = 0;
   for (int tries = 1;; ++tries) {
     const Instant begun = transport::monotonic_now();
-    const int code = run_once(plan);
+    const Try last = try_once(plan);
+    const int code = last.code;
     if (code == 0 && tries > 1) std::printf("by_wall_clock: passed at try %d\n", tries);
-    if (code != kOnlyLate) return code;
-    const bool again = spent.all() < kForTries;
-    std::printf("by_wall_clock: %s at try %d\n",
-                again ? "only late" : "not judged, the suite's minutes for tries are spent,",
-                tries);
+    if (code == 0) return 0;
+    const bool has_time = spent.all() < kForTries;
+    if (last.stood_still()) {
+      const bool again = has_time && ++stalls < kMostStalls;
+      std::printf(
+          "by_wall_clock: failed with %d at try %d; the machine stood still for %.0f ms%s\n", code,
+          tries, last.stall.seconds() * 1e3, again ? ", so once more" : "");
+      if (!again) return code;
+    } else if (code == kOnlyLate) {
+      std::printf("by_wall_clock: %s at try %d\n",
+                  has_time ? "only late" : "not judged, the suite's minutes for tries are spent,",
+                  tries);
+      if (!has_time) return kNotJudged;
+    } else {
+      return code;
+    }
     std::fflush(stdout);
-    if (!again) return kNotJudged;
     transport::nap(kRest);
     spent.add(transport::monotonic_now() - begun);
   }

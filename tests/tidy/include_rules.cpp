@@ -139,7 +139,7 @@ const std::vector<Part> kParts{
     {"vehicle/parameters",
      {"vehicle/envelope", "vehicle/world", "vehicle/pipeline", "vehicle/raceline",
       "protocol/vocabulary", "protocol/yaml"},
-     {"yaml"}},
+     {"yaml", "files"}},  // names of files beside one: the reader is given
     {"vehicle/raceline",
      {"vehicle/envelope", "vehicle/world", "protocol/bits", "protocol/json", "protocol/yaml",
       "protocol/vocabulary"},

@@ -23,6 +23,7 @@ using control_bench::ControlCost;
 using control_bench::ControlRow;
 using control_bench::Gate;
 using control_bench::LaneChangeRow;
+using control_bench::PlannerCost;
 using control_bench::World;
 
 constexpr std::array kLaws{control_bench::kPaper, control_bench::kOfStops, control_bench::kOurs};

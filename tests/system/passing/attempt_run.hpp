@@ -1,5 +1,5 @@
-// Attempt of our car, drawn by a seed, to pass a ghost that defends the inside lane: in lockstep, with
-// estimator and tracker in the loop.
+// Attempt of our car, drawn by a seed, to pass a ghost that defends the inside lane: in lockstep,
+// with estimator and tracker in the loop.
 //   in     AttemptCase: seed, round speed, who drives; what varies is drawn from the seed alone
 //   out    AttemptRun: how it ended, the states of the pass on the way, how the speed was commanded
 //   draws  start gap 40 to 240 m, wander of the defender's speed 0.3 to 0.6 m/s rms and of its lane

@@ -1,9 +1,9 @@
 // Table of many attempts: what each driver made of each round speed, and the gates.
 //   in     runs on committed seeds, runs on the seeds of a commit
 //   out    rows of text, the lost attempts of ours, the gates that are missed
-//   gates  of ours with n attempts a bracket, for n = 20: 20 and 19 passed at 80 to 125 mph, 19 and 18
-//          at 135, 18 and 17 at 150, by seeds; for another n the same number may fail, in proportion
-//          rounded down. No contact and no flap anywhere; above 150 mph nothing but that
+//   gates  of ours with n attempts a bracket, for n = 20: 20 and 19 passed at 80 to 125 mph, 19 and
+//          18 at 135, 18 and 17 at 150, by seeds; for another n the same number may fail, in
+//          proportion rounded down. No contact and no flap anywhere; above 150 mph nothing but that
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

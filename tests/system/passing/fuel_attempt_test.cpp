@@ -1,5 +1,5 @@
-// Attempts on little fuel, the full stack in the loop: the operator enters what is in the tank before
-// the start, the engine burns up to 13 % more or less than is reckoned.
+// Attempts on little fuel, the full stack in the loop: the operator enters what is in the tank
+// before the start, the engine burns up to 13 % more or less than is reckoned.
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 

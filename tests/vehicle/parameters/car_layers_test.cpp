@@ -96,8 +96,7 @@ TEST(CarLayers, FilesMayBeInOtherFoldersAndOfSeveralSteps) {
 
 TEST(CarLayers, RefusesAMissingFileACircleAndALongChain) {
   const auto expect = [](const Files& files, const std::string& why) {
-    const std::string said = refusal(files);
-    EXPECT_EQ(said, why);
+    EXPECT_EQ(refusal(files), why);
   };
   expect({}, "cars/race.yaml: error: no such file");
   expect({{"cars/race.yaml", "name: a\nlike: gone.yaml\n"}},

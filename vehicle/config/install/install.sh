@@ -80,7 +80,8 @@ plan_car_files() {
     plan_file config 0644 "/etc/pitwall/cars/${file##*/}" "$file"
     like=$(sed -nE 's/^like:[[:space:]]*"?([^"#[:space:]]+).*/\1/p' "$file")
     [[ -n $like ]] || return 0
-    [[ $like != */* ]] || refuse "$file: like: $like; expected a file beside it, because they are installed together"
+    [[ $like != */* ]] ||
+      refuse "$file: like: $like; expected a file beside it, because they are installed together"
     file=$(dirname "$file")/$like
     check_file "$car: like" "$file"
   done

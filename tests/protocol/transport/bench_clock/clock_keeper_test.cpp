@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <thread>
 
 #include "protocol/transport/bench_clock/bench_clock.hpp"
@@ -106,16 +107,18 @@ TEST(ClockKeeper, TimeStandsForAnotherThreadOfItsOwnProgramAndNeverForItself) {
   Kept kept;
   kept.keeper.begin();
   BenchClock clock{*ClockMemory::open(kept.file.path)};
-  {
-    std::jthread other{[&clock](const std::stop_token& stop) {
-      clock.take_turns();
-      while (!stop.stop_requested())
-        clock.wait_until(clock.now() + milliseconds(1),
-                         [](Duration) { return nap_on_wall(kLong); });
-    }};
-    kept.until_taken();
-    EXPECT_LT(kept.over(10 * kLong), 3 * kLong);
-  }
+  std::atomic<bool> has_ended = false;
+  std::jthread other{[&](const std::stop_token& stop) {
+    clock.take_turns();
+    while (!stop.stop_requested())
+      clock.wait_until(clock.now() + milliseconds(1), [](Duration) { return nap_on_wall(kLong); });
+    has_ended = true;
+  }};
+  kept.until_taken();
+  EXPECT_LT(kept.over(10 * kLong), 3 * kLong);
+  other.request_stop();
+  while (!has_ended) kept.over(kLong);  // it waits for a time that has to come
+  other.join();
   std::jthread{[&] {
     EXPECT_TRUE(clock.take_turns());
     EXPECT_TRUE(kept.goes_on(kLong));
