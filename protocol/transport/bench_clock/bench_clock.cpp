@@ -20,7 +20,9 @@ std::optional<BenchClock>& of_this_program() {
 struct OwnSlot {
   ClockSlot* slot = nullptr;
   ~OwnSlot() {
-    if (slot != nullptr) slot->process.store(0);
+    if (slot == nullptr) return;
+    slot->thread.store(0);
+    slot->process.store(0);
   }
 };
 thread_local OwnSlot own;

@@ -88,7 +88,9 @@ bool ClockKeeper::is_held_up(Instant now) {
 bool ClockKeeper::holds_up(std::size_t index, Instant now) {
   ClockSlot& slot = memory_.page().slots[index];
   const std::int32_t process = slot.process.load(std::memory_order_acquire);
-  if (process == 0 || slot.thread.load() == ::gettid()) return false;  // nobody waits for himself
+  const std::int32_t thread = slot.thread.load();
+  if (process == 0 || thread == ::gettid()) return false;  // nobody waits for himself
+  if (thread == 0 && task_state(process, process) != TaskState::kGone) return true;  // just coming
   const std::uint64_t turn = slot.turns.load(std::memory_order_acquire);
   const Instant due{slot.due_ns.load(std::memory_order_relaxed)};
   if (now - kGrace <= due) return false;
@@ -97,9 +99,10 @@ bool ClockKeeper::holds_up(std::size_t index, Instant now) {
     const bool at_work = turn % 2 != 0;
     watch = {.turn = turn, .since = at_work ? now - kGrace : due, .used = process_time(process)};
   }
-  switch (task_state(process, slot.thread.load())) {
+  switch (task_state(process, thread)) {
     case TaskState::kGone: {
       std::int32_t dead = process;
+      slot.thread.store(0);
       slot.process.compare_exchange_strong(dead, 0);
       return false;
     }

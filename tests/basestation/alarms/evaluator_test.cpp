@@ -149,11 +149,14 @@ TEST(Evaluator, FuelIsReckonedWhereTheCarDoesNotTellIt) {
   EXPECT_NEAR(value(wall, state::BaseField::kFuelLevel), 40.0, 0.2);
   EXPECT_EQ(value(wall, state::BaseField::kFuelEstimated), 1.0);
   EXPECT_GE(value(wall, state::BaseField::kFuelAttempts), 1.0);
+  while (value(wall, state::BaseField::kFuelLevel) > 11.0) wall.run(seconds(5));
+  EXPECT_TRUE(wall.alarm("fuel_no_attempt"));  // 11 l, of which 3.8 l may be burnt
   while (value(wall, state::BaseField::kFuelLevel) > 5.0) wall.run(seconds(5));
-  EXPECT_TRUE(wall.alarm("fuel_no_attempt"));
+  EXPECT_TRUE(wall.alarm("fuel_home_now"));
   wall.evaluator.expect({.fuel_loaded_l = 40.0, .fuel_entries = 2});
-  wall.run(seconds(4));
+  wall.run(seconds(6));
   EXPECT_FALSE(wall.alarm("fuel_no_attempt"));
+  EXPECT_FALSE(wall.alarm("fuel_home_now"));
   wall.set(field("fuel.level"), 12.0);  // a measurement holds from its first on
   wall.run(seconds(4));
   EXPECT_EQ(value(wall, state::BaseField::kFuelEstimated), 0.0);

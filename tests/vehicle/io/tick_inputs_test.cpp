@@ -129,7 +129,9 @@ TEST(TickInputs, WhatNoCarCanHaveHadIsRefusedByName) {
   EXPECT_EQ(refusal([](TickRecord& r) { r.guardian = 4; }), "guardian");
   EXPECT_EQ(refusal([](TickRecord& r) { r.stop = 3; }), "stop");
   EXPECT_EQ(refusal([](TickRecord& r) { r.controller = 6; }), "controller");
-  EXPECT_EQ(refusal([](TickRecord& r) { append(r, {.kind = 9}); }), "commands");
+  constexpr auto unknown =
+      static_cast<std::uint8_t>(static_cast<int>(world::OperatorCommandKind::kSendParameters) + 1);
+  EXPECT_EQ(refusal([](TickRecord& r) { append(r, {.kind = unknown}); }), "commands");
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include "protocol/transport/bench_clock/clock_keeper.hpp"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <atomic>
 #include <thread>
@@ -123,6 +124,18 @@ TEST(ClockKeeper, TimeStandsForAnotherThreadOfItsOwnProgramAndNeverForItself) {
     EXPECT_TRUE(clock.take_turns());
     EXPECT_TRUE(kept.goes_on(kLong));
   }}.join();
+}
+
+// Who has just taken a place, and was held up before it could say which thread it is.
+TEST(ClockKeeper, TimeStandsForOneThatIsJustComing) {
+  Kept kept;
+  kept.keeper.begin();
+  kept.slot().due_ns.store(ClockSlot::kAtWork);
+  kept.slot().process.store(::getpid());
+  EXPECT_LE(kept.over(kLong), ClockKeeper::kLead);
+  EXPECT_EQ(kept.slot().process.load(), ::getpid()) << "its place is kept";
+  kept.slot().thread.store(::gettid());
+  EXPECT_TRUE(kept.goes_on(kLong));
 }
 
 TEST(ClockKeeper, TimeGoesOnForOneThatIsStoppedAndWaitsForItAgainLater) {
