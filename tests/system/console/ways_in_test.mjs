@@ -208,11 +208,14 @@ async function refusals() {
   return { byConsole, bySocket: bySocket.replace(/^refused: /, ""), byScript, lines };
 }
 
+/** The words without the gate that depends on where on the track the car is at the time. */
+const anywhere = (words) => words?.replace(/ corner: [^;]*;/, "");
+
 test("console, command socket and script are refused with the same words", async () => {
   const said = await refusals();
   assert.match(said.byConsole, kRefusal);
-  assert.equal(said.bySocket, said.byConsole);
-  assert.equal(said.byScript, said.byConsole);
+  assert.equal(anywhere(said.bySocket), anywhere(said.byConsole));
+  assert.equal(anywhere(said.byScript), anywhere(said.byConsole));
   for (const who of [
     /^console \d+: refused: gate/,
     /^command socket: refused/,
