@@ -101,6 +101,7 @@ for (const size of kDeskSizes) {
       "speed limit",
       "track flag",
       "sensors excluded",
+      "fuel entered",
       "end run",
     ]);
     for (const [command, names] of [

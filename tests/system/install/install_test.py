@@ -115,10 +115,14 @@ class Installation(unittest.TestCase):
         self.assertEqual(snapshot(self.root), {})
 
     def test_the_files_that_a_car_file_is_like_are_installed_with_it(self):
-        self.install("--car", SOURCE / "vehicle/config/cars/av21_race.yaml")
+        self.install("--car", SOURCE / "vehicle/config/cars/av21_race.yaml",
+                     "--track", SOURCE / "vehicle/config/tracks/tms.yaml")
         cars = self.root / "etc/pitwall/cars"
         self.assertEqual({file.name for file in cars.iterdir()}, {"av21_race.yaml", "av21.yaml"})
-        elsewhere = self.root.parent / "elsewhere.yaml"
+        (self.root.parent / "av21.yaml").write_text(
+            (SOURCE / "vehicle/config/cars/av21.yaml").read_text())
+        elsewhere = self.root.parent / "cars/elsewhere.yaml"
+        elsewhere.parent.mkdir()
         elsewhere.write_text("schema: 1\nlike: ../av21.yaml\n")
         self.assertIn("like: ../av21.yaml", self.install("--car", elsewhere, expect=2).stderr)
 
