@@ -123,11 +123,13 @@ void expect_every_loss_counted(const Experiment& e) {
   EXPECT_GE(e.sent, 5 * 9'000);
   expect_all_received_or_counted(e.car, e.sent);
   expect_all_received_or_counted(e.listener, e.sent);
+  for (const Queue& loss : e.queue) EXPECT_EQ(loss.counted, loss.missing);
+}
+
+// A receiver that comes to run late anyway loses nothing more while it pauses.
+void expect_every_pause_loses(const Experiment& e) {
   ASSERT_EQ(e.queue.size(), 4u) << "three pauses and the end";
-  for (const Queue& loss : e.queue) {
-    EXPECT_EQ(loss.counted, loss.missing);
-    EXPECT_GT(loss.counted, 0);
-  }
+  for (const Queue& loss : e.queue) EXPECT_GT(loss.counted, 0);
 }
 
 void expect_every_omission_reported(const Judged& judged) {
@@ -155,6 +157,8 @@ TEST(GatewayLoad, NothingIsLostAndWhatIsLeftOutIsReported) {
     EXPECT_EQ(outcome.load.by_car.omitted, 0);
     woke_us = std::max(outcome.load.wake_max_us, outcome.loss.wake_max_us);
     if (woke_us > kWakeLimit_us) continue;
+    expect_every_pause_loses(outcome.load);
+    expect_every_pause_loses(outcome.loss);
     expect_nothing_lost(outcome.load);
     expect_nothing_lost(outcome.loss);
     return expect_every_omission_reported(outcome.loss);
