@@ -1,16 +1,19 @@
-// by_wall_clock COMMAND...: runs a test that limits by the wall clock can fail. It is run again
-// where it says by its exit code that nothing but time failed (tests/support/in_time.hpp), and
-// where it failed in any way while the machine stood still (StallWatch). All tests of a suite
+// by_wall_clock [--keep-awake] COMMAND...: runs a test that limits by the wall clock can fail. It is
+// run again where it says by its exit code that nothing but time failed (tests/support/in_time.hpp),
+// and where it failed in any way while the machine stood still (StallWatch). All tests of a suite
 // together have five minutes for that (the file that PITWALL_TRIES_FILE names holds what they
 // took); when these are spent, a test that was only late is not judged. Any other failure is one.
+//   --keep-awake  keep the processors of a virtual machine awake meanwhile
 //   exit   that of the command; 1: the command could not be run; 3: not judged
 // SPDX-License-Identifier: Apache-2.0
 #include <atomic>
 #include <charconv>
 #include <cstdio>
 #include <cstdlib>
+#include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <thread>
 
 #include "protocol/transport/clock.hpp"
@@ -79,7 +82,6 @@ class StallWatch {
 
 // 1 where it cannot be run.
 int run_once(const transport::ProcessPlan& plan) {
-  const transport::KeepAwake awake;
   auto process = transport::Process::spawn(plan);
   if (process) return process->wait().shell_code();
   std::fprintf(stderr, "by_wall_clock: %s\n", to_string(process.error()).c_str());
@@ -132,9 +134,13 @@ int run(const transport::ProcessPlan& plan) {
 }  // namespace pitwall::testing
 
 int main(int count, char** words) {
-  if (count < 2) {
+  using pitwall::transport::KeepAwake;
+  const bool keep_awake = count > 1 && std::string_view{words[1]} == "--keep-awake";
+  const int first = keep_awake ? 2 : 1;
+  if (count <= first) {
     std::fprintf(stderr, "by_wall_clock: no command to run\n");
     return 1;
   }
-  return pitwall::testing::run({.argv = {words + 1, words + count}});
+  const auto awake = keep_awake ? std::make_unique<KeepAwake>() : nullptr;
+  return pitwall::testing::run({.argv = {words + first, words + count}});
 }
