@@ -1,8 +1,9 @@
-// by_wall_clock [--keep-awake] COMMAND...: runs a test that limits by the wall clock can fail. It is
-// run again where it says by its exit code that nothing but time failed (tests/support/in_time.hpp),
-// and where it failed in any way while the machine stood still (StallWatch). All tests of a suite
-// together have five minutes for that (the file that PITWALL_TRIES_FILE names holds what they
-// took); when these are spent, a test that was only late is not judged. Any other failure is one.
+// by_wall_clock [--keep-awake] COMMAND...: runs a test that limits by the wall clock can fail. It
+// is run again where it says by its exit code that nothing but time failed (only_late.hpp in
+// tests/support), and where it failed in any way while the machine stood still (StallWatch). All
+// tests of a suite together have five minutes for that (the file that PITWALL_TRIES_FILE names
+// holds what they took); when these are spent, a test that was only late is not judged. Any other
+// failure is one.
 //   --keep-awake  keep the processors of a virtual machine awake meanwhile
 //   exit   that of the command; 1: the command could not be run; 3: not judged
 // SPDX-License-Identifier: Apache-2.0
