@@ -151,7 +151,7 @@ export function RacePage() {
             <Line label="state" path="derived.fuel_state" />
             <Line label="laps at least" path="derived.fuel_least_laps" decimals={1} />
             <Line label="level at least" path="derived.fuel_least" decimals={1} />
-            <Line label="laps at least, by the car" path="fuel.laps_left" decimals={1} />
+            <Line label="laps, by the car" path="fuel.laps_left" decimals={1} />
           </div>
         </section>
         <OpponentPanel />
