@@ -65,7 +65,8 @@ class Finder {
 
   // Of both sequences, place by place: after a mode that is not the same the rest says nothing.
   void compare_modes() {
-    const Samples recorded = within(recorded_.modes), again = within(again_.modes);
+    const std::vector<CommandSample> recorded = lasting(within(recorded_.modes));
+    const std::vector<CommandSample> again = lasting(within(again_.modes));
     const std::size_t both = std::min(recorded.size(), again.size());
     for (std::size_t i = 0; i < both; ++i, ++out_.modes) {
       const Duration lag = again[i].at - recorded[i].at;
@@ -82,6 +83,17 @@ class Finder {
     if (out_.compared - more.at <= tolerances_.mode_lag()) return;  // it may come yet
     const double before = both == 0 ? kUnset : recorded[both - 1].value;
     note(kModeSignal, more.at, is_missing ? more.value : before, is_missing ? before : more.value);
+  }
+
+  // Without the modes that ended within mode_lag: the other run may have left them out.
+  std::vector<CommandSample> lasting(Samples modes) const {
+    std::vector<CommandSample> out;
+    for (std::size_t i = 0; i < modes.size(); ++i) {
+      const bool is_last = i + 1 == modes.size();
+      if (!is_last && modes[i + 1].at - modes[i].at <= tolerances_.mode_lag()) continue;
+      if (out.empty() || out.back().value != modes[i].value) out.push_back(modes[i]);
+    }
+    return out;
   }
 
   void compare_commands(std::size_t actuator) {

@@ -16,6 +16,9 @@
 //          a command is compared with the nearest value of the other run within command_lag. The
 //          gear has no tolerance of its own. Modes follow in the same order; each mode change is
 //          within two ticks plus the interval of recorded states of that in the other run
+//          (mode_lag). A mode that ends within mode_lag is not compared: where two causes come
+//          together, as standstill and the loss of all inputs, one run may pass through a mode
+//          that the other never had
 //          commands that only one run has are a difference
 // SPDX-License-Identifier: Apache-2.0
 #pragma once

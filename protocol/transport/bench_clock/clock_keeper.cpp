@@ -90,7 +90,10 @@ bool ClockKeeper::holds_up(std::size_t index, Instant now) {
   const std::int32_t process = slot.process.load(std::memory_order_acquire);
   const std::int32_t thread = slot.thread.load();
   if (process == 0 || thread == ::gettid()) return false;  // nobody waits for himself
-  if (thread == 0 && task_state(process, process) != TaskState::kGone) return true;  // just coming
+  if (thread == 0) {
+    const TaskState state = task_state(process, process);
+    if (state != TaskState::kGone) return state != TaskState::kStopped;  // just coming
+  }
   const std::uint64_t turn = slot.turns.load(std::memory_order_acquire);
   const Instant due{slot.due_ns.load(std::memory_order_relaxed)};
   if (now - kGrace <= due) return false;

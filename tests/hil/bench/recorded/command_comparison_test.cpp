@@ -13,6 +13,7 @@ namespace {
 constexpr auto kBrake = static_cast<std::size_t>(Actuator::kBrake);
 constexpr auto kGear = static_cast<std::size_t>(Actuator::kGear);
 constexpr double kMode_disarmed = 0.0, kMode_standby = 1.0, kMode_driving = 2.0;
+constexpr double kMode_emergency_stop = 4.0;
 
 CommandTolerances tolerances() {
   return tolerances_of(pipeline::testing::setup().params, own_database());
@@ -96,6 +97,17 @@ TEST(CommandComparison, OtherModesAndModesThatOnlyOneRunHasAreADifference) {
   ASSERT_EQ(found.size(), 1U);
   EXPECT_EQ(found[0].first.recorded, kMode_standby);
   EXPECT_EQ(found[0].first.again, kMode_driving);
+}
+
+TEST(CommandComparison, AModeThatEndsWithinTheLagMayBeMissingAndALongerOneMayNot) {
+  for (const std::int64_t ticks : {1, 4, 5}) {
+    CommandTrace again = trace();
+    const CommandSample passed{again.modes[2].at - kTick * ticks, kMode_emergency_stop};
+    again.modes.insert(again.modes.begin() + 2, passed);
+    const bool is_same = ticks <= 4;
+    EXPECT_EQ(compare(trace(), again, tolerances()).differences.empty(), is_same) << ticks;
+    EXPECT_EQ(compare(again, trace(), tolerances()).differences.empty(), is_same) << ticks;
+  }
 }
 
 TEST(CommandComparison, CommandsOfOneRunOnlyAndARunThatEndsEarlyAreDifferences) {

@@ -138,6 +138,20 @@ TEST(ClockKeeper, TimeStandsForOneThatIsJustComing) {
   EXPECT_TRUE(kept.goes_on(kLong));
 }
 
+TEST(ClockKeeper, TimeGoesOnForOneThatIsStoppedWhileItComes) {
+  Kept kept;
+  kept.keeper.begin();
+  const Other car{[] {
+    while (true) ::pause();
+  }};
+  kept.slot().due_ns.store(ClockSlot::kAtWork);
+  kept.slot().process.store(car.process());
+  EXPECT_LE(kept.over(kLong), ClockKeeper::kLead);
+  car.tell(SIGSTOP);
+  EXPECT_TRUE(kept.goes_on(kLong));
+  EXPECT_EQ(kept.slot().process.load(), car.process()) << "its place is kept";
+}
+
 TEST(ClockKeeper, TimeGoesOnForOneThatIsStoppedAndWaitsForItAgainLater) {
   Kept kept;
   kept.keeper.begin();
