@@ -4,7 +4,7 @@
 #include <cmath>
 #include <string>
 
-#include "hil/bench/sensor_faults.hpp"
+#include "hil/faults/sensor_faults.hpp"
 #include "hil/faults/signal_change.hpp"
 #include "protocol/can/av21.hpp"
 

@@ -109,14 +109,11 @@ Result<std::vector<LoadedStack>, Problem> stacks_of(const scenario::Scenario& ru
 
 }  // namespace
 
-Result<Loaded, Problem> load(const std::string& scenario_file, const std::string& folder,
-                             BenchMode mode) {
+Result<Loaded, Problem> load(const std::string& scenario_file, const std::string& folder) {
   const auto text = transport::read_file(scenario_file);
   if (!text) return Unexpected{text.error()};
   auto scenario = scenario::read_scenario(*text, scenario_file);
   if (!scenario) return Unexpected{scenario.error()};
-  if (scenario->match && mode == BenchMode::kLive)
-    return refuse(scenario->match->place, "match: a live run has no judge");
   const std::string track_file = below(folder, scenario->track_file);
   const auto track_text = transport::read_file(track_file);
   if (!track_text) return Unexpected{track_text.error()};

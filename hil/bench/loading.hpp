@@ -6,7 +6,6 @@
 #include <string>
 #include <vector>
 
-#include "hil/bench/fault_plan.hpp"
 #include "hil/bench/field.hpp"
 #include "hil/scenario/scenario.hpp"
 #include "protocol/vocabulary/result.hpp"
@@ -29,9 +28,7 @@ struct Loaded {
   std::vector<LoadedStack> stacks{};
 };
 
-// Track, car and plant files are named relative to `folder` unless they are absolute. A match is
-// refused live.
-Result<Loaded, Problem> load(const std::string& scenario_file, const std::string& folder,
-                             BenchMode mode = BenchMode::kLockstep);
+// Track, car and plant files are named relative to `folder` unless they are absolute.
+Result<Loaded, Problem> load(const std::string& scenario_file, const std::string& folder);
 
 }  // namespace pitwall::bench

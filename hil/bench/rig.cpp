@@ -6,7 +6,7 @@
 #include <string>
 #include <utility>
 
-#include "hil/bench/sensor_faults.hpp"
+#include "hil/faults/sensor_faults.hpp"
 #include "hil/scenario/perturbed.hpp"
 #include "protocol/can/av21.hpp"
 

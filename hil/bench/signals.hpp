@@ -111,6 +111,7 @@ struct CarReport {
   double cause = kUnset, operator_limit_mps = kUnset;
   std::optional<world::MonitorSet> seen{};  // lockstep only
   bool silent = false;
+  bool declines = false;  // live only: the attempt that it has to make
 };
 
 // The values of Signal, then one per monitor in the order of world::Monitor; NaN: not available.

@@ -111,6 +111,7 @@ Result<bench::RunResult, Problem> followed(const RunOptions& options, const benc
 // Each expectation that the run is too short for is told and left out.
 Result<bool, Problem> cut(scenario::Scenario& scenario) {
   const Duration end = scenario.duration;
+  if (scenario.match) scenario.match->is_cut = true;
   std::erase_if(scenario.expect, [&](const scenario::Expectation& expectation) {
     if (is_shown_by(expectation, end)) return false;
     std::printf("not judged, the run is cut at %.1f s: %s: %s\n", end.seconds(),
@@ -123,7 +124,7 @@ Result<bool, Problem> cut(scenario::Scenario& scenario) {
 
 // The exit code; the files that were asked for are written.
 Result<int, Problem> run_once(const RunOptions& options) {
-  auto loaded = bench::load(options.scenario, "", options.mode());
+  auto loaded = bench::load(options.scenario, "");
   if (!loaded) return Unexpected{loaded.error()};
   if (options.duration) {
     loaded->scenario.duration = *options.duration;
@@ -148,7 +149,7 @@ Result<int, Problem> run_once(const RunOptions& options) {
 
 // As many runs as fill the hours; the exit code of the first that failed.
 Result<int, Problem> run_hours(RunOptions options) {
-  const auto loaded = bench::load(options.scenario, "", options.mode());
+  const auto loaded = bench::load(options.scenario, "");
   if (!loaded) return Unexpected{loaded.error()};
   const double each_s = options.duration.value_or(loaded->scenario.duration).seconds();
   const std::uint64_t first = options.seed.value_or(loaded->scenario.seed);
@@ -179,8 +180,10 @@ int run_scenario(const RunOptions& options) {
   return write_report(report_files(options.report_folder), std::nullopt);
 }
 
-Result<std::vector<std::string>, Problem> exec_arguments(const RunOptions& options) {
+Result<std::vector<std::string>, Problem> exec_arguments(const RunOptions& options,
+                                                         std::span<const std::string> other_buses) {
   std::vector<std::string> words{"exec", "--auto", "--interface", options.interface};
+  for (const std::string& bus : other_buses) words.insert(words.end(), {"--interface", bus});
   if (is_clock_file(options.clock)) words.insert(words.end(), {"--clock", options.clock});
   RunOptions inside = options;
   inside.clock = on_host(options.clock);
@@ -210,7 +213,7 @@ int run_where_the_bus_is(const RunOptions& options) {
   if (!options.live || options.here) return run_scenario(options);
 
   // Bad input is told before a machine is booted for it.
-  const auto loaded = bench::load(options.scenario, "", options.mode());
+  const auto loaded = bench::load(options.scenario, "");
   if (!loaded) return report_failure(options, loaded.error());
   const auto plans = plans_of(options, *loaded);
   if (!plans) return report_failure(options, plans.error());
@@ -224,7 +227,10 @@ int run_where_the_bus_is(const RunOptions& options) {
     }
     return run_scenario(options);
   }
-  const auto exec = exec_arguments(options);
+  std::vector<std::string> other_buses;
+  for (const bench::LivePlan& plan : std::span{*plans}.subspan(1))
+    other_buses.push_back(plan.interface);
+  const auto exec = exec_arguments(options, other_buses);
   if (!exec) return refuse(exec.error());
   const int code = can_bus::bus_verb(*exec);
   if (!options.report_folder.empty() && !fs::exists(report_files(options.report_folder).html))
@@ -233,6 +239,20 @@ int run_where_the_bus_is(const RunOptions& options) {
 }
 
 }  // namespace
+
+int run_as_told(RunOptions options) {
+  if (!options.report_folder.empty()) {
+    if (const auto problem = prepare_report(options.report_folder)) return refuse(*problem);
+    options.log_file = report_files(options.report_folder).log;
+    options.json_file = report_files(options.report_folder).result;
+  }
+  if (options.candump && transport::is_unix_bus(options.interface)) {
+    std::fprintf(stderr, "%s: candump hears SocketCAN only: not recorded (--log has the frames)\n",
+                 options.interface.c_str());
+    options.candump = false;
+  }
+  return run_where_the_bus_is(options);
+}
 
 int run_verb(std::span<const std::string> args) {
   RunOptions options;
@@ -250,7 +270,8 @@ int run_verb(std::span<const std::string> args) {
              "live: bench (its time stands while the machine holds a process up; the default), "
              "wall, or a FILE to keep bench time in, for a base station with the same --clock");
   app.option("--interface", options.interface,
-             "live: CAN interface, or unix:PATH; then other cars with a stack have unix:PATH.NAME");
+             "live: CAN interface, vcan1 after vcan0 for another car with a stack; or unix:PATH, "
+             "then unix:PATH.NAME");
   const VerbOption log =
       app.option("--log", options.log_file,
                  "write the event log, FILE.mcap; of another car with a stack FILE.NAME.mcap");
@@ -291,17 +312,7 @@ int run_verb(std::span<const std::string> args) {
   if (const auto code = app.ended_by(args)) return *code;
   if (duration.given()) options.duration = from_seconds(duration_s);
   if (with_seed.given()) options.seed = seed;
-  if (!options.report_folder.empty()) {
-    if (const auto problem = prepare_report(options.report_folder)) return refuse(*problem);
-    options.log_file = report_files(options.report_folder).log;
-    options.json_file = report_files(options.report_folder).result;
-  }
-  if (options.candump && transport::is_unix_bus(options.interface)) {
-    std::fprintf(stderr, "%s: candump hears SocketCAN only: not recorded (--log has the frames)\n",
-                 options.interface.c_str());
-    options.candump = false;
-  }
-  return run_where_the_bus_is(options);
+  return run_as_told(std::move(options));
 }
 
 }  // namespace pitwall::cli

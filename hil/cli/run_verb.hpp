@@ -3,7 +3,7 @@
 //   --live            real SocketCAN and the real car process; if this kernel has no CAN, inside a
 //                     User-mode Linux guest that is booted for it
 //   --interface unix:PATH  live without either: a bus over a Unix socket; starts a missing hub.
-//                     Needed for several cars with a stack: a bus each (live/car_plans.hpp)
+//                     Several cars with a stack have a bus each (live/car_plans.hpp)
 //   --attach          live: the car is already running; the bench adds the rest of its world
 //   --log FILE        event log (MCAP)       --json FILE   result for programs
 //   --hours H         lockstep: repeated with the next seed each time, until H hours have been
@@ -27,13 +27,16 @@
 namespace pitwall::cli {
 
 int run_scenario(const RunOptions& options);
+// As the verb runs these options: where the bus is, in a guest or here, with files for the report.
+int run_as_told(RunOptions options);
 int run_verb(std::span<const std::string> args);
 
 // The command that runs a scenario live on an existing interface.
 std::vector<std::string> live_command(const RunOptions& options);
 // The arguments of `pitwall-hil bus` that run this command in a guest, or here if the kernel has
 // CAN. The radio ports stay those of this machine, so that a base on it can communicate with the
-// car.
-Result<std::vector<std::string>, Problem> exec_arguments(const RunOptions& options);
+// car. `other_buses`: of other cars with a stack.
+Result<std::vector<std::string>, Problem> exec_arguments(
+    const RunOptions& options, std::span<const std::string> other_buses = {});
 
 }  // namespace pitwall::cli

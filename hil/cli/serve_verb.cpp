@@ -18,7 +18,7 @@ constexpr Duration kLongest = seconds(1);
 
 // Of live runs: where their radio, their bus and their time are.
 struct LiveOptions {
-  std::string interface = "vcan0", keys, clock;
+  std::string interface = "vcan0", keys, clock, sensors;
   std::uint16_t radio_port = 0, uplink_port = 0;
 };
 
@@ -40,6 +40,7 @@ std::vector<std::string> run_command(const LiveOptions& words, const bench_serve
   command.insert(command.end(), live.begin(), live.end());
   if (!words.keys.empty()) command.insert(command.end(), {"--keys", words.keys});
   if (!words.clock.empty()) command.insert(command.end(), {"--clock", words.clock});
+  if (!words.sensors.empty()) command.insert(command.end(), {"--sensors", words.sensors});
   return command;
 }
 
@@ -60,6 +61,7 @@ int serve_verb(std::span<const std::string> args) {
   app.option("--keys", words.keys, "live runs: folder of car.keys and base.keys");
   app.option("--clock", words.clock,
              "live runs: FILE to keep bench time in, for a base station with the same --clock");
+  app.option("--sensors", words.sensors, "live runs: sensor file of the car; a match needs one");
   if (const auto code = app.ended_by(args)) return *code;
   plan.command = [words](const bench_server::Start& start, const std::string& report,
                          const std::string& progress) {

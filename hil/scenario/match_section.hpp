@@ -36,8 +36,9 @@ struct MatchPlan {
   std::vector<traffic::Manner> attempts;
   std::vector<traffic::Defence> defends;
   std::vector<rules::Ending> expect;
-  std::string result;  // "own", "draw", "open" or the name of the rival; empty: not expected
-  std::string place;   // for messages
+  std::string result;   // "own", "draw", "open" or the name of the rival; empty: not expected
+  std::string place;    // for messages
+  bool is_cut = false;  // the run is shorter: only attempts that were made are judged
 };
 
 // A ghost of the match gets its lanes.

@@ -2,10 +2,24 @@
 #include "hil/bench/live/car_monitor.hpp"
 
 #include <span>
+#include <string_view>
+
+#include "protocol/telemetry/registry/labels.hpp"
 
 namespace pitwall::bench {
 
 using transport::UdpSocket;
+
+namespace {
+
+constexpr std::size_t reason_of(std::string_view label) {
+  std::size_t i = 0;
+  while (telemetry::label_at(telemetry::kSpeedReasons, i) != label) ++i;
+  return i;
+}
+constexpr auto kDeclined = static_cast<double>(reason_of("declined: fuel"));
+
+}  // namespace
 
 Result<CarMonitor, Problem> CarMonitor::open(std::uint16_t port) {
   auto socket = UdpSocket::bind({.ip = kLoopbackIp, .port = port});
@@ -42,7 +56,8 @@ void CarMonitor::take(const telemetry::Values& v) {
              .identity = v[field("bus.identity")],
              .differing_id = v[field("bus.differing_id")],
              .cause = v[field("mode.first_stop_cause")],
-             .operator_limit_mps = v[field("planner.operator_limit")]};
+             .operator_limit_mps = v[field("planner.operator_limit")],
+             .declines = v[field("planner.reason")] == kDeclined};
 }
 
 }  // namespace pitwall::bench

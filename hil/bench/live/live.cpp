@@ -3,11 +3,13 @@
 
 #include <algorithm>
 #include <memory>
+#include <optional>
 #include <utility>
 #include <vector>
 
 #include "hil/bench/live/live_car.hpp"
 #include "hil/bench/live/wake_clock.hpp"
+#include "hil/bench/match_run.hpp"
 #include "protocol/transport/clock.hpp"
 #include "protocol/transport/realtime.hpp"
 #include "protocol/vocabulary/check.hpp"
@@ -30,8 +32,12 @@ class Live {
        std::optional<BenchTime> time)
       : cars_(std::move(cars)),
         field_(runners, ghosts),
+        tick_(runners.front().setup.params.rates.tick),
         duration_(runners.front().scenario.duration),
-        clock_(kWake, duration_, std::move(time)) {}
+        clock_(kWake, duration_, std::move(time)) {
+    const Runner& own = runners.front();
+    if (own.scenario.match) match_.emplace(*own.scenario.match, field_, own.setup.track);
+  }
 
   Result<std::vector<LiveResult>, Problem> run() {
     for (const auto& car : cars_)
@@ -47,12 +53,13 @@ class Live {
       step_field(field_, cars_, now);
       for (const auto& car : cars_) {
         if (auto problem = car->act(now)) return Unexpected{*problem};
-        if ((now - Instant{}).ns % kCarry.ns == 0) car->serve_radio(now);
+        if (is_due(now, kCarry)) car->serve_radio(now);
       }
-      if ((now - Instant{}).ns % kPollPeriod.ns != 0) continue;
+      if (match_ && is_due(now, tick_)) step_match(*match_, field_, cars_, now);
+      if (!is_due(now, kPollPeriod)) continue;
       for (const auto& car : cars_)
         if (auto problem = car->look(now)) return Unexpected{*problem};
-      if (!is_over()) continue;
+      if (!is_over(now)) continue;
       for (const auto& car : cars_) car->end(now);
       break;
     }
@@ -61,8 +68,10 @@ class Live {
   }
 
  private:
-  bool is_over() const {
-    return !field_.contacts().empty() ||
+  static bool is_due(Instant now, Duration period) { return (now - Instant{}).ns % period.ns == 0; }
+
+  bool is_over(Instant now) const {
+    return !field_.contacts().empty() || (match_ && match_->is_over(now)) ||
            std::ranges::any_of(cars_, [](const auto& car) { return car->is_over(); });
   }
 
@@ -84,6 +93,7 @@ class Live {
     std::vector<LiveResult> results;
     for (std::size_t i = 0; i < cars_.size(); ++i) {
       cars_[i]->note_others(field_.size() - 1, field_.contact_of(i));
+      if (match_ && i == 0) cars_[i]->note_match(match_->sheet());
       results.push_back(cars_[i]->finish(time, wall_s));
     }
     return results;
@@ -91,6 +101,8 @@ class Live {
 
   Cars cars_;
   Field field_;
+  std::optional<MatchRun> match_;
+  Duration tick_;
   Duration duration_;
   WakeClock clock_;
 };

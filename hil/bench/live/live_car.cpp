@@ -10,13 +10,14 @@
 #include "basestation/inputs/text_command.hpp"
 #include "hil/bench/contact.hpp"
 #include "hil/bench/live/car_summary.hpp"
+#include "hil/bench/match_run.hpp"
 #include "hil/bench/signals.hpp"
 #include "protocol/transport/clock.hpp"
 
 namespace pitwall::bench {
 namespace {
 
-constexpr Duration kStartLimit = seconds(15);
+constexpr Duration kStartLimit = seconds(60);  // a guest is slow
 constexpr std::size_t kReadBatch = 256;
 
 Result<std::optional<DetectionPublisher>, Problem> open_detections(const LivePlan& plan,
@@ -233,6 +234,10 @@ void LiveCar::note_others(std::size_t cars, const std::optional<CarContact>& con
   if (record_ && contact) record_->contact(*contact);
 }
 
+void LiveCar::note_attempt(Instant now, const std::string& sentence) {
+  if (record_) record_->event(now, "attempt", sentence);
+}
+
 void LiveCar::settle() {
   read_bus();
   received_.clear();
@@ -281,6 +286,7 @@ void LiveCar::fill() {
   result_.simulated_s = length_.seconds();
   result_.verdicts = parts_.grader.finish();
   judge_contact(scenario_, result_);
+  if (result_.match) judge_match(*scenario_.match, result_);
   result_.laps = parts_.rig.laps();
   result_.traffic.from_car = result_.traffic.bench_received;
   result_.traffic.lost = lost_here();

@@ -12,6 +12,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "hil/bench/live/car_monitor.hpp"
@@ -61,6 +62,11 @@ class LiveCar {
   void show_others(Field& field, std::size_t own, Instant at);
   void note_others(std::size_t cars, const std::optional<CarContact>& contact);
   const Rig& rig() const { return parts_.rig; }
+  // For a match, as a car of the lockstep bench has them.
+  bool declines() const { return parts_.monitor.report().declines; }
+  void call_race_control(const race::Call& call) { parts_.rig.call_race_control(call); }
+  void note_attempt(Instant now, const std::string& sentence);
+  void note_match(const race::MatchSheet& sheet) { result_.match = sheet; }
 
  private:
   // Everything that a run is made of, opened before anything is started.

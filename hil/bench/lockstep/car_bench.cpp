@@ -7,7 +7,7 @@
 
 #include "basestation/inputs/text_command.hpp"
 #include "hil/bench/contact.hpp"
-#include "hil/bench/lockstep/match_run.hpp"
+#include "hil/bench/match_run.hpp"
 #include "hil/bench/signals.hpp"
 #include "protocol/telemetry/registry/labels.hpp"
 

@@ -9,9 +9,8 @@
 
 #include "hil/bench/field.hpp"
 #include "hil/bench/lockstep/car_bench.hpp"
-#include "hil/bench/lockstep/match_run.hpp"
+#include "hil/bench/match_run.hpp"
 #include "protocol/vocabulary/check.hpp"
-#include "protocol/vocabulary/fixed_vector.hpp"
 
 namespace pitwall::bench {
 namespace {
@@ -34,17 +33,6 @@ bool is_over(const Cars& cars, Instant now) {
   bool over = false;
   for (const auto& car : cars) over = car->is_over(now) || over;
   return over;
-}
-
-// The judge sees the field at the end of a tick; what it calls is sent from the next step on.
-void step_match(MatchRun& match, Field& field, const Cars& cars, Instant at) {
-  FixedVector<bool, kFieldMax> declines;
-  for (const auto& car : cars) CHECK(declines.push(car->declines()));
-  match.step(field, declines.span(), at);
-  for (std::size_t i = 0; i < cars.size(); ++i)
-    if (const auto call = match.call_for(i, at)) cars[i]->call_race_control(*call);
-  if (const auto sentence = match.ended_attempt())
-    for (const auto& car : cars) car->note_attempt(at, *sentence);
 }
 
 }  // namespace

@@ -1,61 +1,37 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hil/cli/demo/demo_cars.hpp"
 
-#include <array>
 #include <filesystem>
 
 #include "hil/bench/live/live_plan.hpp"
 #include "hil/bench/live/station_cars.hpp"
+#include "hil/cli/live/car_plans.hpp"
 
 namespace pitwall::cli {
-namespace {
 
-constexpr std::uint16_t kBasePort = 23'431, kUplinkPort = 23'531, kGuestUplinkPort = 23'532;
-constexpr std::uint16_t kRadioPort = 23'429;
-constexpr int kFirstNumber = 7;
-constexpr std::array<const char*, kDemoCarsMax> kNames{"Alpha", "Bravo", "Charlie", "Delta"};
+namespace fs = std::filesystem;
 
-constexpr unsigned kCoresForEach = 2;
-
-}  // namespace
-
-DemoBus bus_for(int cars, unsigned cores) {
-  const bool enough = cores >= kCoresForEach * static_cast<unsigned>(cars);
-  return cars == 1 || enough ? DemoBus::kVcan : DemoBus::kSocket;
-}
-
-std::string DemoCar::interface() const {
-  return bus == DemoBus::kVcan ? "vcan" + std::to_string(bay) : "unix:" + folder + "/bus";
-}
-
-std::string DemoCar::line_ports() const {
-  return std::to_string(uplink_port) + ":" + std::to_string(base_port) + ":" +
-         std::to_string(radio_port) + ":" + std::to_string(guest_uplink_port);
-}
-
-std::vector<DemoCar> demo_cars(int count, const std::string& folder, DemoBus bus) {
-  std::vector<DemoCar> cars;
-  for (int bay = 0; bay < count; ++bay) {
-    const auto own = [bay](std::uint16_t port) {
-      return static_cast<std::uint16_t>(port + bay * bench::kBayPorts);
-    };
-    const int number = kFirstNumber + bay;
-    cars.push_back({.number = number,
-                    .name = kNames.at(static_cast<std::size_t>(bay)),
-                    .bay = bay,
-                    .folder = count == 1 ? folder : folder + "/car_" + std::to_string(number),
-                    .bus = bus,
-                    .base_port = own(kBasePort),
-                    .uplink_port = own(kUplinkPort),
-                    .guest_uplink_port = own(kGuestUplinkPort),
-                    .radio_port = own(kRadioPort)});
-  }
+std::vector<DemoCar> demo_cars(const bench::Loaded& scenario, const std::string& folder) {
+  std::vector<DemoCar> cars{{.number = kOurNumber,
+                             .name = scenario::kOwnCar,
+                             .folder = folder,
+                             .keys = folder + "/keys",
+                             .own_recording = folder + "/car_recording",
+                             .base_port = kDemoBasePort}};
+  const DemoCar own = cars.front();
+  for (const bench::LoadedStack& other : scenario.stacks)
+    cars.push_back({.number = other.number,
+                    .name = other.name,
+                    .folder = folder + "/" + other.name,
+                    .keys = file_of(other.name, own.keys),
+                    .own_recording = file_of(other.name, own.own_recording),
+                    .base_port = static_cast<std::uint16_t>(
+                        kDemoBasePort + static_cast<int>(cars.size()) * bench::kBayPorts)});
   return cars;
 }
 
 Result<bool, Problem> set_recordings_aside(const DemoCar& car) {
-  namespace fs = std::filesystem;
-  for (const std::string& recording : {car.base_recording(), car.own_recording()}) {
+  for (const std::string& recording : {car.base_recording(), car.own_recording}) {
     const std::string before = recording + "_before";
     std::error_code error;
     if (!fs::exists(recording, error)) continue;
@@ -68,15 +44,18 @@ Result<bool, Problem> set_recordings_aside(const DemoCar& car) {
 
 std::string cars_text(std::span<const DemoCar> cars) {
   std::vector<bench::StationCar> rows;
+  const fs::path here = cars.front().folder;
   for (const DemoCar& car : cars) {
-    const std::string place = "car_" + std::to_string(car.number);
+    const auto place = [&](const std::string& file) {
+      return fs::path{file}.lexically_relative(here).string();
+    };
     rows.push_back({.number = car.number,
                     .name = car.name,
-                    .keys = place + "/keys/base.keys",
-                    .json = place + "/base.json",
+                    .keys = place(car.keys + "/base.keys"),
+                    .json = place(car.folder + "/base.json"),
                     .listen = {"127.0.0.1:" + std::to_string(car.base_port)},
-                    .record = place + "/recording",
-                    .judgement = place + "/judgement.yaml"});
+                    .record = place(car.base_recording()),
+                    .judgement = place(car.folder + "/judgement.yaml")});
   }
   return bench::cars_text(rows);
 }

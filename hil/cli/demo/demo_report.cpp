@@ -41,59 +41,67 @@ Result<BaseFigures, Problem> read_base(const std::string& path) {
   }
 }
 
-Result<CarReport, Problem> read_report(const DemoCar& car, int run_code) {
-  auto run = transport::read_file(car.folder + "/run.json");
+Result<DemoReport, Problem> read_report(std::span<const DemoCar> cars) {
+  const std::string& folder = cars.front().folder;
+  auto run = transport::read_file(folder + "/run.json");
   if (!run) return Unexpected{run.error()};
-  auto base_text = transport::read_file(car.folder + "/base.json");
-  if (!base_text) return Unexpected{base_text.error()};
-  const auto base = read_base(car.folder + "/base.json");
-  if (!base) return Unexpected{base.error()};
-  return CarReport{.car = car,
-                   .run_code = run_code,
-                   .run_json = *std::move(run),
-                   .base_json = *std::move(base_text),
-                   .base = *base,
-                   .dumped = lines_of(car.folder + "/candump.log")};
-}
-
-std::string to_text(const CarReport& report) {
-  const BaseFigures& base = report.base;
-  std::string text = formatted(
-      "base station: %lld packets, %.1f Hz, %lld lost, %lld refused; age of the newest value "
-      "p50 %.1f ms, p99 %.1f ms\n",
-      static_cast<long long>(base.packets), base.rate_hz, static_cast<long long>(base.lost),
-      static_cast<long long>(base.refused), base.age_p50_ms, base.age_p99_ms);
-  if (report.car.bus == DemoBus::kVcan) {
-    text += "candump recorded " + std::to_string(report.dumped) + " frames: " + report.car.folder +
-            "/candump.log\n";
+  DemoReport report{
+      .run_json = *std::move(run), .stations = {}, .dumped = lines_of(folder + "/candump.log")};
+  for (const DemoCar& car : cars) {
+    auto text = transport::read_file(car.folder + "/base.json");
+    if (!text) return Unexpected{text.error()};
+    const auto base = read_base(car.folder + "/base.json");
+    if (!base) return Unexpected{base.error()};
+    report.stations.push_back({car, *std::move(text), *base});
   }
-  return text + "event log: " + report.car.folder + "/events.mcap\n" +
-         "the car's own recording: " + report.car.own_recording() + "\n";
+  return report;
 }
 
-std::string to_json(const CarReport& report) {
-  return json::Object{}
-      .json("run", report.run_json)
-      .json("base", report.base_json)
-      .number("candump_frames", report.dumped)
-      .str();
-}
-
-bool are_apart(std::span<const CarReport> reports) {
-  return std::ranges::all_of(reports, [](const CarReport& report) {
-    return report.base.packets > 0 && report.base.refused == 0;
+bool DemoReport::are_heard() const {
+  return std::ranges::all_of(stations, [](const StationReport& station) {
+    return station.base.packets > 0 && station.base.refused == 0;
   });
 }
 
-std::string apart_text(std::span<const CarReport> reports) {
-  std::string text = are_apart(reports) ? "apart:" : "NOT apart:";
-  for (const CarReport& report : reports) {
-    text += " car " + std::to_string(report.car.number) + " " +
-            std::to_string(report.base.packets) + " packets under its own keys, " +
-            std::to_string(report.base.refused) + " refused;";
+std::string to_text(const DemoReport& report) {
+  std::string text;
+  for (const StationReport& station : report.stations) {
+    const BaseFigures& base = station.base;
+    text += formatted(
+        "base station, car %d %s: %lld packets, %.1f Hz, %lld lost, %lld refused; age of the "
+        "newest value p50 %.1f ms, p99 %.1f ms\n",
+        station.car.number, station.car.name.c_str(), static_cast<long long>(base.packets),
+        base.rate_hz, static_cast<long long>(base.lost), static_cast<long long>(base.refused),
+        base.age_p50_ms, base.age_p99_ms);
   }
-  text.back() = '\n';
+  if (report.dumped > 0)
+    text += "candump recorded " + std::to_string(report.dumped) +
+            " frames: " + report.stations.front().car.folder + "/candump.log\n";
   return text;
+}
+
+std::string to_json(const DemoReport& report) {
+  json::Array others;
+  for (const StationReport& station : std::span{report.stations}.subspan(1))
+    others.json(
+        json::Object{}.text("name", station.car.name).json("base", station.base_json).str());
+  return json::Object{}
+      .json("run", report.run_json)
+      .json("base", report.stations.front().base_json)
+      .number("candump_frames", report.dumped)
+      .json("others", others.str())
+      .str();
+}
+
+std::string next_steps(const DemoReport& report, const std::string& scenario) {
+  const DemoCar& own = report.stations.front().car;
+  std::string text = "next:\n  the page of the run        " + own.folder +
+                     "/report.html\n  the event log              " + own.folder +
+                     "/events.mcap (Foxglove opens it)\n"
+                     "  the console, once more     ./pitwall console --replay " +
+                     own.base_recording() + " --web 8080\n";
+  if (report.stations.size() == 1) text += "  a second full stack        ./pitwall demo --cars 2\n";
+  return text + "  the same in virtual time   pitwall-hil run " + scenario + "\n";
 }
 
 }  // namespace pitwall::cli

@@ -1,7 +1,6 @@
-// Report of a demo, car by car: verdicts of the bench, packets that the base received, frames that
-// candump recorded.
-//   in     the folder of a car as its run left it, the exit code of its run
-//   out    text lines; JSON for programs; whether all passed
+// Report of a demo: what the run left, and for each car the packets that the base received.
+//   in     the cars of the demo, after their run and their base
+//   out    text lines; JSON for programs; whether the base heard every car under its own keys
 //   errors Problem with the file that is missing or invalid
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
@@ -10,6 +9,7 @@
 #include <cstdint>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "hil/cli/demo/demo_cars.hpp"
 #include "protocol/vocabulary/result.hpp"
@@ -22,29 +22,28 @@ struct BaseFigures {
   double rate_hz = kUnset, age_p50_ms = kUnset, age_p99_ms = kUnset;
 };
 
-struct CarReport {
+struct StationReport {
   DemoCar car;
-  int run_code = 0;
-  std::string run_json, base_json;
+  std::string base_json;
   BaseFigures base;
-  std::size_t dumped = 0;  // frames
+};
 
-  // True if the run passed, the base received this car and, with SocketCAN, candump recorded
-  // frames.
-  bool held() const {
-    return run_code == 0 && base.packets > 0 && (dumped > 0 || car.bus == DemoBus::kSocket);
-  }
+struct DemoReport {
+  std::string run_json;
+  std::vector<StationReport> stations;  // ours first
+  std::size_t dumped = 0;               // frames that candump recorded of our bus
+
+  // True if the base received packets of every car and refused none, so that no station got those
+  // of another car.
+  bool are_heard() const;
 };
 
 Result<BaseFigures, Problem> read_base(const std::string& path);
-Result<CarReport, Problem> read_report(const DemoCar& car, int run_code);
+Result<DemoReport, Problem> read_report(std::span<const DemoCar> cars);
 
-std::string to_text(const CarReport& report);
-std::string to_json(const CarReport& report);
-
-// True if the base received packets of every car and refused none, so that no station got packets
-// of another car.
-bool are_apart(std::span<const CarReport> reports);
-std::string apart_text(std::span<const CarReport> reports);
+std::string to_text(const DemoReport& report);
+std::string to_json(const DemoReport& report);
+// What to do with what this demo left; `scenario` is its file.
+std::string next_steps(const DemoReport& report, const std::string& scenario);
 
 }  // namespace pitwall::cli

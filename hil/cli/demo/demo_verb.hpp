@@ -1,17 +1,19 @@
-// Subcommand `pitwall-hil demo`: a run of the whole system. The base station runs on this machine;
-// car and bench use real SocketCAN, in a guest if this kernel has no CAN; the radio between them
-// goes over the serial line. With several cars, each has its own guest, keys, folder and station;
-// they share the process of the base.
+// Subcommand `pitwall-hil demo`: the whole system in one run, by default a passing competition of
+// two attempts each at two round speeds. The base station runs on this machine; our car and the
+// bench use real SocketCAN, in a guest if this kernel has no CAN, and the radio between them goes
+// over the serial line. Several cars with a full stack are on this machine, each on a Unix-socket
+// bus of its own.
 //
 //   --headless        the base station writes its screen to a file instead of this terminal
-//   --cars N          number of cars at one base, each with a bench of its own (default 1)
+//   --cars N          cars with a full stack: 1 (the rival is a ghost; the default) or 2
+//   --scenario FILE   another scenario
 //   --web PORT        TCP port of the console (default 8080)
-//   --duration S      seconds of scenario time (default 180)
+//   --duration S      seconds of scenario time; what is judged later is left out
 //   --json FILE       the printed results as JSON
-//   --out FOLDER      event log, candump, summaries (default out/demo); with several cars a
-//                     subfolder for each
-//   out    exit code 0: every expectation passed and no frame was lost; 1: otherwise; 2: it could
-//          not run
+//   --out FOLDER      report, event log, candump, recordings (default out/demo); what belongs to
+//                     another car is named after it
+//   out    exit code that of the run; 1 too where the base did not hear a car under its own keys;
+//          2: it could not run
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

@@ -2,6 +2,7 @@
 #include "hil/cli/live/car_plans.hpp"
 
 #include <algorithm>
+#include <charconv>
 #include <filesystem>
 #include <initializer_list>
 #include <optional>
@@ -57,17 +58,39 @@ Result<bench::LivePlan, Problem> plan_of(const RunOptions& options,
   return bench::in_bay(std::move(plan), bay);
 }
 
+// Of the car with a stack `place` places after ours: "vcan0" becomes "vcan1", a Unix bus is named
+// after the car. None where there is no number to count on from.
+std::optional<std::string> bus_of(const std::string& car, std::size_t place,
+                                  const std::string& ours) {
+  if (transport::is_unix_bus(ours)) return file_of(car, ours);
+  const std::size_t name = ours.find_last_not_of("0123456789") + 1;
+  std::size_t number = 0;
+  const auto read = std::from_chars(ours.data() + name, ours.data() + ours.size(), number);
+  if (read.ec != std::errc{}) return std::nullopt;
+  return ours.substr(0, name) + std::to_string(number + place);
+}
+
+// Of each other the cars know what their sensors tell them.
+std::optional<Problem> refused_for_match(const RunOptions& options,
+                                         const scenario::Scenario& scenario) {
+  if (!scenario.match || options.attach || !options.sensors_file.empty()) return std::nullopt;
+  return Problem{"--sensors",
+                 "missing: in a live match the cars see each other by the topics of a "
+                 "sensor file only, as vehicle/config/sensors/av21.yaml"};
+}
+
 std::optional<Problem> refused_for_several(const RunOptions& options, std::size_t cars) {
-  if (!transport::is_unix_bus(options.interface))
+  if (!bus_of("other", 1, options.interface))
     return Problem{"--interface", "\"" + options.interface + "\" is one bus for " +
                                       std::to_string(cars) +
-                                      " cars with a stack: expected unix:PATH, of which each gets "
-                                      "its own"};
+                                      " cars with a stack: expected a number at its end, or "
+                                      "unix:PATH, from which each gets its own"};
+  if (options.radio_port != 0 && !transport::is_unix_bus(options.interface))
+    return Problem{"--radio-port",
+                   "several cars on SocketCAN have a base station of the bench, beside them"};
   if (options.attach) return Problem{"--attach", "allowed with one car with a stack only"};
-  if (options.radio_port != 0)
-    return Problem{"--radio-port", "several cars with a stack have a base station of the bench"};
-  if (!options.keys.empty())
-    return Problem{"--keys", "several cars with a stack have new keys in each run"};
+  if (options.radio_port != 0 && options.keys.empty())
+    return Problem{"--radio-port", "several cars at a base station need --keys, which it has too"};
   const int most = bench::kBaysMax - options.bay;
   if (cars > static_cast<std::size_t>(most))
     return Problem{"cars", std::to_string(cars) + " with a stack, ours included; live at most " +
@@ -75,10 +98,15 @@ std::optional<Problem> refused_for_several(const RunOptions& options, std::size_
   return std::nullopt;
 }
 
-RunOptions options_of(const std::string& car, RunOptions options) {
-  options.interface = file_of(car, options.interface);
+RunOptions options_of(const std::string& car, int bay, RunOptions options) {
+  const auto place = static_cast<std::size_t>(bay - options.bay);
+  options.interface = bus_of(car, place, options.interface).value();
   options.folder += "/" + car;
   options.record_folder = file_of(car, options.record_folder);
+  options.keys = file_of(car, options.keys);
+  if (options.radio_port != 0)
+    options.radio_port += static_cast<std::uint16_t>((bay - options.bay) * bench::kBayPorts);
+  options.uplink_port = 0;
   return options;
 }
 
@@ -94,19 +122,24 @@ std::string file_of(const std::string& car, const std::string& file) {
 
 Result<std::vector<bench::LivePlan>, Problem> plans_of(const RunOptions& options,
                                                        const bench::Loaded& loaded) {
+  if (auto problem = refused_for_match(options, loaded.scenario))
+    return Unexpected{*std::move(problem)};
   auto own = plan_of(options, loaded.scenario, options.bay);
   if (!own) return Unexpected{own.error()};
   std::vector<bench::LivePlan> plans{*std::move(own)};
   if (loaded.stacks.empty()) return plans;
   if (auto problem = refused_for_several(options, 1 + loaded.stacks.size()))
     return Unexpected{*std::move(problem)};
-  plans[0].base = {beside("basestation/pitwall-base")};
-  plans[0].cars_file = options.folder + "/cars.yaml";
+  const bool brings_base = options.radio_port == 0;
+  if (brings_base) {
+    plans[0].base = {beside("basestation/pitwall-base")};
+    plans[0].cars_file = options.folder + "/cars.yaml";
+  }
   for (const bench::LoadedStack& other : loaded.stacks) {
     const int bay = options.bay + static_cast<int>(plans.size());
-    auto plan = plan_of(options_of(other.name, options), other.scenario, bay);
+    auto plan = plan_of(options_of(other.name, bay, options), other.scenario, bay);
     if (!plan) return Unexpected{plan.error()};
-    plan->radio[0].onward = plan->base_port;
+    if (brings_base) plan->radio[0].onward = plan->base_port;
     plans.push_back(*std::move(plan));
   }
   return plans;

@@ -4,7 +4,8 @@
 //   invariants
 //          cars share no port, shared memory, bus or file. What another car writes is named after
 //          it, file_of(), or is in the folder of its name below that of the run. Several cars have
-//          one base station, which the plan of the first one starts
+//          one base station: the plan of the first one starts it, or it is there at --radio-port,
+//          and hears each next car kBayPorts further on, with the keys of file_of(--keys)
 //   errors Problem: several cars that have no bus each, or more than this machine has bays for;
 //          options that are of one car only
 // SPDX-License-Identifier: Apache-2.0
@@ -19,6 +20,8 @@
 #include "protocol/vocabulary/result.hpp"
 
 namespace pitwall::cli {
+
+inline constexpr int kOurNumber = 1;  // as in the scenario file
 
 // "out/events.mcap" becomes "out/events.rival.mcap" for the car "rival"; empty stays empty.
 std::string file_of(const std::string& car, const std::string& file);

@@ -22,8 +22,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kOurNumber = 1;  // as in the scenario file
-
 // Folder and keys of one car. Returns the keys as long as they are needed.
 Result<std::optional<bench::RunKeys>, Problem> prepare(bench::LivePlan& plan,
                                                        const std::string& given_keys) {
@@ -109,7 +107,7 @@ Result<bench::RunResult, Problem> run_live(const RunOptions& options, const benc
   if (!plans) return Unexpected{plans.error()};
   std::vector<std::optional<bench::RunKeys>> keys;  // as long as the run
   for (bench::LivePlan& plan : *plans) {
-    auto made = prepare(plan, options.keys);
+    auto made = prepare(plan, options.keys.empty() ? "" : plan.keys);
     if (!made) return Unexpected{made.error()};
     keys.push_back(*std::move(made));
   }

@@ -6,7 +6,6 @@
 #include <optional>
 #include <string>
 
-#include "hil/bench/fault_plan.hpp"
 #include "protocol/vocabulary/time.hpp"
 
 namespace pitwall::cli {
@@ -30,10 +29,6 @@ struct RunOptions {
   std::uint16_t uplink_port = 0;  // live: port for datagrams of the base; 0: any port
   std::string clock;              // live: see clock_place.hpp
   std::string keys;               // live: folder of the keys of the run; empty: new ones
-
-  bench::BenchMode mode() const {
-    return live ? bench::BenchMode::kLive : bench::BenchMode::kLockstep;
-  }
 };
 
 }  // namespace pitwall::cli

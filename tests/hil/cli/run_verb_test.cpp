@@ -55,9 +55,9 @@ TEST_F(RunVerb, ABadScenarioIsToldWithItsPlaceAndNothingIsStarted) {
   expect_refusal({"run", path("none.yaml"), "--live"}, path("none.yaml"));
 }
 
-TEST_F(RunVerb, ALiveRunOfAMatchIsRefusedBeforeAnythingIsStarted) {
+TEST_F(RunVerb, ALiveMatchOfCarsThatCannotSeeIsRefusedBeforeAnythingIsStarted) {
   const std::string match = "hil/scenarios/matches/match_early.yaml";
-  expect_refusal({"run", match, "--live", "--out", path("live")}, "match: a live run has no judge");
+  expect_refusal({"run", match, "--live", "--out", path("live")}, "--sensors: error: missing");
   EXPECT_FALSE(exists("live"));
 }
 
@@ -172,7 +172,7 @@ TEST_F(RunVerb, SeedAndDurationAreThoseOfTheLine) {
 
 TEST_F(RunVerb, SeveralStacksNeedABusEachAndLeaveALogEach) {
   const std::string two = "hil/scenarios/two_stacks.yaml";
-  expect_refusal({"run", two, "--live"}, "--interface");
+  expect_refusal({"run", two, "--live", "--interface", "can"}, "--interface");
   const ProgramOutput output = run(
       {"run", two, "--duration", "5", "--cut", "--log", path("l.mcap"), "--json", path("r.json")});
   EXPECT_EQ(output.code, 0) << output.out << output.err;

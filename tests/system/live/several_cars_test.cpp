@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "protocol/json/json_value.hpp"
 #include "protocol/transport/file.hpp"
 #include "protocol/transport/process.hpp"
 #include "protocol/yaml/strict_map.hpp"
@@ -94,6 +95,18 @@ class SeveralCars : public testing::Test {
     return cars;
   }
 
+  // Of the match of a run, as they ended.
+  std::vector<std::string> attempts_of(const std::string& file) {
+    const auto result = json::JsonValue::parse(transport::read_file(path(file)).value_or(""), file);
+    EXPECT_TRUE(result) << (result ? "" : to_string(result.error()));
+    std::vector<std::string> out;
+    const json::JsonValue* const match = result ? result->find("match") : nullptr;
+    if (match == nullptr) return out;
+    for (const json::JsonValue& attempt : match->items("attempts"))
+      out.push_back(attempt.text("attacker") + " " + attempt.text("ending"));
+    return out;
+  }
+
   static void expect_whole(const Car& car, int seconds) {
     EXPECT_EQ(car.lost, 0);
     EXPECT_EQ(car.bus_losses, 0);
@@ -116,16 +129,18 @@ class SeveralCars : public testing::Test {
   transport::TemporaryFolder folder_ = *transport::TemporaryFolder::create("pitwall-cars-");
 };
 
-TEST_F(SeveralCars, TwoStacksDriveOnABusEachAtOneBaseStation) {
-  constexpr int kSeconds = 15;  // the cars are let go at 9 s
-  run_both("two_stacks", kSeconds, 2,
-           {"--interface", "unix:" + path("bus"), "--log", path("events.mcap")});
+TEST_F(SeveralCars, TwoStacksRaceOnABusEachAtOneBaseStation) {
+  constexpr int kSeconds = 52;  // the first attempt is over
+  run_both("matches/competition_two_stacks", kSeconds, 2,
+           {"--interface", "unix:" + path("bus"), "--log", path("events.mcap"), "--sensors",
+            "vehicle/config/sensors/av21.yaml"});
+  EXPECT_EQ(attempts_of("live.json"), (std::vector<std::string>{"own passed"}));
   EXPECT_GT(fs::file_size(path("events.mcap")), 100'000u);
-  EXPECT_GT(fs::file_size(path("events.compliant.mcap")), 100'000u);
-  EXPECT_FALSE(fs::exists(path("bus")) || fs::exists(path("bus.compliant"))) << "hubs are gone";
+  EXPECT_GT(fs::file_size(path("events.rival.mcap")), 100'000u);
+  EXPECT_FALSE(fs::exists(path("bus")) || fs::exists(path("bus.rival"))) << "hubs are gone";
   constexpr int kPackets = kSeconds * 50 * 9 / 10;
   expect_base_hears("out/base.json", kPackets);
-  expect_base_hears("out/compliant/base.json", kPackets);
+  expect_base_hears("out/rival/base.json", kPackets);
 }
 
 TEST_F(SeveralCars, OneDrivesAmongGhostsOnSocketCan) {

@@ -2,65 +2,63 @@
 #include "hil/cli/demo/demo_cars.hpp"
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
 #include <set>
 
+#include "hil/cli/live/car_plans.hpp"
+#include "protocol/transport/file.hpp"
 #include "protocol/yaml/strict_map.hpp"
+#include "tests/hil/cli/live/shipped_scenario.hpp"
 
 namespace pitwall::cli {
 namespace {
 
 TEST(DemoCars, OneIsWhereADemoAlwaysWas) {
-  const auto cars = demo_cars(1, "out/demo", DemoBus::kVcan);
-  ASSERT_EQ(cars.size(), 1u);
+  const auto cars = demo_cars(shipped("matches/competition"), "out/demo");
+  ASSERT_EQ(cars.size(), 1u) << "a ghost has no station";
   EXPECT_EQ(cars[0].folder, "out/demo");
-  EXPECT_EQ(cars[0].interface(), "vcan0");
-  EXPECT_EQ(cars[0].line_ports(), "23531:23431:23429:23532");
+  EXPECT_EQ(cars[0].base_recording(), "out/demo/recording");
+  EXPECT_EQ(cars[0].own_recording, "out/demo/car_recording");
+  EXPECT_EQ(cars[0].base_port, kDemoBasePort);
 }
 
-class DemoBuses : public testing::TestWithParam<DemoBus> {};
-
-TEST_P(DemoBuses, NoTwoHaveAnythingInCommon) {
+TEST(DemoCars, TwoAreWhereTheirRunPutsThemAndHaveNothingInCommon) {
+  const bench::Loaded two = shipped("matches/competition_two_stacks");
+  const auto cars = demo_cars(two, "out/demo");
+  RunOptions options;
+  options.interface = "unix:out/demo/bus";
+  options.folder = "out/demo";
+  options.keys = "out/demo/keys";
+  options.record_folder = "out/demo/car_recording";
+  options.radio_port = kDemoBasePort;
+  options.sensors_file = std::string(PITWALL_SOURCE_DIR) + "/vehicle/config/sensors/av21.yaml";
+  const auto plans = plans_of(options, two);
+  ASSERT_TRUE(plans) << to_string(plans.error());
+  ASSERT_EQ(cars.size(), 2u);
+  ASSERT_EQ(plans->size(), 2u);
   std::set<std::string> taken;
-  std::size_t claimed = 0;
-  const auto claim = [&](const std::string& what) {
-    taken.insert(what);
-    ++claimed;
-  };
-  for (const DemoCar& car : demo_cars(kDemoCarsMax, "out/demo", GetParam())) {
-    for (const int port : {car.base_port, car.uplink_port, car.guest_uplink_port, car.radio_port}) {
-      claim(std::to_string(port));
-    }
-    claim(car.folder);
-    claim(car.name);
-    claim("number " + std::to_string(car.number));
-    claim(car.interface());
+  for (std::size_t i = 0; i < cars.size(); ++i) {
+    const bench::LivePlan& plan = (*plans)[i];
+    EXPECT_EQ(plan.folder, cars[i].folder);
+    EXPECT_EQ(plan.keys, cars[i].keys);
+    EXPECT_EQ(plan.radio[0].onward, cars[i].base_port);
+    EXPECT_NE(std::ranges::find(plan.vehicle, cars[i].own_recording), plan.vehicle.end());
+    for (const std::string& own :
+         {cars[i].folder, cars[i].keys, cars[i].name, cars[i].own_recording,
+          std::to_string(cars[i].base_port), "number " + std::to_string(cars[i].number)})
+      EXPECT_TRUE(taken.insert(own).second) << own;
   }
-  EXPECT_EQ(taken.size(), claimed);
-}
-
-INSTANTIATE_TEST_SUITE_P(Both, DemoBuses, testing::Values(DemoBus::kVcan, DemoBus::kSocket));
-
-TEST(DemoCars, SeveralTakeSocketsWhereAGuestForEachWouldFallBehind) {
-  EXPECT_EQ(bus_for(1, 1), DemoBus::kVcan);
-  EXPECT_EQ(bus_for(2, 2), DemoBus::kSocket);
-  EXPECT_EQ(bus_for(2, 3), DemoBus::kSocket);
-  EXPECT_EQ(bus_for(2, 4), DemoBus::kVcan);
-  EXPECT_EQ(bus_for(2, 0), DemoBus::kSocket) << "a machine that does not tell";
-  EXPECT_EQ(demo_cars(2, "out/demo", DemoBus::kSocket)[1].interface(), "unix:out/demo/car_8/bus");
 }
 
 TEST(DemoCars, TheRecordingsOfTheDemoBeforeAreKeptAside) {
   namespace fs = std::filesystem;
-  const fs::path folder =
-      fs::temp_directory_path() / ("pitwall-demo-cars-" + std::to_string(getpid()));
-  fs::create_directory(folder);
-  const DemoCar car = demo_cars(1, folder.string(), DemoBus::kVcan).front();
+  const auto made = transport::TemporaryFolder::create("pitwall-demo-cars-");
+  ASSERT_TRUE(made);
+  const DemoCar car = demo_cars(shipped("matches/competition"), made->path()).front();
   ASSERT_TRUE(set_recordings_aside(car)) << "there was no demo yet";
-  for (const fs::path recording : {car.base_recording(), car.own_recording()}) {
+  for (const fs::path recording : {car.base_recording(), car.own_recording}) {
     const fs::path before = recording.string() + "_before";
     for (const char* const segment : {"first.mcap", "second.mcap"}) {
       fs::create_directory(recording);
@@ -71,22 +69,19 @@ TEST(DemoCars, TheRecordingsOfTheDemoBeforeAreKeptAside) {
     }
     EXPECT_FALSE(fs::exists(before / "first.mcap")) << "one demo is kept, not all";
   }
-  fs::remove_all(folder);
 }
 
 TEST(DemoCars, TheBasesFileNamesEachWithItsOwn) {
-  const auto cars = demo_cars(2, "out/demo", DemoBus::kVcan);
+  const auto cars = demo_cars(shipped("matches/competition_two_stacks"), "out/demo");
   const auto document = yaml::load_text(cars_text(cars), "cars.yaml");
   ASSERT_TRUE(document) << to_string(document.error());
   auto rows = document->root().maps("cars");
   ASSERT_EQ(rows.size(), 2u);
   for (std::size_t i = 0; i < rows.size(); ++i) {
-    const std::string place = "car_" + std::to_string(cars[i].number);
     EXPECT_EQ(rows[i].integer("number", 0, 255), cars[i].number);
-    EXPECT_EQ("out/demo/" + place, cars[i].folder);
-    for (const char* const key : {"keys", "record", "judgement", "json"}) {
-      EXPECT_EQ(rows[i].text(key).find(place + "/"), 0u) << key;
-    }
+    EXPECT_EQ("out/demo/" + rows[i].text("keys"), cars[i].keys + "/base.keys");
+    EXPECT_EQ("out/demo/" + rows[i].text("record"), cars[i].base_recording());
+    EXPECT_EQ("out/demo/" + rows[i].text("json"), cars[i].folder + "/base.json");
     EXPECT_NE(rows[i].texts("listen", 1, 2)[0].find(std::to_string(cars[i].base_port)),
               std::string::npos);
   }

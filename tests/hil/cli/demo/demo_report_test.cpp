@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <vector>
 
 #include "protocol/transport/file.hpp"
@@ -10,17 +11,23 @@
 namespace pitwall::cli {
 namespace {
 
-constexpr const char* kBase =
-    R"({"packets": 900, "lost": 2, "refused": 0, "rate_hz": 50.1, "age_ms": {"p50": 20, "p99": 45},
-        "more": [1]})";
+std::string base_of(int packets, int refused) {
+  return R"({"packets": )" + std::to_string(packets) + R"(, "lost": 2, "refused": )" +
+         std::to_string(refused) +
+         R"(, "rate_hz": 50.1, "age_ms": {"p50": 20, "p99": 45}, "more": [1]})";
+}
 
-class DemoReport : public testing::Test {
+class DemoReportTest : public testing::Test {
  protected:
   void SetUp() override {
     ASSERT_TRUE(folder_);
-    car_ = {.number = 8, .folder = folder_->path()};
+    const std::string f = folder_->path();
+    cars_ = {{.number = 1, .name = "own", .folder = f},
+             {.number = 2, .name = "rival", .folder = f + "/rival"}};
+    std::filesystem::create_directory(f + "/rival");
     leave("run.json", "{}");
-    leave("base.json", kBase);
+    leave("base.json", base_of(900, 0));
+    leave("rival/base.json", base_of(800, 0));
     leave("candump.log", "a\nb\nc\n");
   }
   void leave(const std::string& name, const std::string& text) {
@@ -28,47 +35,43 @@ class DemoReport : public testing::Test {
   }
 
   Result<transport::TemporaryFolder, Problem> folder_ = transport::TemporaryFolder::create("demo");
-  DemoCar car_;
+  std::vector<DemoCar> cars_;
 };
 
-TEST_F(DemoReport, IsWhatTheRunLeft) {
-  const auto report = read_report(car_, 0);
+TEST_F(DemoReportTest, IsWhatTheRunLeft) {
+  const auto report = read_report(cars_);
   ASSERT_TRUE(report) << to_string(report.error());
-  EXPECT_TRUE(report->held());
-  EXPECT_EQ(report->base.packets, 900);
+  EXPECT_TRUE(report->are_heard());
+  EXPECT_EQ(report->stations[0].base.packets, 900);
   EXPECT_EQ(report->dumped, 3u);
-  EXPECT_NE(to_text(*report).find("900 packets, 50.1 Hz, 2 lost, 0 refused"), std::string::npos);
-  EXPECT_EQ(to_json(*report).find("{\"run\": {}, \"base\": {\"packets\""), 0u);
+  const std::string text = to_text(*report), json = to_json(*report);
+  EXPECT_NE(text.find("car 1 own: 900 packets, 50.1 Hz, 2 lost, 0 refused"), std::string::npos);
+  EXPECT_NE(text.find("car 2 rival: 800 packets"), std::string::npos);
+  EXPECT_EQ(json.find("{\"run\": {}, \"base\": {\"packets\""), 0u) << json;
+  EXPECT_NE(json.find("\"others\": [{\"name\": \"rival\""), std::string::npos) << json;
 }
 
-TEST_F(DemoReport, ACarThatWasNotHeardOrFailedDidNotHold) {
-  EXPECT_FALSE(read_report(car_, 1)->held());
-  leave("candump.log", "");
-  EXPECT_FALSE(read_report(car_, 0)->held());
-  car_.bus = DemoBus::kSocket;
-  EXPECT_TRUE(read_report(car_, 0)->held()) << "candump hears SocketCAN only";
-  EXPECT_EQ(to_text(*read_report(car_, 0)).find("candump"), std::string::npos);
-  leave("candump.log", "a\n");
-  leave("base.json", R"({"packets": 0, "lost": 0, "refused": 0, "rate_hz": 0})");
-  EXPECT_FALSE(read_report(car_, 0)->held());
+TEST_F(DemoReportTest, ACarIsHeardUnderItsOwnKeysAlone) {
+  leave("rival/base.json", base_of(0, 0));
+  EXPECT_FALSE(read_report(cars_)->are_heard());
+  leave("rival/base.json", base_of(800, 1));
+  EXPECT_FALSE(read_report(cars_)->are_heard()) << "what was of the other car";
 }
 
-TEST_F(DemoReport, WhatIsMissingOrNoneIsTold) {
-  leave("base.json", R"({"packets": -1})");
-  EXPECT_FALSE(read_report(car_, 0));
-  car_.folder += "/nowhere";
-  EXPECT_FALSE(read_report(car_, 0));
+TEST_F(DemoReportTest, WhatIsMissingOrNoneIsTold) {
+  leave("rival/base.json", R"({"packets": -1})");
+  EXPECT_FALSE(read_report(cars_));
+  cars_[1].folder += "/nowhere";
+  EXPECT_FALSE(read_report(cars_));
 }
 
-TEST_F(DemoReport, CarsAreApartWhereNoneHeardWhatWasNotItsOwn) {
-  std::vector<CarReport> reports{*read_report(car_, 0), *read_report(car_, 0)};
-  EXPECT_TRUE(are_apart(reports));
-  EXPECT_EQ(apart_text(reports).find("apart: car 8 900 packets"), 0u) << apart_text(reports);
-  reports[1].base.refused = 1;
-  EXPECT_FALSE(are_apart(reports));
-  EXPECT_EQ(apart_text(reports).find("NOT apart"), 0u);
-  reports[1].base = {};
-  EXPECT_FALSE(are_apart(reports));
+TEST_F(DemoReportTest, TheNextStepsNameWhatThisDemoLeft) {
+  const std::string text = next_steps(*read_report(std::span{cars_}.first(1)), "a.yaml");
+  for (const std::string& step :
+       {folder_->path() + "/report.html", folder_->path() + "/recording",
+        std::string("./pitwall demo --cars 2"), std::string("pitwall-hil run a.yaml")})
+    EXPECT_NE(text.find(step), std::string::npos) << text;
+  EXPECT_EQ(next_steps(*read_report(cars_), "a.yaml").find("--cars 2"), std::string::npos);
 }
 
 }  // namespace

@@ -76,6 +76,43 @@ TEST(CarPlans, EachStackHasBusFolderAndBayAndOneBaseStationHasBoth) {
   EXPECT_EQ(std::ranges::count(car, "--no-base"), 0);
 }
 
+TEST(CarPlans, OnSocketCanTheNextCarHasTheNextInterface) {
+  RunOptions options = on_unix_bus();
+  options.interface = "vcan9";
+  const auto plans = plans_of(options, shipped("two_stacks"));
+  ASSERT_TRUE(plans) << to_string(plans.error());
+  EXPECT_EQ((*plans)[0].interface, "vcan9");
+  EXPECT_EQ((*plans)[1].interface, "vcan10");
+  options.radio_port = 23'431;
+  options.keys = "keys";
+  ASSERT_FALSE(plans_of(options, shipped("two_stacks")));
+  EXPECT_EQ(plans_of(options, shipped("two_stacks")).error().place, "--radio-port");
+}
+
+TEST(CarPlans, ABaseStationThatIsThereHearsEachAtItsPortWithItsKeys) {
+  RunOptions options = on_unix_bus();
+  options.radio_port = 23'431;
+  options.keys = "out/x/keys";
+  const auto plans = plans_of(options, shipped("two_stacks"));
+  ASSERT_TRUE(plans) << to_string(plans.error());
+  const bench::LivePlan &own = (*plans)[0], &other = (*plans)[1];
+  EXPECT_TRUE(own.base.empty() && other.base.empty());
+  EXPECT_EQ(own.cars_file, "");
+  EXPECT_EQ(own.radio[0].onward, 23'431);
+  EXPECT_EQ(other.radio[0].onward, 23'431 + bench::kBayPorts);
+  EXPECT_EQ(own.keys, "out/x/keys");
+  EXPECT_EQ(other.keys, "out/x/keys.compliant");
+}
+
+TEST(CarPlans, AMatchOfCarsThatCannotSeeIsRefused) {
+  RunOptions options = on_unix_bus();
+  const bench::Loaded match = shipped("matches/match_two_stacks");
+  ASSERT_FALSE(plans_of(options, match));
+  EXPECT_EQ(plans_of(options, match).error().place, "--sensors");
+  options.sensors_file = std::string(PITWALL_SOURCE_DIR) + "/vehicle/config/sensors/av21.yaml";
+  EXPECT_TRUE(plans_of(options, match));
+}
+
 TEST(CarPlans, WhatIsOfOneCarIsRefusedForSeveral) {
   const bench::Loaded two = shipped("two_stacks");
   const auto refused = [&](auto change) {
@@ -85,10 +122,10 @@ TEST(CarPlans, WhatIsOfOneCarIsRefusedForSeveral) {
     return plans ? std::string("planned") : plans.error().place;
   };
   EXPECT_EQ(refused([](RunOptions&) {}), "planned");
-  EXPECT_EQ(refused([](RunOptions& o) { o.interface = "vcan0"; }), "--interface");
+  EXPECT_EQ(refused([](RunOptions& o) { o.interface = "can"; }), "--interface");
+  EXPECT_EQ(refused([](RunOptions& o) { o.interface = "vcan3"; }), "planned");
   EXPECT_EQ(refused([](RunOptions& o) { o.attach = true; }), "--attach");
   EXPECT_EQ(refused([](RunOptions& o) { o.radio_port = 23'431; }), "--radio-port");
-  EXPECT_EQ(refused([](RunOptions& o) { o.keys = "keys"; }), "--keys");
   EXPECT_EQ(refused([](RunOptions& o) { o.bay = bench::kBaysMax - 2; }), "planned");
   EXPECT_EQ(refused([](RunOptions& o) { o.bay = bench::kBaysMax - 1; }), "cars");
 }

@@ -1,16 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "hil/bench/sensor_faults.hpp"
+#include "hil/faults/sensor_faults.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cstring>
 #include <string>
 
-namespace pitwall::bench {
+namespace pitwall::faults {
 namespace {
-
-using faults::BenchFaultKind;
-using faults::BenchPart;
 
 constexpr double kValue = 0.5;  // legal for every kind
 
@@ -19,10 +16,10 @@ struct Effect {
   std::array<sensors::WheelFault, world::kCorners> wheel;
 };
 
-Effect effect_of(std::initializer_list<faults::BenchFault> rows, Instant now) {
+Effect effect_of(std::initializer_list<BenchFault> rows, Instant now) {
   sensors::State receivers;
   sensors::WheelState wheels;
-  for (const faults::BenchFault& row : rows) apply_sensor_fault(row, now, receivers, wheels);
+  for (const BenchFault& row : rows) apply_sensor_fault(row, now, receivers, wheels);
   return {receivers.fault, wheels.fault};
 }
 
@@ -54,7 +51,7 @@ TEST(SensorFaults, EveryKindDoesSomethingOfItsOwnToItsUnitOnly) {
     EXPECT_TRUE(is_sensor_value(row.kind, kValue)) << row.name;
     const bool of_wheel = parts_of(row.kind) == world::kCorners;
     EXPECT_EQ(of_wheel, row.acts_on == BenchPart::kWheels) << row.name;
-    const faults::BenchFault fault{.kind = row.kind, .unit = 1, .value = kValue};
+    const BenchFault fault{.kind = row.kind, .unit = 1, .value = kValue};
     const Effect e = effect_of({fault}, Instant{} + milliseconds(50));
     EXPECT_EQ(print(e.unit[0]), print({})) << row.name;
     if (of_wheel) {
@@ -110,4 +107,4 @@ TEST(SensorFaults, RefuseValuesThatTheModelCannotTake) {
 }
 
 }  // namespace
-}  // namespace pitwall::bench
+}  // namespace pitwall::faults

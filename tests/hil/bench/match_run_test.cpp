@@ -2,7 +2,7 @@
 // holds what it expects, the same seed gives the same sheet, and race control shows our car what
 // the judge calls.
 // SPDX-License-Identifier: Apache-2.0
-#include "hil/bench/lockstep/match_run.hpp"
+#include "hil/bench/match_run.hpp"
 
 #include <gtest/gtest.h>
 

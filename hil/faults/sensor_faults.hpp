@@ -13,15 +13,15 @@
 #include "hil/sensors/sensors.hpp"
 #include "hil/sensors/wheel_speeds.hpp"
 
-namespace pitwall::bench {
+namespace pitwall::faults {
 
-bool is_sensor_fault(faults::BenchFaultKind kind);
+bool is_sensor_fault(BenchFaultKind kind);
 // Number of equal units that `unit` of such a fault selects from; 1: no choice.
-std::size_t parts_of(faults::BenchFaultKind kind);
+std::size_t parts_of(BenchFaultKind kind);
 // True if the model accepts this value.
-bool is_sensor_value(faults::BenchFaultKind kind, double value);
+bool is_sensor_value(BenchFaultKind kind, double value);
 
-void apply_sensor_fault(const faults::BenchFault& fault, Instant now, sensors::State& receivers,
+void apply_sensor_fault(const BenchFault& fault, Instant now, sensors::State& receivers,
                         sensors::WheelState& wheels);
 
-}  // namespace pitwall::bench
+}  // namespace pitwall::faults

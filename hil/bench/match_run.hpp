@@ -19,6 +19,8 @@
 #include "hil/plant/car_pose.hpp"
 #include "hil/scenario/match_section.hpp"
 #include "protocol/rules/passing_rules.hpp"
+#include "protocol/vocabulary/check.hpp"
+#include "protocol/vocabulary/fixed_vector.hpp"
 #include "vehicle/world/track_map.hpp"
 
 namespace pitwall::bench {
@@ -55,6 +57,18 @@ class MatchRun {
   bool rival_declines_ = false;
   std::optional<Instant> over_since_;
 };
+
+// The judge sees the field at the end of a tick; what it calls is sent from the next step on.
+template <class Cars>
+void step_match(MatchRun& match, Field& field, const Cars& cars, Instant at) {
+  FixedVector<bool, kFieldMax> declines;
+  for (const auto& car : cars) CHECK(declines.push(car->declines()));
+  match.step(field, declines.span(), at);
+  for (std::size_t i = 0; i < cars.size(); ++i)
+    if (const auto call = match.call_for(i, at)) cars[i]->call_race_control(*call);
+  if (const auto sentence = match.ended_attempt())
+    for (const auto& car : cars) car->note_attempt(at, *sentence);
+}
 
 // Verdicts on what the scenario expects of its match.
 void judge_match(const scenario::MatchPlan& plan, RunResult& result);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "hil/bench/lockstep/match_run.hpp"
+#include "hil/bench/match_run.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -125,13 +125,14 @@ void judge_match(const scenario::MatchPlan& plan, RunResult& result) {
   const race::MatchSheet& sheet = *result.match;
   for (std::size_t i = 0; i < plan.expect.size(); ++i) {
     const bool made = i < sheet.attempts.size();
+    if (!made && plan.is_cut) break;
     const bool pass = made && sheet.attempts[i].ending == plan.expect[i];
     result.verdicts.push_back(verdict(
         plan, formatted("attempt %zu ends as %s", i + 1, rules::name_of(plan.expect[i])), pass,
         made ? "it ended as " + std::string{rules::name_of(sheet.attempts[i].ending)}
              : std::string{"it was not made"}));
   }
-  if (plan.result.empty()) return;
+  if (plan.result.empty() || plan.is_cut) return;
   const std::string result_is = result_text(sheet);
   result.verdicts.push_back(verdict(plan, "the match ends as " + plan.result,
                                     result_is == plan.result, "it ended as " + result_is));

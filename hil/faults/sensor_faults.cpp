@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "hil/bench/sensor_faults.hpp"
+#include "hil/faults/sensor_faults.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -7,11 +7,10 @@
 
 #include "protocol/vocabulary/check.hpp"
 
-namespace pitwall::bench {
+namespace pitwall::faults {
 namespace {
 
-using faults::BenchFaultKind;
-using enum faults::BenchFaultKind;
+using enum BenchFaultKind;
 
 // A float solution that has converged is as good as this; the integers are fixed at the end.
 constexpr double kFloatFrom_m = 0.4, kFloatTo_m = 0.03;
@@ -177,7 +176,7 @@ bool is_sensor_value(BenchFaultKind kind, double value) {
   }
 }
 
-void apply_sensor_fault(const faults::BenchFault& fault, Instant now, sensors::State& receivers,
+void apply_sensor_fault(const BenchFault& fault, Instant now, sensors::State& receivers,
                         sensors::WheelState& wheels) {
   const double lasted_s = (now - fault.start).seconds();
   if (is_of_a_wheel(fault.kind)) {
@@ -190,4 +189,4 @@ void apply_sensor_fault(const faults::BenchFault& fault, Instant now, sensors::S
   CHECK(spoil_unit(fault.kind, fault.value, lasted_s, receivers.fault[fault.unit]));
 }
 
-}  // namespace pitwall::bench
+}  // namespace pitwall::faults
