@@ -216,7 +216,9 @@ void derive_flags(const Pass& pass, const Expectations& expected) {
   const double round_mps = pass.value(kRound);
   const RoundSpeeds speeds{.race_control_mps = round_mps,
                            .pit_wall_mps = expected.round_speed_mps,
-                           .car_target_mps = pass.usable(kTarget)};
+                           .car_target_mps = pass.usable(kTarget),
+                           .car_vehicle = flags.car_vehicle,
+                           .car_forward_mps2 = pass.usable(field("dynamics.forward"))};
   pass.put(BaseField::kRaceControlSpeed, round_mps, {kRound});
   pass.put(BaseField::kRoundSpeedExpected, expected.round_speed_mps);
   pass.put(BaseField::kRoundSpeedConflict,

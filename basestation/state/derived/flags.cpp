@@ -5,6 +5,8 @@
 #include <cmath>
 #include <cstddef>
 
+#include "basestation/state/derived/attempt.hpp"
+
 namespace pitwall::state {
 namespace {
 
@@ -36,8 +38,10 @@ bool flag_conflict(const FlagEntries& flags) {
 bool round_speed_conflict(const RoundSpeeds& speeds) {
   const double round_mps = speeds.race_control_mps;
   if (!(round_mps > 0.0)) return false;  // none was said
+  const bool may_be_faster = role_of_flag(speeds.car_vehicle) == Role::kAttacker ||
+                             speeds.car_forward_mps2 < kBrakesDown_mps2;
   return std::abs(round_mps - speeds.pit_wall_mps) > kRoundSpeedTolerance_mps ||
-         speeds.car_target_mps > round_mps + kRoundSpeedTolerance_mps;
+         (!may_be_faster && speeds.car_target_mps > round_mps + kRoundSpeedTolerance_mps);
 }
 
 }  // namespace pitwall::state

@@ -7,7 +7,8 @@
 //          two known and different values are a conflict. If the pit wall relays a more restrictive
 //          flag than race control's and the car acts on it, the conflict is between pit wall and
 //          race control, not with the car. A target speed of the car above the round speed is a
-//          conflict too
+//          conflict too, but for an attacker, who closes up and passes faster, and for a car
+//          that brakes down to it, as after its attack
 //   units  flags as telemetry::kTrackFlags and kVehicleFlags; m/s
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
@@ -17,6 +18,7 @@
 namespace pitwall::state {
 
 inline constexpr double kRoundSpeedTolerance_mps = 0.5;  // the brackets are 4.5 m/s apart
+inline constexpr double kBrakesDown_mps2 = -0.5;
 
 struct FlagEntries {
   double race_control_track = kUnset, race_control_vehicle = kUnset;
@@ -28,6 +30,8 @@ bool flag_conflict(const FlagEntries& flags);
 
 struct RoundSpeeds {
   double race_control_mps = kUnset, pit_wall_mps = kUnset, car_target_mps = kUnset;
+  double car_vehicle = kUnset;  // flag that the car acts on
+  double car_forward_mps2 = kUnset;
 };
 bool round_speed_conflict(const RoundSpeeds& speeds);
 

@@ -5,13 +5,13 @@
 
 #include <cmath>
 
+#include "tests/basestation/state/derived/flag_values.hpp"
 #include "tests/basestation/state/derived/lap.hpp"
-#include "tests/basestation/state/derived/track_flags.hpp"
 
 namespace pitwall::state {
 namespace {
 
-constexpr double kNothing = 0, kDefender = 9, kAttacker = 10, kAttemptLaps = 2.0;
+constexpr double kNothing = 0, kAttemptLaps = 2.0;
 constexpr Duration kTick = milliseconds(100);
 
 // A car at 60 m/s, heard ten times a second.

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/basestation/state/derived/track_flags.hpp"
+#include "tests/basestation/state/derived/flag_values.hpp"
 
 namespace pitwall::state {
 namespace {
@@ -52,6 +52,21 @@ TEST(Flags, AnotherBracketThanAnnouncedIsSeen) {
       round_speed_conflict({.race_control_mps = from_mph(115), .pit_wall_mps = from_mph(115)}));
   EXPECT_TRUE(
       round_speed_conflict({.race_control_mps = from_mph(115), .car_target_mps = from_mph(125)}));
+  EXPECT_FALSE(round_speed_conflict({.race_control_mps = from_mph(115),
+                                     .car_target_mps = from_mph(135),
+                                     .car_vehicle = kAttacker}))
+      << "it passes";
+  EXPECT_TRUE(round_speed_conflict({.race_control_mps = from_mph(125),
+                                    .pit_wall_mps = from_mph(115),
+                                    .car_vehicle = kAttacker}));
+  const auto after_a_pass = [](double forward_mps2) {
+    return round_speed_conflict({.race_control_mps = from_mph(115),
+                                 .car_target_mps = from_mph(125),
+                                 .car_vehicle = kDefender,
+                                 .car_forward_mps2 = forward_mps2});
+  };
+  EXPECT_FALSE(after_a_pass(-2.0)) << "it brakes down";
+  EXPECT_TRUE(after_a_pass(0.0)) << "it stays too fast";
   EXPECT_FALSE(round_speed_conflict({.race_control_mps = from_mph(115), .car_target_mps = 30.0}));
   EXPECT_FALSE(round_speed_conflict({.race_control_mps = 0.0, .pit_wall_mps = 50.0}));
   EXPECT_FALSE(round_speed_conflict({.pit_wall_mps = 50.0, .car_target_mps = 60.0}));

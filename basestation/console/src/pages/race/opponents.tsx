@@ -21,7 +21,7 @@ export function OpponentPanel() {
   return (
     <section class="panel" aria-label="tracked rivals" tabIndex={0}>
       <h2>Tracked rivals</h2>
-      <table class="readings wide">
+      <table class="readings wide opponents">
         <TableHead names={names} />
         <tbody>
           {Array.from({ length: kRivals }, (_, i) => `opponent_${i + 1}`).map((group) => (
