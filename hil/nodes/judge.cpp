@@ -47,6 +47,7 @@ void assign(const JudgeParams& params, JudgeState& state, Instant now) {
   const auto assignment = rules::due(params.rules, state.match);
   state.attempt = {};
   state.trails_since.reset();
+  state.stands_since = {};
   state.lead_m = kUnset;
   if (!assignment) {
     state.stage = Stage::kOver;
@@ -124,7 +125,22 @@ void note(const JudgeParams& params, const JudgeView& view, Phase before, JudgeS
   record.defender_most_mps = std::fmax(record.defender_most_mps, speed_mps);
 }
 
+// A car that has stopped on the track.
+bool stands(const JudgeParams& params, const JudgeView& view, JudgeState& state, Instant now) {
+  bool stands = false;
+  for (std::size_t car = 0; car < rules::kCars; ++car) {
+    std::optional<Instant>& since = state.stands_since[car];
+    if (!(view.cars[car].speed_mps <= params.stands_mps))
+      since.reset();
+    else if (!since)
+      since = now;
+    stands = stands || (since && now - *since >= params.stands);
+  }
+  return stands;
+}
+
 void judge(const JudgeParams& params, const JudgeView& view, JudgeState& state, Instant now) {
+  if (stands(params, view, state, now)) return finish(params, state, Ending::kStopped, now);
   const Phase before = state.attempt.phase;
   const JudgedCar &attacker = attacker_of(state, view), &defender = defender_of(state, view);
   state.attempt =

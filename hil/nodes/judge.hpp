@@ -10,7 +10,7 @@
 //          the rules are those of protocol/rules; the judge only says what it sees
 //          the same cars in the other order give the same records with the cars exchanged
 //   units  stations and gaps along the track's reference line [m]; a lane is the half of the track
-//   errors a car without a known place stops the attempt
+//   errors a car without a known place, or that stands, stops the attempt
 //   cost   O(1), no allocation; the state is a plain value
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
@@ -38,6 +38,8 @@ struct JudgeParams {
   double trails_mps = 3.0;          // fastest that it still closes up, or falls back
   Duration trails = seconds(3);     // so long before waving green
   Duration forming = seconds(180);  // an attacker that is not behind by then stops the attempt
+  double stands_mps = 2.0;          // a car that is no faster for so long stops it, too
+  Duration stands = seconds(5);
 };
 
 struct JudgedCar {
@@ -85,6 +87,7 @@ struct JudgeState {
   std::array<double, rules::kCars> travelled_m{}, station_m{kUnset, kUnset};
   double lead_m = kUnset;  // of the attacker, not wrapped, in an attempt
   std::optional<Instant> trails_since;
+  std::array<std::optional<Instant>, rules::kCars> stands_since{};
   std::array<bool, rules::kCars> is_black{};
 };
 

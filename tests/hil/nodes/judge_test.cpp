@@ -289,6 +289,19 @@ TEST(Judge, DoesNotWaitForACarThatHasNoPlace) {
   EXPECT_NEAR(end.attempts[0].ended.seconds(), 1.0, 0.02);
 }
 
+TEST(Judge, StopsTheAttemptOfACarThatStandsAndNotOfOneThatIsSlowForAMoment) {
+  const auto slow_for = [](double span_s) {
+    return judge_convoy(20.0, [span_s](double t_s, Convoy& c) {
+      if (t_s > 5.0 && t_s < 5.0 + span_s) c.attacker_mps = 0.0;
+    });
+  };
+  const JudgeState end = slow_for(15.0);
+  ASSERT_GE(end.attempts.size(), 1U);
+  EXPECT_EQ(end.attempts[0].ending, Ending::kStopped);
+  EXPECT_NEAR(end.attempts[0].ended.seconds(), 10.0, 0.05);
+  EXPECT_TRUE(slow_for(4.0).attempts.empty());
+}
+
 TEST(Judge, AContactThatBothOrNeitherCausedIsADraw) {
   for (const bool both : {false, true})
     for (const double lead_m : {-30.0, 40.0}) {  // in an attempt, and while it forms

@@ -229,15 +229,20 @@ SpeedDemand by_pit(const Params& p, const Lines& lines, const Inputs& in, const 
 
 // The path that is followed stays; before, it is chosen anew from where the car is.
 void plan_stop_path(const Params& params, const Line& line, const LinePosition& car,
-                    double speed_mps, Followed followed, const StopLimits& limits, State& state) {
+                    const Neighbours& neighbours, double speed_mps, Followed followed,
+                    const StopLimits& limits, State& state) {
   if (stops(followed) && state.stop.chosen) {
     state.stop.gone_m += std::remainder(car.s_m - state.line_s_m, line.length_m);
     return;
   }
   const double aside_m = car.offset_m - offset_at(line, state.merge, car.s_m).n_m;
-  state.stop = choose_stop(
-      line, {.s_m = car.s_m, .speed_mps = speed_mps, .merge = state.merge, .beside_m = aside_m},
-      limits, params.stop_path);
+  state.stop = choose_stop(line,
+                           {.s_m = car.s_m,
+                            .speed_mps = speed_mps,
+                            .merge = state.merge,
+                            .beside_m = aside_m,
+                            .neighbours = neighbours.span()},
+                           limits, params.stop_path);
 }
 
 // The reference at `now`: moved on by what control followed, kept near the measured speed.
@@ -351,7 +356,8 @@ Output step(const Params& params, const Line& own_line, const world::TrackMap& t
   Limits limits = limits_of(params, in, demand, speed_mps);
 
   if (!stops(in.followed)) merge_if_far(params, line, car, speed_mps, next);
-  plan_stop_path(params, line, car, speed_mps, in.followed, limits.stop, next);
+  plan_stop_path(params, line, car, neighbours_of(line, car, track, in.cars), speed_mps,
+                 in.followed, limits.stop, next);
   if (in.followed != Followed::kEmergency) limits.stop.decel_max_mps2 *= next.stop.decel_share;
   const RoadAhead road = road_ahead(line, next.stop, car.s_m);
   const SpeedsAhead ahead = look_ahead(line, car.s_m, limits.drive);

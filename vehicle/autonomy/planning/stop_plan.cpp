@@ -5,6 +5,9 @@
 #include <array>
 #include <cmath>
 
+#include "protocol/vocabulary/check.hpp"
+#include "vehicle/autonomy/planning/rival.hpp"
+
 namespace pitwall::planning {
 namespace {
 
@@ -17,6 +20,9 @@ constexpr double kChangeLeast_m = 40.0, kShiftLeast_m = 0.3;  // less is not wor
 constexpr double kLevel_rad = from_deg(1.0);                  // a road without a low side
 constexpr double kBeyond_m = 48.0;                            // clear past the place, too
 constexpr double kBeyondShare = 0.4;  // or so much of the way there: brakes may be weaker
+// Between the centres of two cars: along, with the length of a car more than they need; beside.
+constexpr double kAlong_m = 10.0, kApart_m = 3.0;
+constexpr double kSlowest_mps = 1.0;
 // What a place costs, in lengths of the shortest stop: 20 degrees of banking and a radius of 230 m.
 constexpr double kBankCost_per_rad = 0.75 / from_deg(20.0);
 constexpr double kBendCost_m = 0.35 * 230.0;
@@ -112,7 +118,7 @@ std::size_t reach_of(const Slowing& slowing) {
 
 // Slow enough for a car that has not slowed down at all.
 void lead_back(StopPath& path, double from_m, double speed_mps) {
-  const double n_m = path.beside_m + path.low.to_m;
+  const double n_m = path.beside_m + path.merge.to_m + path.low.to_m;
   if (n_m == 0.0) return;
   const double carried_m = speed_mps * std::sqrt(kLargestBend * std::abs(n_m) / kChangeMost_mps2);
   path.back = {.from_s_m = from_m,
@@ -142,6 +148,43 @@ bool is_possible(const Line& line, const StopPath& path, const StopFrom& from,
   return true;
 }
 
+// Whether this path meets the other car before it ends, or stands in the way of one that is behind.
+bool meets(const StopPath& path, const Neighbour& other, const Slowing& slowing) {
+  const auto is_in_way = [&](std::size_t point) {
+    return std::abs(other.offset_m - offset_at(path, distance_m(point)).n_m) < kApart_m;
+  };
+  double other_m = other.ahead_m;
+  for (std::size_t i = 0; i < slowing.stands; ++i) {
+    if (std::abs(other_m - distance_m(i)) < kAlong_m && is_in_way(i)) return true;
+    other_m += other.speed_mps * kRoadStep_m / std::max(std::sqrt(slowing.speed2[i]), kSlowest_mps);
+  }
+  return slowing.stands < kRoadPoints && other_m < distance_m(slowing.stands) &&
+         is_in_way(slowing.stands);
+}
+
+// Somebody whom it would not meet along `as_it_is`.
+bool meets_another(const StopPath& path, const StopPath& as_it_is, const StopFrom& from,
+                   const Slowing& slowing) {
+  return std::ranges::any_of(from.neighbours, [&](const Neighbour& other) {
+    return meets(path, other, slowing) && !meets(as_it_is, other, slowing);
+  });
+}
+
+// The merge is taken back to where the car is, on the way that was left for it.
+StopPath without_merge(const StopPath& path) {
+  StopPath out = path;
+  const double rest_m = path.merge.from_s_m + path.merge.length_m;
+  if (!(path.merge.from_s_m < 0.0 && rest_m > 0.0)) return out;
+  const Offset now = offset_at(path.merge, 0.0);
+  out.merge = {.from_s_m = 0.0,
+               .length_m = rest_m,
+               .from_m = now.n_m,
+               .to_m = now.n_m,
+               .from_slope = now.slope,
+               .from_bend_per_m = now.bend_per_m};
+  return out;
+}
+
 // How far the low side lies at the place where the car will stand; zero where it is level.
 double way_down_m(const LinePoint& place, double offset_m, double clearance_m) {
   if (std::abs(place.bank_rad) < kLevel_rad) return 0.0;
@@ -150,6 +193,21 @@ double way_down_m(const LinePoint& place, double offset_m, double clearance_m) {
 }
 
 }  // namespace
+
+Neighbours neighbours_of(const Line& line, const LinePosition& car, const world::TrackMap& track,
+                         const world::Opponents* cars) {
+  Neighbours out;
+  if (cars == nullptr) return out;
+  const double own_s_m = line.at(car.s_m).track_s_m;
+  for (const world::Opponent& other : cars->cars) {
+    const double ahead_m = -gap_m(track, own_s_m, other.s_m);
+    if (!(std::abs(ahead_m) < kNeighbourReach_m)) continue;  // or nowhere
+    const double offset_m = other.n_m - line.at(car.s_m + ahead_m).n_m;
+    if (std::isfinite(offset_m + other.speed_mps))
+      CHECK(out.push({ahead_m, offset_m, other.speed_mps}));
+  }
+  return out;
+}
 
 Offset offset_at(const StopPath& path, double gone_m) {
   const Offset aside{path.beside_m, 0.0, 0.0};
@@ -184,6 +242,7 @@ StopPath choose_stop(const Line& line, const StopFrom& from, const StopLimits& l
   const double reach_m = distance_m(reach_of(slowing));
   const double low_m = distance_m(slowing.low);
   const StopLimits softer = softened(limits, path.decel_share);
+  const StopPath as_it_is = without_merge(path);
   for (const double share : kChangeShares) {
     if (std::abs(share * down_m) < kShiftLeast_m) break;
     for (const double begin : kBegins) {
@@ -194,9 +253,12 @@ StopPath choose_stop(const Line& line, const StopFrom& from, const StopLimits& l
                    .to_m = share * down_m};
       if (tried.low.length_m < kChangeLeast_m) break;
       lead_back(tried, reach_m, from.speed_mps);
-      if (is_possible(line, tried, from, softer, params, slowing)) return tried;
+      if (is_possible(line, tried, from, softer, params, slowing) &&
+          !meets_another(tried, as_it_is, from, slowing))
+        return tried;
     }
   }
+  if (meets_another(path, as_it_is, from, slowing)) path = as_it_is;
   lead_back(path, reach_m, from.speed_mps);
   return path;
 }

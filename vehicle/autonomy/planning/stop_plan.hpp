@@ -3,7 +3,8 @@
 // stopping distance reaches one. Behind all that weak brakes may take it leads back to the line,
 // along which a car that does not stop is steered round the track.
 //   in     the line; the car's position along it and speed; the change of offset that the drive
-//          trajectory is in; the speed limits of a stop
+//          trajectory is in; the speed limits of a stop; other cars, which are taken to keep their
+//          speed and their offset
 //   out    StopPath: a path that begins at the car, with the direction and the curvature of the
 //          drive trajectory, and the share of the deceleration that ends it at the better place
 //   invariants
@@ -12,17 +13,23 @@
 //          it is complete where the car reaches low_speed. The way back needs no more at the speed
 //          that the stop begins with. The path keeps clearance_m from the walls; a car that is
 //          nearer already comes no nearer, and neither does a line that is
+//          it meets no car that it would not meet at the offset where it is: no change leads into
+//          a car beside, or to where one from behind will come before the stop is over. A merge
+//          that does is taken back
 //   frames Map; offsets positive left
 //   errors none: if nothing better is possible the path stays parallel to the line
-//   cost   O(kRoadPoints) per tried place and change, below 0.2 ms; no allocation
+//   cost   O(kRoadPoints * cars) per tried place and change, below 0.2 ms; no allocation
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <array>
+#include <span>
 
 #include "vehicle/autonomy/planning/offset.hpp"
 #include "vehicle/autonomy/planning/speed_profile.hpp"
 #include "vehicle/world/legal_range.hpp"
+#include "vehicle/world/opponent.hpp"
+#include "vehicle/world/track_map.hpp"
 
 namespace pitwall::planning {
 
@@ -54,10 +61,21 @@ Offset offset_at(const StopPath& path, double gone_m);
 // From the car, which is at s of the line.
 RoadAhead road_ahead(const Line& line, const StopPath& path, double s_m);
 
+// Another car: its lead along the line, its offset from it.
+struct Neighbour {
+  double ahead_m = kUnset, offset_m = kUnset, speed_mps = kUnset;
+};
+using Neighbours = FixedVector<Neighbour, world::kOpponentsMax>;
+inline constexpr double kNeighbourReach_m = 200.0;
+// Of the tracked cars those within reach that have a place and a speed; null: none are tracked.
+Neighbours neighbours_of(const Line& line, const LinePosition& car, const world::TrackMap& track,
+                         const world::Opponents* cars);
+
 struct StopFrom {
   double s_m = kUnset, speed_mps = kUnset;
   OffsetChange merge;
   double beside_m = 0.0;
+  std::span<const Neighbour> neighbours{};
 };
 
 StopPath choose_stop(const Line& line, const StopFrom& from, const StopLimits& limits,

@@ -143,6 +143,78 @@ TEST(StopPlan, PathEndsNoHigherKeepsItsClearanceAndNeverSteps) {
   EXPECT_GT(moved, 100);
 }
 
+double lowest_m(const StopPath& path) { return path.low.to_m; }
+
+TEST(StopPlan, NoChangeLeadsIntoACarBesideOrToWhereOneFromBehindWillCome) {
+  const StopRig rig;
+  const auto path_beside = [&](std::vector<Neighbour> others, OffsetChange merge = {}) {
+    return choose_stop(
+        rig.line,
+        {.s_m = 61.0, .speed_mps = 45.0, .merge = merge, .beside_m = -2.5, .neighbours = others},
+        limits_on(85.0), kParams.stop_path);
+  };
+  ASSERT_GT(lowest_m(path_beside({})), 1.0) << "alone it goes down";
+  EXPECT_EQ(lowest_m(path_beside({{-60.0, 1.0, 60.0}})), 0.0) << "it passes";
+  EXPECT_EQ(lowest_m(path_beside({{-60.0, 1.0, 20.0}})), 0.0) << "it comes once we stand";
+  EXPECT_GT(lowest_m(path_beside({{190.0, 1.0, 45.0}})), 1.0) << "it stays ahead";
+  EXPECT_GT(lowest_m(path_beside({{-15.0, -2.5, 45.0}})), 1.0)
+      << "who follows in our lane is met anyway";
+}
+
+TEST(StopPlan, AMergeThatLeadsIntoACarIsTakenBack) {
+  const StopRig rig;
+  // From 5 m outside back to the line, a third of the way done.
+  const OffsetChange merge{.from_s_m = 61.0 - 70.0, .length_m = 220.0, .from_m = -5.0, .to_m = 0.0};
+  const Neighbour beside{0.0, 1.0, 45.0};
+  const auto end_of = [&](std::span<const Neighbour> others) {
+    const StopFrom from{.s_m = 61.0, .speed_mps = 45.0, .merge = merge, .neighbours = others};
+    const StopPath path = choose_stop(rig.line, from, limits_on(85.0), kParams.stop_path);
+    EXPECT_NEAR(offset_at(path, 0.0).n_m, offset_at(merge, 61.0).n_m, 1e-9);
+    return offset_at(path, 150.0).n_m;
+  };
+  EXPECT_GE(end_of({}), -1e-9);
+  EXPECT_NEAR(end_of(std::span{&beside, 1}), offset_at(merge, 61.0).n_m, 1e-6);
+}
+
+// Whoever is around, and wherever: those whom the chosen path meets, it would meet anyway.
+TEST(StopPlan, MeetsNobodyWhomItWouldNotMeetWhereItIs) {
+  const StopRig rig;
+  Random random{11};
+  int kept = 0;
+  for (int run = 0; run < 300; ++run) {
+    std::array<Neighbour, 3> others{};
+    for (Neighbour& other : others)
+      other = {random.between(-120.0, 120.0), random.between(-6.0, 6.0), random.between(0.0, 70.0)};
+    const double v = random.between(20.0, 65.0), aside = random.between(-3.0, 1.0);
+    const double s = random.between(0.0, rig.line.length_m);
+    const StopFrom from{
+        .s_m = s, .speed_mps = v, .merge = {}, .beside_m = aside, .neighbours = others};
+    const StopPath path = choose_stop(rig.line, from, limits_on(85.0), kParams.stop_path);
+    StopLimits softer = limits_on(85.0);
+    softer.decel_max_mps2 *= path.decel_share;
+    const SpeedProfile slowing =
+        stop_profile(road_ahead(rig.line, path, s), {v, 0.0}, softer, 40.0);
+    for (const Neighbour& other : others) {
+      // At two thirds of the distances that the planner keeps: its stop has no jerk.
+      bool met = false, met_anyway = false;
+      double other_m = other.ahead_m;
+      for (double d = 0.0; d < slowing.stop_distance_m - 2.0; d += 1.0) {
+        const auto k = static_cast<std::size_t>(d / slowing.spacing_m);
+        const double then = std::max(slowing.at[std::min(k, slowing.at.size() - 1)].speed_mps, 1.0);
+        if (std::abs(other_m - d) < 10.0) {
+          met_anyway = met_anyway || std::abs(other.offset_m - aside) < 3.0;
+          met = met || (std::abs(other_m - d) < 6.5 &&
+                        std::abs(other.offset_m - offset_at(path, d).n_m) < 2.0);
+        }
+        other_m += other.speed_mps / then;
+      }
+      EXPECT_TRUE(!met || met_anyway) << run;
+    }
+    if (path.low.to_m == 0.0) ++kept;
+  }
+  EXPECT_GT(kept, 30);
+}
+
 TEST(StopPlan, PathOfACarThatDoesNotStopLeadsBackToTheLineForEver) {
   const StopRig rig;
   for (double s = 0.0; s < rig.line.length_m; s += 61.0) {
