@@ -5,17 +5,15 @@
 #include <set>
 #include <string>
 
-#include "basestation/alarms/evaluator.hpp"
 #include "hil/bench/loading.hpp"
-#include "hil/bench/lockstep/lockstep.hpp"
+#include "tests/system/wall/wall_watch.hpp"
 
 namespace pitwall {
 namespace {
 
 // What the car says, judged as it is said; the way to the base is a perfect one.
 struct JudgedLap {
-  state::VehicleState picture;
-  alarms::Evaluator watch;
+  WallWatch wall;
   std::set<std::string> alarms;  // that ever came
 
   void run(const std::vector<scenario::Fault>& faults, Duration length, double tyres_c = 85.0) {
@@ -27,21 +25,15 @@ struct JudgedLap {
     loaded->scenario.duration = length;
     loaded->scenario.tyres.temperature_c = tyres_c;
     bench::LockstepOptions options;
-    options.watch_telemetry = [this](const telemetry::Snapshot& reported, Instant at) {
-      watch.advance(picture, at);
-      picture.update(reported, telemetry::groups_of(telemetry::Direction::kDown));
-      watch.receive(at);
-    };
+    wall.listen(options);
     (void)bench::run_lockstep(loaded->scenario, loaded->setup, options);
-    for (const alarms::AlarmEvent& event : watch.alarms().history()) {
-      if (event.to == alarms::State::kUnack) alarms.insert(std::string{event.key});
-    }
+    alarms = wall.alarms();
   }
 };
 
 double coldest(const JudgedLap& lap) {
   constexpr state::FieldId kTyreMin = state::id_of(state::BaseField::kTyreMin);
-  return lap.watch.view(lap.picture, kTyreMin, Instant{}).value;
+  return lap.wall.evaluator.view(lap.wall.picture, kTyreMin, Instant{}).value;
 }
 
 // All that the demonstration drives: engine start, out lap, flying laps and the stop at their end.
@@ -55,7 +47,7 @@ TEST(JudgedLap, AHealthyRunHasNoAlarm) {
 TEST(JudgedLap, TyresThatAreColdForTheSpeedAreSeenAndNothingElse) {
   JudgedLap lap;
   lap.run({}, seconds(60), 30.0);
-  EXPECT_LT(coldest(lap), lap.watch.tyre_gate().temperature_c.back());
+  EXPECT_LT(coldest(lap), lap.wall.evaluator.tyre_gate().temperature_c.back());
   EXPECT_EQ(lap.alarms, std::set<std::string>{"tyres_cold"});
 }
 

@@ -12,10 +12,10 @@
 #include <set>
 #include <string>
 
-#include "basestation/alarms/evaluator.hpp"
 #include "hil/bench/loading.hpp"
 #include "hil/bench/lockstep/lockstep.hpp"
 #include "hil/plant/tyre_thermal.hpp"
+#include "tests/system/wall/wall_watch.hpp"
 
 namespace pitwall {
 namespace {
@@ -62,8 +62,7 @@ TEST(WarmTyres, FromColdTheyAreWarmWithinTheLapsOfThePublicFigure) {
 
 TEST(WarmTyres, AtRacingSpeedTheyHoldTheWindowAndTheWallHasNoAlarm) {
   const bench::Loaded loaded = laps(85.0);
-  state::VehicleState picture;
-  alarms::Evaluator watch;
+  WallWatch wall;
   double low_c = 1e9, high_c = -1e9, driven = 0.0;
   bench::LockstepOptions options;
   options.watch = [&](const pipeline::Outputs&, const bench::Rig& rig, Instant) {
@@ -71,21 +70,14 @@ TEST(WarmTyres, AtRacingSpeedTheyHoldTheWindowAndTheWallHasNoAlarm) {
     low_c = std::min(low_c, coldest_c(rig));
     high_c = std::max(high_c, hottest_c(rig));
   };
-  options.watch_telemetry = [&](const telemetry::Snapshot& reported, Instant at) {
-    watch.advance(picture, at);
-    picture.update(reported, telemetry::groups_of(telemetry::Direction::kDown));
-    watch.receive(at);
-  };
+  wall.listen(options);
   options.over = [&](const auto&) { return driven > kLapsHeld + 1.0; };  // the first is from rest
   ASSERT_TRUE(bench::run_lockstep(loaded.scenario, loaded.setup, options));
   std::printf("%.0f laps at 147 mph: %.1f to %.1f C\n", kLapsHeld, low_c, high_c);
   EXPECT_GT(driven, kLapsHeld + 1.0);
   EXPECT_GE(low_c, kWindowLow_c);
   EXPECT_LE(high_c, kWindowHigh_c);
-  std::set<std::string> alarms;
-  for (const alarms::AlarmEvent& event : watch.alarms().history())
-    if (event.to == alarms::State::kUnack) alarms.insert(std::string{event.key});
-  EXPECT_EQ(alarms, std::set<std::string>{});
+  EXPECT_EQ(wall.alarms(), std::set<std::string>{});
 }
 
 TEST(WarmTyres, BehindAPaceCarTheyCoolByTensOfDegreesInMinutesAndLoseGrip) {
