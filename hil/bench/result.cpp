@@ -227,7 +227,10 @@ std::string to_text(const RunResult& r) {
                               r.mode.c_str(), r.simulated_s);
   if (std::isfinite(r.wall_s))
     out += formatted(" in %.2f s (%.1f x real time)", r.wall_s, r.simulated_s / r.wall_s);
-  out += "\n\n" + grading::to_table(r.cross_track) + "\n";
+  out +=
+      r.match
+          ? "\n\nthe car changes lines in a match: its error from its first one is not judged\n\n"
+          : "\n\n" + grading::to_table(r.cross_track) + "\n";
   out += drive_text(r);
   for (const RunResult& other : r.others)
     out += "\ncar " + other.car + "\n" + drive_text(other) + "\n";

@@ -19,6 +19,10 @@ std::string beside(const std::string& left, const std::string& right) {
   return "<div class=\"beside\"><div>" + left + "</div><div>" + right + "</div></div>\n";
 }
 
+const std::string kNoLine =
+    "<p class=\"note\">In a match the car changes lines: its error from its first one is not "
+    "judged.</p>\n";
+
 }  // namespace
 
 std::string page(const RunData& run, const world::TrackMap* track, const std::string& no_walls) {
@@ -30,12 +34,13 @@ std::string page(const RunData& run, const world::TrackMap* track, const std::st
   out += kStyle;
   out += "</style></head>\n<body>\n" + header(run) + banner(run);
   out += section("Expectations", verdict_table(run));
-  if (run.result && run.result->match)
-    out += section("Match sheet", match_table(*run.result->match));
+  const bool is_match = run.result && run.result->match;
+  if (is_match) out += section("Match sheet", match_table(*run.result->match));
   if (run.contact) out += section("Contact with another car", contact_section(run));
-  out += section("Where, and how far from the line",
-                 beside(map_chart(run, track, no_walls),
-                        bracket_chart(statistics) + bracket_table(statistics)));
+  out +=
+      section("Where, and how far from the line",
+              beside(map_chart(run, track, no_walls),
+                     is_match ? kNoLine : bracket_chart(statistics) + bracket_table(statistics)));
   out += section("Over time",
                  "<p class=\"note\">Point at a plot: every plot and the map show that "
                  "moment. Shaded: a fault is active.</p>\n" +

@@ -41,6 +41,16 @@ TEST(Page, HostileNamesStayText) {
   for (const char c : html) EXPECT_FALSE(c >= 0 && c < ' ' && c != '\n') << static_cast<int>(c);
 }
 
+TEST(Page, AMatchHasItsSheetAndNoErrorFromALineThatTheCarLeaves) {
+  RunData run = run_of({});
+  constexpr const char* kBrackets = "paper, real car";
+  EXPECT_GT(count(page(run, nullptr, "none"), kBrackets), 0u);
+  run.result.emplace().match.emplace().result = "draw";
+  const std::string html = page(run, nullptr, "none");
+  EXPECT_EQ(count(html, "Match sheet"), 1u);
+  EXPECT_EQ(count(html, kBrackets), 0u);
+}
+
 TEST(Page, AnEmptyRunIsAPageToo) {
   RunData run;
   run.infrastructure.push_back("no log");
