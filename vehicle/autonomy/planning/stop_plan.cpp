@@ -29,7 +29,7 @@ constexpr double kBendCost_m = 0.35 * 230.0;
 
 // The speed over distance, without its jerk: where the car would be slow and where it would stand.
 struct Slowing {
-  std::array<double, kRoadPoints> speed2{};
+  std::array<double, kRoadPoints> speed2{}, time_s{};
   std::size_t low = 0, stands = 0;  // points; stands == kRoadPoints: not within them
 };
 
@@ -48,6 +48,8 @@ Slowing slow_down(const RoadAhead& road, double speed_mps, const StopLimits& lim
     const double decel =
         distance_m(i) < begin_m ? 0.0 : stop_decel_mps2(road, distance_m(i), std::sqrt(v2), limits);
     v2 = std::max(v2 - 2.0 * kRoadStep_m * decel, 0.0);
+    const double step_s = kRoadStep_m / std::max(std::sqrt(out.speed2[i]), kSlowest_mps);
+    if (i + 1 < kRoadPoints) out.time_s[i + 1] = out.time_s[i] + step_s;
   }
   out.low = std::min(out.low, kRoadPoints - 1);
   return out;
@@ -153,21 +155,26 @@ bool meets(const StopPath& path, const Neighbour& other, const Slowing& slowing)
   const auto is_in_way = [&](std::size_t point) {
     return std::abs(other.offset_m - offset_at(path, distance_m(point)).n_m) < kApart_m;
   };
-  double other_m = other.ahead_m;
-  for (std::size_t i = 0; i < slowing.stands; ++i) {
-    if (std::abs(other_m - distance_m(i)) < kAlong_m && is_in_way(i)) return true;
-    other_m += other.speed_mps * kRoadStep_m / std::max(std::sqrt(slowing.speed2[i]), kSlowest_mps);
-  }
-  return slowing.stands < kRoadPoints && other_m < distance_m(slowing.stands) &&
-         is_in_way(slowing.stands);
+  const auto lead_m = [&](std::size_t point) {
+    return other.ahead_m + other.speed_mps * slowing.time_s[point] - distance_m(point);
+  };
+  for (std::size_t i = 0; i < slowing.stands; ++i)
+    if (std::abs(lead_m(i)) < kAlong_m && is_in_way(i)) return true;
+  return slowing.stands < kRoadPoints && lead_m(slowing.stands) < 0.0 && is_in_way(slowing.stands);
 }
 
-// Somebody whom it would not meet along `as_it_is`.
-bool meets_another(const StopPath& path, const StopPath& as_it_is, const StopFrom& from,
-                   const Slowing& slowing) {
-  return std::ranges::any_of(from.neighbours, [&](const Neighbour& other) {
-    return meets(path, other, slowing) && !meets(as_it_is, other, slowing);
-  });
+bool meets_one_of(const StopPath& path, const Neighbours& others, const Slowing& slowing) {
+  return std::ranges::any_of(others.span(),
+                             [&](const Neighbour& other) { return meets(path, other, slowing); });
+}
+
+// Those whom this path does not meet.
+Neighbours clear_of(const StopPath& path, std::span<const Neighbour> others,
+                    const Slowing& slowing) {
+  Neighbours out;
+  for (const Neighbour& other : others)
+    if (!meets(path, other, slowing)) CHECK(out.push(other));
+  return out;
 }
 
 // The merge is taken back to where the car is, on the way that was left for it.
@@ -243,6 +250,7 @@ StopPath choose_stop(const Line& line, const StopFrom& from, const StopLimits& l
   const double low_m = distance_m(slowing.low);
   const StopLimits softer = softened(limits, path.decel_share);
   const StopPath as_it_is = without_merge(path);
+  const Neighbours others = clear_of(as_it_is, from.neighbours, slowing);
   for (const double share : kChangeShares) {
     if (std::abs(share * down_m) < kShiftLeast_m) break;
     for (const double begin : kBegins) {
@@ -254,11 +262,11 @@ StopPath choose_stop(const Line& line, const StopFrom& from, const StopLimits& l
       if (tried.low.length_m < kChangeLeast_m) break;
       lead_back(tried, reach_m, from.speed_mps);
       if (is_possible(line, tried, from, softer, params, slowing) &&
-          !meets_another(tried, as_it_is, from, slowing))
+          !meets_one_of(tried, others, slowing))
         return tried;
     }
   }
-  if (meets_another(path, as_it_is, from, slowing)) path = as_it_is;
+  if (meets_one_of(path, others, slowing)) path = as_it_is;
   lead_back(path, reach_m, from.speed_mps);
   return path;
 }
