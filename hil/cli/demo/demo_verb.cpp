@@ -122,7 +122,7 @@ Result<transport::Process, Problem> start_serving_base(const DemoOptions& option
   return Unexpected{Problem{place, "the base station serves no console"}};
 }
 
-// Several cars have Unix-socket buses, because a guest has one SocketCAN bus for one car.
+// Several cars have Unix-socket buses: a guest has one processor for all of them.
 RunOptions run_options(const DemoOptions& options, const bench::Loaded& loaded) {
   RunOptions run;
   run.scenario = options.scenario;
