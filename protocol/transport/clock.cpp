@@ -23,8 +23,7 @@ std::int64_t read_clock(clockid_t which) {
 
 void sleep_on_wall(Instant deadline) {
   if (deadline.ns <= 0) return;
-  const timespec t{.tv_sec = deadline.ns / kNanosecondsPerSecond,
-                   .tv_nsec = deadline.ns % kNanosecondsPerSecond};
+  const timespec t = to_timespec({deadline.ns});
   const auto outcome =
       posix_call([&] { return clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &t, nullptr); },
                  Success::kZeroElseNumber);
@@ -84,13 +83,8 @@ Duration thread_time() { return {read_clock(CLOCK_THREAD_CPUTIME_ID)}; }
 void sleep_until(Instant deadline) {
   BenchClock* const bench = BenchClock::used();
   if (bench == nullptr) return sleep_on_wall(deadline);
-  bench->wait_until(deadline, [](Duration span) {
-    sleep_on_wall(wall_now() + span);
-    return false;
-  });
+  bench->sleep_until(deadline);
 }
-
-void nap(Duration span) { sleep_on_wall(wall_now() + span); }
 
 Duration realtime_minus_monotonic() {
   constexpr int kAttempts = 3;  // one of them is hardly ever interrupted

@@ -41,8 +41,6 @@ Duration thread_time();
 
 // Returns at or after the deadline; at once if it has passed. Signals never make it return earlier.
 void sleep_until(Instant deadline);
-// Sleeps by the wall clock, for a keeper of bench time, which would otherwise wait for itself.
-void nap(Duration span);
 
 // CLOCK_REALTIME minus CLOCK_MONOTONIC, read between two monotonic readings; the attempt with the
 // smallest interval is kept.

@@ -81,7 +81,7 @@ Result<UdpSocket, Problem> UdpSocket::bind(UdpAddress local, const UdpSocketOpti
       posix_call([] { return socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0); });
   if (!made.ok()) return refuse(made);
   UdpSocket udp{FileDescriptor(made)};
-  udp.clock_offset_ = options.clock_offset;
+  udp.given_offset_ = options.clock_offset;
   const int on = 1;
   if (options.reuse_address) static_cast<void>(set_option(udp.fd(), SO_REUSEADDR, on));
   constexpr int kDscpShift = 2;  // the lower two bits are congestion notification
@@ -146,16 +146,25 @@ bool UdpSocket::transmit(const sockaddr_in* to, std::span<const std::uint8_t> by
 
 std::size_t UdpSocket::receive(std::span<UdpDatagram> datagrams) {
   const ArrivalWindow window{.empty_at = empty_at_, .now = monotonic_now()};
-  std::optional<Duration> offset = clock_offset_;  // else read for the first stamp: it takes long
   std::size_t taken = 0;
   bool more = true;
-  while (taken < datagrams.size() && more) more = receive_batch(datagrams, taken, offset, window);
+  while (taken < datagrams.size() && more) more = receive_batch(datagrams, taken, window);
   if (!more) empty_at_ = window.now;
   return taken;
 }
 
+// Seven readings of clocks, in a guest a system call each.
+Duration UdpSocket::clock_offset(Instant now) {
+  if (given_offset_) return *given_offset_;
+  if (now >= next_measurement_) {
+    measured_offset_ = realtime_minus_monotonic();
+    next_measurement_ = now + kMeasurementPeriod;
+  }
+  return measured_offset_;
+}
+
 bool UdpSocket::receive_batch(std::span<UdpDatagram> datagrams, std::size_t& taken,
-                              std::optional<Duration>& offset, const ArrivalWindow& window) {
+                              const ArrivalWindow& window) {
   Batch batch;
   const auto into = datagrams.subspan(taken, std::min(datagrams.size() - taken, kBatch));
   batch.prepare(into);
@@ -172,7 +181,7 @@ bool UdpSocket::receive_batch(std::span<UdpDatagram> datagrams, std::size_t& tak
     return false;
   }
   const auto count = static_cast<std::size_t>(got.value);
-  if (!offset) offset = realtime_minus_monotonic();
+  const Duration offset = clock_offset(window.now);
   for (std::size_t i = 0; i < count; ++i) {
     msghdr& header = batch.messages[i].msg_hdr;
     const ControlData extra = read_control(header);
@@ -185,7 +194,7 @@ bool UdpSocket::receive_batch(std::span<UdpDatagram> datagrams, std::size_t& tak
     if (&out != &into[i]) out.data = into[i].data;  // closes the gap that a dropped one left
     out.length = batch.messages[i].msg_len;
     out.from = from_kernel(batch.senders[i]);
-    const Instant at = to_instant(extra.stamp, *offset);
+    const Instant at = to_instant(extra.stamp, offset);
     out.at = extra.stamp.ns != 0 && window.holds(at) ? at : window.now;
     ++counters_.received;
     ++taken;

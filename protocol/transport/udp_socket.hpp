@@ -60,6 +60,7 @@ struct UdpCounters {
 class UdpSocket {
  public:
   static constexpr std::size_t kBatch = 32;
+  static constexpr Duration kMeasurementPeriod = milliseconds(100);  // of the clock offset
 
   static Result<UdpSocket, Problem> bind(UdpAddress local, const UdpSocketOptions& options = {});
   // Afterwards send() sends to `remote`, and only datagrams from it are received.
@@ -80,14 +81,17 @@ class UdpSocket {
   explicit UdpSocket(FileDescriptor fd) : fd_(std::move(fd)) {}
   bool transmit(const sockaddr_in* to, std::span<const std::uint8_t> bytes);
   bool receive_batch(std::span<UdpDatagram> datagrams, std::size_t& taken,
-                     std::optional<Duration>& offset, const ArrivalWindow& window);
+                     const ArrivalWindow& window);
+  Duration clock_offset(Instant now);
 
   FileDescriptor fd_;
   UdpAddress local_;
   UdpCounters counters_;
   int send_error_ = 0;
-  std::optional<Duration> clock_offset_;  // from the options
-  Instant empty_at_{};                    // start of the last read that emptied the queue
+  std::optional<Duration> given_offset_;  // from the options
+  Duration measured_offset_{};
+  Instant next_measurement_{};
+  Instant empty_at_{};  // start of the last read that emptied the queue
 };
 
 }  // namespace pitwall::transport

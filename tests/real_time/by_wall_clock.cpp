@@ -7,7 +7,6 @@
 //   --keep-awake  keep the processors of a virtual machine awake meanwhile
 //   exit   that of the command; 1: the command could not be run; 3: not judged
 // SPDX-License-Identifier: Apache-2.0
-#include <atomic>
 #include <charconv>
 #include <cstdio>
 #include <cstdlib>
@@ -63,7 +62,12 @@ class SpentOnTries {
 // a processor.
 class StallWatch {
  public:
-  Duration worst() const { return worst_; }
+  // Ends the watch; a stall that has just ended counts although the thread has not run since.
+  Duration worst() {
+    thread_.request_stop();
+    thread_.join();
+    return worst_;
+  }
 
  private:
   static constexpr Duration kNap = milliseconds(5);
@@ -72,12 +76,12 @@ class StallWatch {
     for (Instant slept = transport::monotonic_now(); !stop.stop_requested();) {
       transport::nap(kNap);
       const Instant now = transport::monotonic_now();
-      worst_ = std::max(worst_.load(), now - slept - kNap);
+      worst_ = std::max(worst_, now - slept - kNap);
       slept = now;
     }
   }
 
-  std::atomic<Duration> worst_{Duration{}};
+  Duration worst_{};
   std::jthread thread_{[this](const std::stop_token& stop) { watch(stop); }};
 };
 
@@ -96,7 +100,7 @@ struct Try {
 };
 
 Try try_once(const transport::ProcessPlan& plan) {
-  const StallWatch watch;
+  StallWatch watch;
   const int code = run_once(plan);
   return {code, watch.worst()};
 }

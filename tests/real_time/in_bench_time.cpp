@@ -9,7 +9,6 @@
 #include "protocol/transport/bench_clock/kept_clock.hpp"
 #include "protocol/transport/file.hpp"
 #include "protocol/transport/process.hpp"
-#include "protocol/transport/virtual_machine.hpp"
 
 namespace pitwall::testing {
 namespace {
@@ -25,7 +24,6 @@ int run(transport::ProcessPlan plan) {
   const std::string file = folder->path() + "/clock";
   auto clock = transport::KeptClock::keep(file);
   if (!clock) return complain(clock.error());
-  const transport::KeepAwake awake;
   plan.environment.push_back("PITWALL_TEST_CLOCK=" + file);
   auto process = transport::Process::spawn(plan);
   if (!process) return complain(process.error());

@@ -35,16 +35,15 @@ void BenchTime::begin() {
   publish(followed_);
 }
 
-bool BenchTime::advance(Instant limit) {
-  if (!line_) return keeper_.advance(limit);
-  const Instant now = keeper_.now();
+bool BenchTime::advance(Instant limit, Instant now) {
+  if (!line_) return keeper_.advance(limit, now);
   if (now - reported_ >= kReportPeriod) {
     receive();
     publish(now);
   } else if (now - followed_ >= kBehind - kReportPeriod) {
     receive();
   }
-  return keeper_.advance(std::min(limit, followed_ + kBehind));
+  return keeper_.advance(std::min(limit, followed_ + kBehind), now);
 }
 
 void BenchTime::end() {

@@ -30,10 +30,12 @@ class BenchTime {
 
   void begin();
   // Call it more often than each ClockKeeper::kLead. Time never passes `limit`, which is the
-  // progress of the bench itself plus a lead. Returns false while time is paused.
-  bool advance(Instant limit = Instant::max());
+  // progress of the bench itself plus a lead; `now` is bench time as just read. Returns false
+  // while time is paused.
+  bool advance(Instant limit, Instant now);
   void end();
   const transport::ClockWaits& waits() const { return keeper_.waits(); }
+  void restart_waits() { keeper_.restart_waits(); }
 
  private:
   BenchTime(transport::ClockKeeper keeper, std::optional<transport::SerialLine> line)

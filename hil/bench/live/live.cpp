@@ -22,6 +22,7 @@ constexpr Duration kStopLimit = seconds(5);
 constexpr Duration kSettle = milliseconds(300);  // for frames and datagrams on their way
 constexpr Duration kWake = LiveCar::kWake;
 constexpr Duration kPollPeriod = milliseconds(10);
+constexpr Duration kPause = milliseconds(2);  // between two looks before the scenario and after it
 constexpr Duration kCarry = milliseconds(2);  // how often the radio is served
 
 using Cars = std::vector<std::unique_ptr<LiveCar>>;
@@ -40,10 +41,12 @@ class Live {
   }
 
   Result<std::vector<LiveResult>, Problem> run() {
+    clock_.begin();
     for (const auto& car : cars_)
       if (auto problem = car->start()) return Unexpected{*problem};
     for (const auto& car : cars_)
-      if (auto problem = car->wait_for_frame()) return Unexpected{*problem};
+      if (auto problem = car->wait_for_frame([this] { clock_.sleep_for(kPause); }))
+        return Unexpected{*problem};
     const Instant begun = transport::wall_now();
     clock_.start();
     for (const auto& car : cars_) car->begin(clock_.started());
@@ -63,7 +66,7 @@ class Live {
       for (const auto& car : cars_) car->end(now);
       break;
     }
-    clock_.end();
+    clock_.stop();
     return finish((transport::wall_now() - begun).seconds());
   }
 
@@ -79,7 +82,7 @@ class Live {
     const Instant until = transport::monotonic_now() + span;
     while (transport::monotonic_now() < until) {
       for (const auto& car : cars_) car->settle();
-      transport::sleep_until(transport::monotonic_now() + milliseconds(2));
+      clock_.sleep_for(kPause);
     }
   }
 
@@ -89,6 +92,7 @@ class Live {
       if (auto problem = car->stop_processes(kStopLimit, [this] { settle(milliseconds(10)); }))
         return Unexpected{*problem};
     settle(kSettle);
+    clock_.end();
     const RealTime time = clock_.report();
     std::vector<LiveResult> results;
     for (std::size_t i = 0; i < cars_.size(); ++i) {

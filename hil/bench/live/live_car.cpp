@@ -113,7 +113,7 @@ std::optional<Problem> LiveCar::start() {
   return parts_.processes.start();
 }
 
-std::optional<Problem> LiveCar::wait_for_frame() {
+std::optional<Problem> LiveCar::wait_for_frame(const std::function<void()>& idle) {
   const Instant limit = transport::monotonic_now() + kStartLimit;
   while (transport::monotonic_now() < limit) {
     if (const std::size_t count = parts_.bus.receive(inbox_)) {
@@ -121,7 +121,7 @@ std::optional<Problem> LiveCar::wait_for_frame() {
       return std::nullopt;
     }
     if (auto problem = parts_.processes.missing()) return problem;
-    transport::sleep_until(transport::monotonic_now() + milliseconds(2));
+    idle();
   }
   return Problem{plan_.interface, "no frame of the car has arrived"};
 }

@@ -45,7 +45,7 @@ class LiveCar {
 
   std::optional<Problem> start();  // the processes
   // The car reports its state on the bus from its first tick on.
-  std::optional<Problem> wait_for_frame();
+  std::optional<Problem> wait_for_frame(const std::function<void()>& idle);
   void begin(Instant started) { started_ = started; }
   void step(Instant now);
   std::optional<Problem> act(Instant now);  // the actions of the scenario that are due

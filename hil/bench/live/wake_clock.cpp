@@ -21,25 +21,37 @@ WakeClock::WakeClock(Duration period, Duration longest, std::optional<BenchTime>
   report_.wake_late.assign(RealTime::kWakeBins, 0);
 }
 
+void WakeClock::begin() {
+  if (time_) time_->begin();
+}
+
+void WakeClock::sleep_for(Duration span) {
+  const Instant at = transport::monotonic_now();
+  wait_until(at + span, at);
+}
+
 void WakeClock::start() {
   stolen_at_start_ = transport::stolen_time();
   start_ = transport::monotonic_now();
   wall_start_ = transport::wall_now();
-  if (time_) time_->begin();
+  if (time_) time_->restart_waits();
 }
 
 void WakeClock::end() {
   if (time_) time_->end();
 }
 
-void WakeClock::wait_until(Instant deadline) {
-  if (!time_) return transport::sleep_until(deadline);
-  while (true) {
-    const Duration left = deadline - transport::monotonic_now();
-    if (left.ns <= 0) return;
-    const bool goes = time_->advance(deadline + transport::ClockKeeper::kLead);
-    transport::nap(goes ? left : std::max(left, kLookAgain));
+// In a guest each reading of the clock is a system call: none is read twice here.
+Instant WakeClock::wait_until(Instant deadline, Instant at) {
+  if (!time_) {
+    transport::sleep_until(deadline);
+    return transport::monotonic_now();
   }
+  for (; at < deadline; at = transport::monotonic_now()) {
+    const bool goes = time_->advance(deadline + transport::ClockKeeper::kLead, at);
+    transport::nap(goes ? deadline - at : std::max(deadline - at, kLookAgain));
+  }
+  return at;
 }
 
 void WakeClock::sleep_until(Instant now) {
@@ -50,8 +62,7 @@ void WakeClock::sleep_until(Instant now) {
     if (at - deadline >= period_) ++report_.caught_up_wakes;
     return;
   }
-  wait_until(deadline);
-  at = transport::monotonic_now();
+  at = wait_until(deadline, at);
   note(at - deadline, now);
   const auto late_us = static_cast<float>((at - deadline).ns) * 1e-3F;
   late_us_.push_back(late_us);
@@ -65,7 +76,7 @@ void WakeClock::note(Duration behind, Instant now) {
   report_.behind_at = now;
 }
 
-RealTime WakeClock::report() {
+void WakeClock::stop() {
   const auto stolen = transport::stolen_time();
   if (stolen && stolen_at_start_) report_.stolen_ms = (*stolen - *stolen_at_start_).milliseconds();
   if (time_) {
@@ -75,6 +86,9 @@ RealTime WakeClock::report() {
     const Duration passed = transport::wall_now() - wall_start_;
     report_.waits.emplace().total = passed - (transport::monotonic_now() - start_);
   }
+}
+
+RealTime WakeClock::report() {
   if (late_us_.empty()) return report_;
   std::sort(late_us_.begin(), late_us_.end());
   const auto quantile = [this](double q) {

@@ -21,7 +21,12 @@ class WakeClock {
  public:
   WakeClock(Duration period, Duration longest, std::optional<BenchTime> time = {});
 
-  void start();
+  // From here on bench time runs only while this clock sleeps, so that programs that start or end
+  // on a slow machine lose none.
+  void begin();
+  void sleep_for(Duration span);
+  void start();  // of the scenario
+  void stop();   // its end
   Instant started() const { return start_; }
   // Sleeps until the scenario time `now`, a multiple of the period.
   void sleep_until(Instant now);
@@ -30,7 +35,7 @@ class WakeClock {
   RealTime report();
 
  private:
-  void wait_until(Instant deadline);
+  Instant wait_until(Instant deadline, Instant at);  // the time when it returns
   void note(Duration behind, Instant now);
 
   Duration period_;

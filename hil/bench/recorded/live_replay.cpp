@@ -73,10 +73,10 @@ class BenchIo {
           std::optional<BenchTime> time)
       : sockets_(sockets), processes_(processes), base_(std::move(base)), time_(std::move(time)) {}
 
-  void begin(Instant first_tick) {
-    first_tick_ = first_tick;
+  void begin() {
     if (time_) time_->begin();
   }
+  void start(Instant first_tick) { first_tick_ = first_tick; }
   void end() {
     if (time_) time_->end();
   }
@@ -89,7 +89,7 @@ class BenchIo {
         transport::sleep_until(at + left);
         continue;
       }
-      const bool goes = time_->advance(deadline + transport::ClockKeeper::kLead);
+      const bool goes = time_->advance(deadline + transport::ClockKeeper::kLead, at);
       transport::nap(goes ? left : std::max(left, kLookAgain));
     }
   }
@@ -105,7 +105,7 @@ class BenchIo {
  private:
   void look(Instant at) {
     base_.carry(at);
-    base_.say(at - first_tick_);
+    if (first_tick_) base_.say(at - *first_tick_);
     if (at - polled_at_ < kLookAtCar) return;
     polled_at_ = at;
     sockets_.now();
@@ -117,23 +117,22 @@ class BenchIo {
   ProcessSupervisor& processes_;
   BaseSide base_;
   std::optional<BenchTime> time_;
-  Instant first_tick_{}, polled_at_{};
+  std::optional<Instant> first_tick_;
+  Instant polled_at_{};
   std::optional<Problem> missing_;
 };
 
 // When the car's first frame arrived.
-Result<Instant, Problem> start_car(ProcessSupervisor& processes, CanSocket& bus, BaseSide& base,
+Result<Instant, Problem> start_car(ProcessSupervisor& processes, CanSocket& bus, BenchIo& io,
                                    const std::string& interface) {
   if (auto problem = processes.start()) return Unexpected{*problem};
   const Instant limit = transport::monotonic_now() + kStartLimit;
   std::array<can::ReceivedFrame, CanSocket::kBatch> inbox{};
-  while (transport::monotonic_now() < limit) {
+  while (transport::monotonic_now() < limit && !io.stopped()) {
     if (bus.receive(inbox) > 0) return inbox.front().at;
-    if (auto problem = processes.missing()) return Unexpected{*problem};
-    base.carry(transport::monotonic_now());
-    transport::sleep_until(transport::monotonic_now() + kPollPeriod);
+    io.wait_until(transport::monotonic_now() + kPollPeriod);
   }
-  return Unexpected{Problem{interface, "no frame of the car has arrived"}};
+  return Unexpected{io.missing().value_or(Problem{interface, "no frame of the car has arrived"})};
 }
 
 struct Playable {
@@ -207,12 +206,13 @@ Result<PlayedRun, Problem> play_to_car(traffic::Recording recording, const Comma
   if (!base) return Unexpected{base.error()};
   transport::request_realtime(kPriority);
   ProcessSupervisor processes{members_for(plan, recorded), {}};
-  const auto received_at = start_car(processes, *bus, *base, plan.interface);
+  BenchIo io{*sockets, processes, *std::move(base), *std::move(time)};
+  io.begin();
+  const auto received_at = start_car(processes, *bus, io, plan.interface);
   if (!received_at) return Unexpected{received_at.error()};
   { const CanSocket done = *std::move(bus); }  // nobody reads it any more
-  BenchIo io{*sockets, processes, *std::move(base), *std::move(time)};
   const Instant first_tick = *received_at - recorded.first_frame.value_or(Duration{});
-  io.begin(first_tick);
+  io.start(first_tick);
   replay::Player player{playing->timeline, {}, io};
   PlayedRun played{.report = player.play(first_tick + playing->first), .waits = {}};
   io.wait_until(first_tick + recorded.length + kSettle);

@@ -25,7 +25,6 @@
 #include "protocol/transport/file.hpp"
 #include "protocol/transport/process.hpp"
 #include "protocol/transport/realtime.hpp"
-#include "protocol/transport/virtual_machine.hpp"
 
 namespace pitwall::cli {
 namespace {
@@ -189,7 +188,6 @@ int demo(const DemoOptions& options) {
   if (const auto plans = plans_of(run, *loaded); !plans) return refuse(plans.error());
   const std::vector<DemoCar> cars = demo_cars(*loaded, options.folder);
   if (const auto ready = prepare(options, cars); !ready) return refuse(ready.error());
-  const transport::KeepAwake awake;
   auto base = start_serving_base(options, *loaded, cars);
   if (!base) return refuse(base.error());
   greet(options, *loaded);

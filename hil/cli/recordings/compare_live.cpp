@@ -20,7 +20,6 @@
 #include "protocol/json/json_text.hpp"
 #include "protocol/transport/clock.hpp"
 #include "protocol/transport/file.hpp"
-#include "protocol/transport/virtual_machine.hpp"
 #include "protocol/vocabulary/text.hpp"
 
 namespace pitwall::cli {
@@ -164,7 +163,6 @@ int report(const Recorded& recorded, const LiveResult& live, const LiveCompariso
 }  // namespace
 
 int compare_live(const LiveComparison& options) {
-  const transport::KeepAwake awake{transport::is_virtual_machine()};
   const auto variant = can_variant::CanVariant::of(scenario::BusRevision::kV14);
   if (!variant) return refuse(variant.error());
   const auto recorded = read_recorded(options, variant->database());

@@ -5,6 +5,7 @@
 
 #include <optional>
 
+#include "protocol/transport/bench_clock/futex.hpp"
 #include "protocol/transport/bench_clock/wall_clock.hpp"
 #include "protocol/vocabulary/check.hpp"
 
@@ -56,8 +57,6 @@ BenchPause BenchClock::pause() const {
   return {.now = seen.now, .total = {std::max(stood_ns, most_ns)}};
 }
 
-Duration BenchClock::stands() const { return pause_of(memory_.page(), wall_now).now; }
-
 bool BenchClock::take_turns() {
   if (own.slot != nullptr) return true;
   for (ClockSlot& slot : memory_.page().slots) {
@@ -66,6 +65,7 @@ bool BenchClock::take_turns() {
     slot.thread.store(::gettid());
     slot.due_ns.store(ClockSlot::kAtWork);
     slot.turns.fetch_or(1);  // at work
+    slot.asleep.store(0);
     own.slot = &slot;
     return true;
   }
@@ -82,6 +82,33 @@ BenchClock::Wait::~Wait() {
   if (own.slot == nullptr) return;
   own.slot->due_ns.store(ClockSlot::kAtWork, std::memory_order_relaxed);
   own.slot->turns.fetch_add(1, std::memory_order_release);
+}
+
+void BenchClock::sleep_until(Instant deadline) {
+  if (own.slot != nullptr) return sleep_on_bench(deadline);
+  wait_until(deadline, [](Duration span) {
+    nap(span);
+    return false;
+  });
+}
+
+// Bench time runs up to the horizon by the wall clock alone; until the horizon moves, time itself
+// cannot wake anybody.
+void BenchClock::sleep_on_bench(Instant deadline) {
+  Instant at = now();
+  const Wait wait{std::max(deadline, at)};
+  const std::atomic<std::int64_t>& horizon_ns = memory_.page().horizon_ns;
+  for (; at < deadline; at = now()) {
+    if (horizon_ns.load() >= deadline.ns) {
+      nap(deadline - at);
+      continue;
+    }
+    own.slot->asleep.store(1);
+    const bool woken =
+        horizon_ns.load() >= deadline.ns || sleep_while(own.slot->asleep, 1, kCheckPeriod);
+    own.slot->asleep.store(0);
+    if (!woken) check_bench();
+  }
 }
 
 void BenchClock::check_bench() {

@@ -1,6 +1,7 @@
 // Bench clock of one program: reads bench time and waits for a deadline in bench time.
 //   in     the clock page of the bench; deadlines in bench time
-//   out    time; waits by the wall clock, in short steps, until bench time reaches the deadline
+//   out    time; waits until bench time reaches the deadline: in short steps of the wall clock, or
+//          asleep until the bench wakes the thread
 //   invariants
 //          the bench waits for a thread that takes turns: from its deadline until it has done its
 //          work and waits again. Other threads only read the time and never stop it
@@ -15,6 +16,7 @@
 
 #include "protocol/transport/bench_clock/bench_pause.hpp"
 #include "protocol/transport/bench_clock/clock_memory.hpp"
+#include "protocol/transport/bench_clock/wall_clock.hpp"
 
 namespace pitwall::transport {
 
@@ -33,6 +35,8 @@ class BenchClock {
   // `nap(span)` waits by the wall clock; it returns true if another event ended the wait.
   template <class Nap>
   void wait_until(Instant deadline, Nap&& nap);
+  // A thread that takes turns is woken by the bench, however long time stands; others nap.
+  void sleep_until(Instant deadline);
 
  private:
   static constexpr Duration kNap = microseconds(100), kLongestNap = milliseconds(2);
@@ -48,7 +52,7 @@ class BenchClock {
     Wait& operator=(const Wait&) = delete;
   };
 
-  Duration stands() const;
+  void sleep_on_bench(Instant deadline);
   void check_bench();
 
   ClockMemory memory_;
@@ -65,13 +69,13 @@ void BenchClock::wait_until(Instant deadline, Nap&& nap) {
     const Duration left = deadline - at;
     const Duration span = left.ns <= 0 ? Duration{} : std::max(left, next_nap);
     if (nap(span) || left.ns <= 0) return;
-    at = now();
+    const ClockReading seen = read_clock(memory_.page(), wall_now);
+    at = seen.now;
     if (at >= deadline) return;
     next_nap = std::min(next_nap + next_nap, kLongestNap);
-    const Duration stood = stands();
-    if (stood < next_check) continue;
+    if (seen.pause.now < next_check) continue;
     check_bench();
-    next_check = stood + kCheckPeriod;
+    next_check = seen.pause.now + kCheckPeriod;
   }
 }
 

@@ -31,14 +31,26 @@ struct BenchPause {
   constexpr bool operator==(const BenchPause&) const = default;
 };
 
+// bench_now() and the pause of the same moment.
+struct ClockReading {
+  Instant now{};
+  BenchPause pause{};
+};
+
 // Reads in the order of bench_now(), so that a pause that ends meanwhile does not appear longer.
 template <class ReadWall>
-BenchPause pause_of(const ClockPage& page, ReadWall&& wall) {
+ClockReading read_clock(const ClockPage& page, ReadWall&& wall) {
   const std::int64_t horizon_ns = page.horizon_ns.load(std::memory_order_acquire);
   const std::int64_t lost_ns = page.lost_ns.load(std::memory_order_acquire);
   const Instant at = wall();
   const std::int64_t past_ns = std::max<std::int64_t>(at.ns - lost_ns - horizon_ns, 0);
-  return {.now = {past_ns}, .total = {lost_ns + past_ns}};
+  const BenchPause pause{.now = {past_ns}, .total = {lost_ns + past_ns}};
+  return {.now = at - pause.total, .pause = pause};
+}
+
+template <class ReadWall>
+BenchPause pause_of(const ClockPage& page, ReadWall&& wall) {
+  return read_clock(page, wall).pause;
 }
 
 }  // namespace pitwall::transport

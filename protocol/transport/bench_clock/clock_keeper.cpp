@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "protocol/transport/bench_clock/futex.hpp"
 #include "protocol/transport/bench_clock/task_state.hpp"
 #include "protocol/transport/bench_clock/wall_clock.hpp"
 
@@ -26,14 +27,13 @@ Instant ClockKeeper::now() const { return bench_now(memory_.page(), wall_now); }
 
 void ClockKeeper::begin(Duration lead) {
   lead_ = lead;
-  memory_.page().horizon_ns.store((now() + lead_).ns, std::memory_order_release);
+  set_horizon((now() + lead_).ns);
 }
 
-bool ClockKeeper::advance(Instant limit) {
-  const Instant at = now();
-  if (is_held_up(at)) return false;
-  const Instant to = std::min(at + lead_, limit);
-  if (to.ns <= memory_.page().horizon_ns.load()) return to > at;
+bool ClockKeeper::advance(Instant limit, Instant now) {
+  if (is_held_up(now)) return false;
+  const Instant to = std::min(now + lead_, limit);
+  if (to.ns <= memory_.page().horizon_ns.load()) return to > now;
   move_horizon(to, wall_now());
   return true;
 }
@@ -52,7 +52,16 @@ void ClockKeeper::move_horizon(Instant to, Instant wall) {
     count_wait(waited, {horizon_ns});
   }
   blamed_ = 0;
-  page.horizon_ns.store(to.ns, std::memory_order_release);
+  set_horizon(to.ns);
+}
+
+// Who falls asleep says so before it looks at the horizon, so that one of the two sees the other.
+void ClockKeeper::set_horizon(std::int64_t to_ns) {
+  ClockPage& page = memory_.page();
+  page.horizon_ns.store(to_ns);
+  for (ClockSlot& slot : page.slots)
+    if (slot.asleep.load() != 0 && slot.due_ns.load() <= to_ns && slot.asleep.exchange(0) != 0)
+      wake(slot.asleep);
 }
 
 void ClockKeeper::count_wait(Duration waited, Instant at) {
@@ -68,8 +77,10 @@ void ClockKeeper::leap(Instant to) {
   ClockPage& page = memory_.page();
   const Instant at = now();
   if (to <= at) return;
-  page.horizon_ns.store(std::max(page.horizon_ns.load(), to.ns), std::memory_order_release);
+  const std::int64_t horizon_ns = std::max(page.horizon_ns.load(), to.ns);
+  page.horizon_ns.store(horizon_ns, std::memory_order_release);
   page.lost_ns.store(wall_now().ns - to.ns, std::memory_order_release);
+  set_horizon(horizon_ns);
 }
 
 void ClockKeeper::end() {
@@ -89,14 +100,14 @@ bool ClockKeeper::holds_up(std::size_t index, Instant now) {
   ClockSlot& slot = memory_.page().slots[index];
   const std::int32_t process = slot.process.load(std::memory_order_acquire);
   const std::int32_t thread = slot.thread.load();
-  if (process == 0 || thread == ::gettid()) return false;  // nobody waits for himself
+  if (process == 0) return false;
   if (thread == 0) {
     const TaskState state = task_state(process, process);
     if (state != TaskState::kGone) return state != TaskState::kStopped;  // just coming
   }
   const std::uint64_t turn = slot.turns.load(std::memory_order_acquire);
   const Instant due{slot.due_ns.load(std::memory_order_relaxed)};
-  if (now - kGrace <= due) return false;
+  if (now - kGrace <= due || thread == ::gettid()) return false;  // nobody waits for himself
   Watch& watch = watches_[index];
   if (watch.turn != turn) {
     const bool at_work = turn % 2 != 0;

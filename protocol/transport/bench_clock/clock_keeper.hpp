@@ -38,7 +38,8 @@ class ClockKeeper {
   // From now on time runs only by advance(), until end() or the destruction of the keeper.
   void begin(Duration lead = kLead);
   // Lets time run on, never past `limit`, which another clock may set. False: time stands.
-  bool advance(Instant limit = Instant::max());
+  bool advance(Instant limit = Instant::max()) { return advance(limit, now()); }
+  bool advance(Instant limit, Instant now);  // `now`: bench time as just read
   // Sets time forward, for a bench that follows another clock; waits() does not change.
   void leap(Instant to);
   void end();
@@ -46,6 +47,7 @@ class ClockKeeper {
   bool is_held_up(Instant now);
 
   const ClockWaits& waits() const { return waits_; }
+  void restart_waits() { waits_ = {}; }
 
  private:
   // Observation of the present turn of a slot.
@@ -58,6 +60,7 @@ class ClockKeeper {
   explicit ClockKeeper(ClockMemory memory) : memory_(std::move(memory)) {}
   bool holds_up(std::size_t slot, Instant now);
   void move_horizon(Instant to, Instant wall);
+  void set_horizon(std::int64_t to_ns);
   void count_wait(Duration waited, Instant at);
 
   ClockMemory memory_;

@@ -29,6 +29,8 @@ struct ClockSlot {
   static constexpr std::int64_t kAtWork = INT64_MIN;
   std::atomic<std::int64_t> due_ns{0};  // bench time at which its turn begins
   std::atomic<std::uint64_t> turns{0};  // even: waits for the next turn; odd: works
+  // Futex: 1 while the thread sleeps until the horizon comes to due_ns, and the bench wakes it.
+  std::atomic<std::uint32_t> asleep{0};
 };
 
 // Interval of the wall clock in which bench time stood.
@@ -37,7 +39,7 @@ struct ClockPause {
 };
 
 struct ClockPage {
-  static constexpr std::uint64_t kMagic = 0x3130'4B43'4F4C'4350;  // "PCLOCK01"
+  static constexpr std::uint64_t kMagic = 0x3230'4B43'4F4C'4350;  // "PCLOCK02"
   static constexpr std::size_t kSlots = 16;
   static constexpr std::size_t kPauses = 32;  // stored pauses, to convert stamps of the kernel
 

@@ -28,12 +28,18 @@ struct LineEnd {
   }
 };
 
+bool advance(BenchTime& time, const std::string& file) {
+  const auto memory = transport::ClockMemory::open(file);
+  return time.advance(Instant::max(), transport::bench_now(memory->page(), transport::wall_now));
+}
+
 // Lets `time` go for `wall`, with `answer` to each word of it.
 template <class Answer>
-void go(BenchTime& time, SerialLine& host, Duration wall, Answer&& answer) {
+void go(BenchTime& time, const std::string& file, SerialLine& host, Duration wall,
+        Answer&& answer) {
   const Instant end = transport::wall_now() + wall;
   while (transport::wall_now() < end) {
-    time.advance();
+    advance(time, file);
     while (const auto word = host.receive())
       if (const auto now = decode_clock(*word)) answer(*now);
     transport::nap(microseconds(200));
@@ -49,24 +55,25 @@ TEST(BenchTime, GoesNoFartherThanItsHostHasFollowed) {
   const auto now = [&] { return transport::bench_now(memory->page(), transport::wall_now); };
   const Instant begun = now();
   time->begin();
-  go(*time, host, milliseconds(150), [](Instant) {});
+  go(*time, bench.file, host, milliseconds(150), [](Instant) {});
   EXPECT_LE(now() - begun, BenchTime::kBehind + milliseconds(1)) << "nobody answers";
   EXPECT_GE(now() - begun, BenchTime::kBehind - BenchTime::kReportPeriod);
-  EXPECT_FALSE(time->advance());
+  EXPECT_FALSE(advance(*time, bench.file));
   std::uint64_t words = 0;
-  go(*time, host, milliseconds(300), [&](Instant at) {
+  go(*time, bench.file, host, milliseconds(300), [&](Instant at) {
     ++words;
     host.send(encode_clock(at));
     host.flush();
   });
   host.send(encode_clock(now()));
   host.flush();
-  go(*time, host, milliseconds(100), [](Instant) {});
+  go(*time, bench.file, host, milliseconds(100), [](Instant) {});
   EXPECT_GT(now() - begun, BenchTime::kBehind + milliseconds(15)) << "it goes on when followed";
   EXPECT_GE(time->waits().longest, milliseconds(100));
   time->end();
   bool ended = false;
-  go(*time, host, milliseconds(1), [&](Instant at) { ended = ended || at == Instant::max(); });
+  go(*time, bench.file, host, milliseconds(1),
+     [&](Instant at) { ended = ended || at == Instant::max(); });
   EXPECT_TRUE(ended);
 }
 
@@ -77,7 +84,7 @@ TEST(BenchTime, WithoutALineThereIsNobodyToWaitFor) {
   EXPECT_FALSE(BenchTime::open(bench.file, "")) << "kept already";
   EXPECT_FALSE(BenchTime::open(bench.folder.path() + "/other", "/no/such/tty"));
   time->begin();
-  EXPECT_TRUE(time->advance());
+  EXPECT_TRUE(advance(*time, bench.file));
 }
 
 }  // namespace

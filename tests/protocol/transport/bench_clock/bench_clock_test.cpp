@@ -2,9 +2,12 @@
 #include "protocol/transport/bench_clock/bench_clock.hpp"
 
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 
+#include <atomic>
 #include <thread>
 
+#include "protocol/transport/bench_clock/clock_keeper.hpp"
 #include "protocol/transport/clock.hpp"
 #include "tests/protocol/transport/bench_clock/clock_file.hpp"
 
@@ -81,6 +84,55 @@ TEST(BenchClock, HasRoomForSoManyAndRefusesTheNext) {
   for (ClockSlot& slot : memory->page().slots) slot.process = 1;
   std::thread late{[&] { EXPECT_FALSE(clock.take_turns()); }};
   late.join();
+}
+
+std::int64_t sleeps_of_this_thread() {
+  rusage used{};
+  EXPECT_EQ(::getrusage(RUSAGE_THREAD, &used), 0);
+  return used.ru_nvcsw;
+}
+
+TEST(BenchClock, AThreadThatTakesTurnsSleepsOnceHoweverLongTimeStands) {
+  constexpr int kTurns = 20;
+  const ClockFile file;
+  auto keeper = ClockKeeper::keep(file.path);
+  ASSERT_TRUE(keeper);
+  keeper->begin();
+  BenchClock clock{*ClockMemory::open(file.path)};
+  std::atomic<int> turns = 0;
+  std::int64_t sleeps = 0;
+  std::thread car{[&] {
+    ASSERT_TRUE(clock.take_turns());
+    const std::int64_t before = sleeps_of_this_thread();
+    Instant due = clock.now();
+    for (; turns < kTurns; ++turns) {
+      due += milliseconds(5);
+      clock.sleep_until(due);
+      EXPECT_GE(clock.now(), due);
+    }
+    sleeps = sleeps_of_this_thread() - before;
+  }};
+  while (turns < kTurns) {
+    nap(milliseconds(10));  // time stands for most of it
+    keeper->advance();
+  }
+  car.join();
+  EXPECT_LE(sleeps, 3 * kTurns)
+      << "one until the bench wakes it, one to its deadline, one to spare";
+}
+
+TEST(BenchClock, ABenchThatDiedLetsAThreadThatTakesTurnsGoOn) {
+  const ClockFile file;
+  BenchClock clock{*ClockMemory::open(file.path)};
+  const auto memory = ClockMemory::open(file.path);
+  std::thread car{[&] {
+    ASSERT_TRUE(clock.take_turns());
+    const Instant from = clock.now();
+    memory->page().horizon_ns = from.ns;  // and nobody holds the lock
+    clock.sleep_until(from + milliseconds(20));
+    EXPECT_GE(clock.now(), from + milliseconds(20));
+  }};
+  car.join();
 }
 
 TEST(BenchClock, ABenchThatDiedLetsTimeGoOn) {
