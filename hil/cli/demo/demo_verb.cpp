@@ -155,7 +155,7 @@ Result<bool, Problem> prepare(const DemoOptions& options, std::span<const DemoCa
 
 void greet(const DemoOptions& options, const bench::Loaded& loaded) {
   std::printf(
-      "SIMULATION: %s for at most %.0f s in real time. The car, the bench and the base station\n"
+      "SIMULATION: %s, at most %.0f s of simulated time. The car, the bench and the base station\n"
       "are separate processes; the tyres start at working temperature.\n",
       options.scenario.c_str(), options.duration.value_or(loaded.scenario.duration).seconds());
   if (!loaded.stacks.empty())

@@ -75,22 +75,23 @@ std::optional<Problem> refused_for_match(const RunOptions& options,
                                          const scenario::Scenario& scenario) {
   if (!scenario.match || options.attach || !options.sensors_file.empty()) return std::nullopt;
   return Problem{"--sensors",
-                 "missing: in a live match the cars see each other by the topics of a "
-                 "sensor file only, as vehicle/config/sensors/av21.yaml"};
+                 "missing: the cars of a live match detect each other through the topics of a "
+                 "sensor file, for example vehicle/config/sensors/av21.yaml"};
 }
 
 std::optional<Problem> refused_for_several(const RunOptions& options, std::size_t cars) {
   if (!bus_of("other", 1, options.interface))
-    return Problem{"--interface", "\"" + options.interface + "\" is one bus for " +
+    return Problem{"--interface", "\"" + options.interface + "\" is one bus, but " +
                                       std::to_string(cars) +
-                                      " cars with a stack: expected a number at its end, or "
-                                      "unix:PATH, from which each gets its own"};
+                                      " cars have a stack: expected a name that ends in a number, "
+                                      "such as vcan0, or unix:PATH"};
   if (options.radio_port != 0 && !transport::is_unix_bus(options.interface))
     return Problem{"--radio-port",
-                   "several cars on SocketCAN have a base station of the bench, beside them"};
+                   "not allowed with several cars on SocketCAN: the run starts their base station"};
   if (options.attach) return Problem{"--attach", "allowed with one car with a stack only"};
   if (options.radio_port != 0 && options.keys.empty())
-    return Problem{"--radio-port", "several cars at a base station need --keys, which it has too"};
+    return Problem{"--radio-port",
+                   "several cars with one base station: expected --keys, the folder of its keys"};
   const int most = bench::kBaysMax - options.bay;
   if (cars > static_cast<std::size_t>(most))
     return Problem{"cars", std::to_string(cars) + " with a stack, ours included; live at most " +
