@@ -55,12 +55,17 @@ void ClockKeeper::move_horizon(Instant to, Instant wall) {
   set_horizon(to.ns);
 }
 
-// Who falls asleep says so before it looks at the horizon, so that one of the two sees the other.
+// A thread sets `asleep` before it reads the horizon, so that it sees the new one or is woken.
 void ClockKeeper::set_horizon(std::int64_t to_ns) {
+  memory_.page().horizon_ns.store(to_ns);
+  wake_sleepers();
+}
+
+void ClockKeeper::wake_sleepers() {
   ClockPage& page = memory_.page();
-  page.horizon_ns.store(to_ns);
+  const std::int64_t horizon_ns = page.horizon_ns.load();
   for (ClockSlot& slot : page.slots)
-    if (slot.asleep.load() != 0 && slot.due_ns.load() <= to_ns && slot.asleep.exchange(0) != 0)
+    if (slot.asleep.load() != 0 && slot.due_ns.load() <= horizon_ns && slot.asleep.exchange(0) != 0)
       wake(slot.asleep);
 }
 
@@ -77,10 +82,9 @@ void ClockKeeper::leap(Instant to) {
   ClockPage& page = memory_.page();
   const Instant at = now();
   if (to <= at) return;
-  const std::int64_t horizon_ns = std::max(page.horizon_ns.load(), to.ns);
-  page.horizon_ns.store(horizon_ns, std::memory_order_release);
+  page.horizon_ns.store(std::max(page.horizon_ns.load(), to.ns));
   page.lost_ns.store(wall_now().ns - to.ns, std::memory_order_release);
-  set_horizon(horizon_ns);
+  wake_sleepers();
 }
 
 void ClockKeeper::end() {

@@ -61,6 +61,7 @@ class ClockKeeper {
   bool holds_up(std::size_t slot, Instant now);
   void move_horizon(Instant to, Instant wall);
   void set_horizon(std::int64_t to_ns);
+  void wake_sleepers();
   void count_wait(Duration waited, Instant at);
 
   ClockMemory memory_;
