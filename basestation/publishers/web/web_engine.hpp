@@ -156,10 +156,11 @@ class WebServer::Engine::Socket : public std::enable_shared_from_this<Socket> {
     }
     stream_.async_accept(request, [self = shared_from_this()](error_code failed) {
       if (failed) return self->gone();
-      self->engine_.count([](WebCounters& c) { ++c.joined; });
       self->engine_.publish(
           self->car_, self->who_.role,
           {.kind = ClientEvent::Kind::kJoined, .client = self->client_, .who = self->who_});
+      // After the hand-over, as for texts.
+      self->engine_.count([](WebCounters& c) { ++c.joined; });
       self->joined_ = true;
       self->read();
     });
