@@ -3,8 +3,8 @@
 //   in     the state after each packet that changed it
 //   out    quantiles by class and by group
 //   invariants
-//          counting begins with a group's first sample; the age of a group that the car no longer
-//          samples keeps growing
+//          counting begins with a group's first sample and, for Station, ends with the last packet;
+//          the age of a group that the car no longer samples keeps growing
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

@@ -46,8 +46,6 @@ class Station {
   using Observer = std::function<void(bool down, telemetry::PathId path, UdpAddress other,
                                       Instant at, std::span<const std::uint8_t> bytes)>;
   void observe(Observer observer) { observer_ = std::move(observer); }
-  // Brings the ages up to `now`; call it before the figures are read.
-  void advance(Instant now) { ages_.advance(now); }
 
   enum class Source : std::uint8_t { kNone, kSimulation, kCar };
   Source source() const;

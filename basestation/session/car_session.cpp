@@ -185,7 +185,6 @@ service::CarLoop CarSession::loop() {
 Result<bool, Problem> CarSession::write_summary() {
   if (plan_.arguments.json_path.empty()) return true;
   const Instant now = transport::monotonic_now();
-  service_->link().advance(now);
   return transport::write_file(plan_.arguments.json_path,
                                publishers::json_summary(*service_, now, transport::bench_pause()));
 }

@@ -267,6 +267,7 @@ std::string json_summary(const service::CarService& car, Instant now,
   document.line("lost", text_of(car.link().lost_packets()));
   document.line("loss", number(car.link().loss()));
   document.line("rate_hz", number(rate.mean_rate_hz()));
+  document.line("silent_ms", rate.ever() ? ms(rate.since_last(now)) : "null");
   document.line("age_ms", ages_json(car.link().ages().of(telemetry::Group::kEgo)));
   document.line("ages_ms", ages_by_class(car.link().ages()));
   document.line("ages_ms_by_group", ages_by_group(car.link().ages()));

@@ -26,7 +26,6 @@ void Screen::show(Instant now) {
   shown_pause_ = pause ? pause->now : Duration{};
   std::string screen;
   for (TerminalCar& car : cars_) {
-    car.service->link().advance(now);
     screen += text_view(*car.service, now,
                         {.ansi = !options_.plain,
                          .all = options_.all,

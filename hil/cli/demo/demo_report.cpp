@@ -32,6 +32,7 @@ Result<BaseFigures, Problem> read_base(const std::string& path) {
     base.refused = map.integer("refused", 0, kCountMax);
     base.rate_hz = map.number("rate_hz", 0.0, kRateMax_hz);
     if (base.packets == 0) return base;  // then no age is known
+    base.silent_ms = map.number("silent_ms", 0.0, kAgeMax_ms);
     yaml::StrictMap age = map.map("age_ms");
     base.age_p50_ms = age.number("p50", 0.0, kAgeMax_ms);
     base.age_p99_ms = age.number("p99", 0.0, kAgeMax_ms);
@@ -69,10 +70,10 @@ std::string to_text(const DemoReport& report) {
     const BaseFigures& base = station.base;
     text += formatted(
         "base station, car %d %s: %lld packets, %.1f Hz, %lld lost, %lld refused; age of the "
-        "newest value p50 %.1f ms, p99 %.1f ms\n",
+        "newest value p50 %.1f ms, p99 %.1f ms; silent for the last %.1f s\n",
         station.car.number, station.car.name.c_str(), static_cast<long long>(base.packets),
         base.rate_hz, static_cast<long long>(base.lost), static_cast<long long>(base.refused),
-        base.age_p50_ms, base.age_p99_ms);
+        base.age_p50_ms, base.age_p99_ms, base.silent_ms / 1e3);
   }
   if (report.dumped > 0)
     text += "candump recorded " + std::to_string(report.dumped) +

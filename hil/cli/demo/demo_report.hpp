@@ -19,7 +19,7 @@ namespace pitwall::cli {
 
 struct BaseFigures {
   std::int64_t packets = 0, lost = 0, refused = 0;
-  double rate_hz = kUnset, age_p50_ms = kUnset, age_p99_ms = kUnset;
+  double rate_hz = kUnset, age_p50_ms = kUnset, age_p99_ms = kUnset, silent_ms = kUnset;
 };
 
 struct StationReport {

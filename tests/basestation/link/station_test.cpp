@@ -28,10 +28,21 @@ TEST(Station, ShowsWhatTheCarSaysWithItsTrueAge) {
   EXPECT_EQ(view.value, 321.0);
   EXPECT_GE(view.age, RadioRig::kDelay) << "the time on the way is in it";
   EXPECT_LE(view.age, RadioRig::kDelay + telemetry::kSlot + milliseconds(25));
-  rig.station->advance(rig.now);
   const AgeHistogram& ages = rig.station->ages().of(Group::kEgo);
   EXPECT_GE(ages.quantile(0.5), RadioRig::kDelay);
   EXPECT_LE(ages.quantile(0.99), milliseconds(60));
+}
+
+TEST(Station, ASilenceAfterTheLastPacketIsInNoAge) {
+  RadioRig rig;
+  rig.set(kX, 321.0);
+  rig.run(seconds(3));
+  rig.loses = [](bool to_base, telemetry::PathId) { return to_base; };
+  rig.run(seconds(60));
+  EXPECT_LE(rig.station->ages().of(Group::kEgo).largest(), milliseconds(500));
+  rig.loses = [](bool, telemetry::PathId) { return false; };
+  rig.run(seconds(3));
+  EXPECT_GE(rig.station->ages().of(Group::kEgo).largest(), seconds(59)) << "it was not the last";
 }
 
 TEST(Station, IsOverheardInBothDirectionsWhateverComes) {

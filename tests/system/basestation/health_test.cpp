@@ -41,7 +41,6 @@ Screens watch_run() {
     radio.now = std::max(radio.now, now - milliseconds(20));
     radio.snapshot = snapshot;
     for (; radio.now < now; radio.now += RadioRig::kTick) radio.step();
-    radio.station->advance(now);
     const bool before = now - Instant{} < from_seconds(kLost_s);
     (before ? screens.driving : screens.stopping) = text_view(*radio.base, now, {});
   };

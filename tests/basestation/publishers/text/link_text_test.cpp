@@ -14,7 +14,6 @@ namespace {
 using telemetry::field;
 
 std::string text_of(RadioRig& rig) {
-  rig.station->advance(rig.now);
   std::string text;
   for (const TextLine& line : link_lines(*rig.base, rig.now)) text += line.text + "\n";
   return text;

@@ -23,10 +23,7 @@ using telemetry::Group;
 struct Base : RadioRig {
   explicit Base(const RigOptions& wanted = {}) : RadioRig(wanted) {}
 
-  std::string screen(const ViewOptions& how = {}) {
-    station->advance(now);
-    return text_view(*base, now, how);
-  }
+  std::string screen(const ViewOptions& how = {}) { return text_view(*base, now, how); }
   bool shows(const std::string& text, const ViewOptions& how = {}) {
     return screen(how).find(text) != std::string::npos;
   }

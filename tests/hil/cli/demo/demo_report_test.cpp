@@ -14,7 +14,7 @@ namespace {
 std::string base_of(int packets, int refused) {
   return R"({"packets": )" + std::to_string(packets) + R"(, "lost": 2, "refused": )" +
          std::to_string(refused) +
-         R"(, "rate_hz": 50.1, "age_ms": {"p50": 20, "p99": 45}, "more": [1]})";
+         R"(, "rate_hz": 50.1, "silent_ms": 1234, "age_ms": {"p50": 20, "p99": 45}, "more": [1]})";
 }
 
 class DemoReportTest : public testing::Test {
@@ -46,6 +46,7 @@ TEST_F(DemoReportTest, IsWhatTheRunLeft) {
   EXPECT_EQ(report->dumped, 3u);
   const std::string text = to_text(*report), json = to_json(*report);
   EXPECT_NE(text.find("car 1 own: 900 packets, 50.1 Hz, 2 lost, 0 refused"), std::string::npos);
+  EXPECT_NE(text.find("p99 45.0 ms; silent for the last 1.2 s"), std::string::npos) << text;
   EXPECT_NE(text.find("car 2 rival: 800 packets"), std::string::npos);
   EXPECT_EQ(json.find("{\"run\": {}, \"base\": {\"packets\""), 0u) << json;
   EXPECT_NE(json.find("\"others\": [{\"name\": \"rival\""), std::string::npos) << json;
