@@ -20,6 +20,7 @@ std::string car_text(const StationCar& car) {
   add("record", car.record);
   add("judgement", car.judgement);
   add("command_socket", car.command_socket);
+  add("command", car.commands);
   return out.str();
 }
 

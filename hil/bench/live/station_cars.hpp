@@ -15,7 +15,7 @@ struct StationCar {
   int number = 0;
   std::string name{}, keys{}, json{};
   std::vector<std::string> listen{};  // an address for each path of the radio
-  std::string record{}, judgement{}, command_socket{};
+  std::string record{}, judgement{}, command_socket{}, commands{};
 };
 
 std::string cars_text(std::span<const StationCar> cars);

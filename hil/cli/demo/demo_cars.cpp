@@ -6,6 +6,7 @@
 #include "hil/bench/live/live_plan.hpp"
 #include "hil/bench/live/station_cars.hpp"
 #include "hil/cli/live/car_plans.hpp"
+#include "protocol/vocabulary/text.hpp"
 
 namespace pitwall::cli {
 
@@ -18,6 +19,7 @@ std::vector<DemoCar> demo_cars(const bench::Loaded& scenario, const std::string&
                              .keys = folder + "/keys",
                              .own_recording = folder + "/car_recording",
                              .base_port = kDemoBasePort}};
+  if (!scenario.scenario.operator_texts.empty()) cars.front().commands = folder + "/operator.txt";
   const DemoCar own = cars.front();
   for (const bench::LoadedStack& other : scenario.stacks)
     cars.push_back({.number = other.number,
@@ -42,12 +44,19 @@ Result<bool, Problem> set_recordings_aside(const DemoCar& car) {
   return true;
 }
 
+std::string commands_text(std::span<const scenario::OperatorText> texts) {
+  std::string text = "# AT_SECONDS COMMAND\n";
+  for (const scenario::OperatorText& row : texts)
+    text += formatted("%.3f %s\n", row.at.seconds(), row.text.c_str());
+  return text;
+}
+
 std::string cars_text(std::span<const DemoCar> cars) {
   std::vector<bench::StationCar> rows;
   const fs::path here = cars.front().folder;
   for (const DemoCar& car : cars) {
     const auto place = [&](const std::string& file) {
-      return fs::path{file}.lexically_relative(here).string();
+      return file.empty() ? file : fs::path{file}.lexically_relative(here).string();
     };
     rows.push_back({.number = car.number,
                     .name = car.name,
@@ -55,7 +64,8 @@ std::string cars_text(std::span<const DemoCar> cars) {
                     .json = place(car.folder + "/base.json"),
                     .listen = {"127.0.0.1:" + std::to_string(car.base_port)},
                     .record = place(car.base_recording()),
-                    .judgement = place(car.folder + "/judgement.yaml")});
+                    .judgement = place(car.folder + "/judgement.yaml"),
+                    .commands = place(car.commands)});
   }
   return bench::cars_text(rows);
 }

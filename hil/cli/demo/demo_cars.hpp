@@ -27,6 +27,7 @@ struct DemoCar {
   std::string keys{};           // folder
   std::string own_recording{};  // recorded by the car itself
   std::uint16_t base_port = 0;
+  std::string commands{};  // script of the base's operator; empty: none
 
   std::string base_recording() const { return folder + "/recording"; }
 };
@@ -35,6 +36,9 @@ std::vector<DemoCar> demo_cars(const bench::Loaded& scenario, const std::string&
 // Renames the recordings of the previous demo to `..._before`, replacing older ones: a base
 // restores the state of its car from its recording, and the car of a new demo has no past.
 Result<bool, Problem> set_recordings_aside(const DemoCar& car);
+// Script of text commands, as the scenario's operator has them: the bench may run in a guest, from
+// which no command socket of this machine is reached.
+std::string commands_text(std::span<const scenario::OperatorText> texts);
 // Text of the cars file, which lies in the folder of the first car.
 std::string cars_text(std::span<const DemoCar> cars);
 

@@ -57,12 +57,14 @@ std::vector<std::string> base_words(const DemoOptions& options, const bench::Loa
                                  loaded.scenario.track_file,
                                  "--clock",
                                  clock_file()};
-  const std::vector<std::string> of_one{
+  std::vector<std::string> of_one{
       "--listen",    "127.0.0.1:" + std::to_string(cars.front().base_port),
       "--keys",      options.folder + "/keys/base.keys",
       "--json",      options.folder + "/base.json",
       "--record",    options.folder + "/recording",
       "--judgement", options.folder + "/judgement.yaml"};
+  if (!cars.front().commands.empty())
+    of_one.insert(of_one.end(), {"--command", cars.front().commands});
   const std::vector<std::string> of_several{"--cars", options.folder + "/cars.yaml"};
   const auto& more = cars.size() == 1 ? of_one : of_several;
   words.insert(words.end(), more.begin(), more.end());
@@ -140,14 +142,19 @@ RunOptions run_options(const DemoOptions& options, const bench::Loaded& loaded) 
   return run;
 }
 
-// Folders, keys, the base's file of cars.
-Result<bool, Problem> prepare(const DemoOptions& options, std::span<const DemoCar> cars) {
+// Folders, keys, what the operator says, the base's file of cars.
+Result<bool, Problem> prepare(const DemoOptions& options, const bench::Loaded& loaded,
+                              std::span<const DemoCar> cars) {
   for (const DemoCar& car : cars) {
     std::error_code error;
     fs::create_directories(car.folder, error);
     if (error) return Unexpected{Problem{car.folder, error.message()}};
     auto made = bench::make_run_keys(car.keys);
     if (!made) return made;
+  }
+  if (const std::string& commands = cars.front().commands; !commands.empty()) {
+    auto written = transport::write_file(commands, commands_text(loaded.scenario.operator_texts));
+    if (!written) return written;
   }
   if (cars.size() == 1) return true;
   return transport::write_file(options.folder + "/cars.yaml", cars_text(cars));
@@ -187,7 +194,7 @@ int demo(const DemoOptions& options) {
   const RunOptions run = run_options(options, *loaded);
   if (const auto plans = plans_of(run, *loaded); !plans) return refuse(plans.error());
   const std::vector<DemoCar> cars = demo_cars(*loaded, options.folder);
-  if (const auto ready = prepare(options, cars); !ready) return refuse(ready.error());
+  if (const auto ready = prepare(options, *loaded, cars); !ready) return refuse(ready.error());
   auto base = start_serving_base(options, *loaded, cars);
   if (!base) return refuse(base.error());
   greet(options, *loaded);

@@ -18,7 +18,8 @@ TEST(StationCars, TheBaseStationReadsWhatIsWritten) {
                                    .listen = {"127.0.0.1:23431", "127.0.0.1:23432"},
                                    .record = "7/recording",
                                    .judgement = "7/judgement.yaml",
-                                   .command_socket = "/tmp/7: commands"},
+                                   .command_socket = "/tmp/7: commands",
+                                   .commands = "7/operator.txt"},
                         StationCar{.number = 8, .keys = "8.keys", .listen = {"127.0.0.1:23433"}}};
   const auto read = settings::read_cars_text(cars_text(cars), "cars.yaml", "folder", {});
   ASSERT_TRUE(read) << to_string(read.error());
@@ -32,6 +33,7 @@ TEST(StationCars, TheBaseStationReadsWhatIsWritten) {
   EXPECT_EQ(first.record_folder, "folder/7/recording");
   EXPECT_EQ(first.judgement_file, "folder/7/judgement.yaml");
   EXPECT_EQ(first.command_socket, "/tmp/7: commands");
+  EXPECT_EQ(first.command_file, "folder/7/operator.txt");
   EXPECT_EQ(second.car, 8);
   EXPECT_EQ(second.car_name, "");
   EXPECT_EQ(second.command_socket, "");

@@ -7,6 +7,7 @@
 #include <fstream>
 #include <set>
 
+#include "basestation/inputs/command_script.hpp"
 #include "hil/cli/live/car_plans.hpp"
 #include "protocol/transport/file.hpp"
 #include "protocol/yaml/strict_map.hpp"
@@ -84,7 +85,22 @@ TEST(DemoCars, TheBasesFileNamesEachWithItsOwn) {
     EXPECT_EQ("out/demo/" + rows[i].text("json"), cars[i].folder + "/base.json");
     EXPECT_NE(rows[i].texts("listen", 1, 2)[0].find(std::to_string(cars[i].base_port)),
               std::string::npos);
+    EXPECT_EQ(rows[i].text_or("command", "none"), i == 0 ? "operator.txt" : "none");
   }
+}
+
+TEST(DemoCars, TheBasesOperatorSaysWhatTheScenarioHasHimSay) {
+  const bench::Loaded loaded = shipped("matches/competition");
+  ASSERT_EQ(demo_cars(loaded, "out/demo").front().commands, "out/demo/operator.txt");
+  auto script =
+      inputs::CommandScript::parse(commands_text(loaded.scenario.operator_texts), "operator.txt");
+  ASSERT_TRUE(script) << to_string(script.error());
+  for (const scenario::OperatorText& row : loaded.scenario.operator_texts) {
+    EXPECT_EQ(script->due(), row.at);
+    EXPECT_EQ(script->next(row.at), " " + row.text);
+  }
+  EXPECT_FALSE(script->due());
+  EXPECT_EQ(demo_cars(shipped("launch_and_stop"), "out/demo").front().commands, "");
 }
 
 }  // namespace
