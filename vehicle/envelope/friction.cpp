@@ -44,6 +44,24 @@ double grip_mps2(const FrictionParams& car, const RoadLoad& at) {
   return car.friction * std::max(normal_load_mps2(at, car.downforce_per_m), 0.0);
 }
 
+double carried_mps(const FrictionParams& car, const RoadLoad& point, double share,
+                   double most_mps) {
+  const auto spare_mps2 = [&](double speed2) {
+    RoadLoad at = point;
+    at.speed_mps = std::sqrt(speed2);
+    return share * car.friction * normal_load_mps2(at, car.downforce_per_m) -
+           std::abs(lateral_demand_mps2(at));
+  };
+  const double most2 = most_mps * most_mps, beyond_mps2 = spare_mps2(most2);
+  if (beyond_mps2 >= 0.0) return most_mps;
+  // Linear in the square of the speed from there on where the bank alone turns the car.
+  const double fall_mps2 = kGravity_mps2 * point.sin_bank, turn = turn_per_m(point);
+  const double neutral2 = fall_mps2 * turn > 0.0 ? fall_mps2 / turn : 0.0;
+  const double spare = neutral2 < most2 ? spare_mps2(neutral2) : beyond_mps2;
+  if (!(spare >= 0.0)) return 0.0;
+  return std::sqrt(neutral2 + (most2 - neutral2) * spare / (spare - beyond_mps2));
+}
+
 double brake_available_mps2(const FrictionParams& car, const RoadLoad& at, double share) {
   const double grip = grip_mps2(car, at);
   const double rest = left_over(share * grip, lateral_demand_mps2(at));

@@ -60,6 +60,9 @@ FrictionParams on_tyres(const FrictionParams& car, double tyre_c);
 using steering::RoadLoad;
 
 double grip_mps2(const FrictionParams& car, const RoadLoad& at);
+// Highest speed, at most most_mps, at which this share of the grip carries the lateral demand of a
+// point of the road; 0 if none does. The speed of `at` is not used.
+double carried_mps(const FrictionParams& car, const RoadLoad& at, double share, double most_mps);
 // Deceleration available for braking (>= 0) with this total share of the grip (0..1]; aerodynamic
 // drag, which costs no grip, adds to it. Zero if the corner uses all of it.
 double brake_available_mps2(const FrictionParams& car, const RoadLoad& at, double share);

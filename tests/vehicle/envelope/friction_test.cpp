@@ -45,5 +45,26 @@ TEST(Friction, TheRearAxleAloneDrives) {
   EXPECT_GT(drive_available_mps2(car, at, 1.0), 5.0);
 }
 
+// By bisection over the speeds, on roads that turn with their bank, against it and not at all.
+TEST(Friction, ACornerCarriesTheCarUpToItsSpeedAndNoFaster) {
+  constexpr double kUsed = 0.8, kMost_mps = 90.0;
+  for (const double radius_m : {60.0, -150.0, 250.0, -400.0, 1e9})
+    for (const double bank_deg : {-20.0, -3.0, 0.0, 5.0, 24.0}) {
+      const auto spare_mps2 = [&](double speed_mps) {
+        const RoadLoad at{speed_mps, 1.0 / radius_m, from_deg(bank_deg)};
+        return kUsed * grip_mps2(kCar, at) - std::abs(lateral_demand_mps2(at));
+      };
+      const RoadLoad road{kUnset, 1.0 / radius_m, from_deg(bank_deg)};
+      const double carried = carried_mps(kCar, road, kUsed, kMost_mps);
+      ASSERT_GT(carried, 0.0) << radius_m << " " << bank_deg;
+      EXPECT_GE(spare_mps2(carried), -1e-9) << radius_m << " " << bank_deg;
+      if (carried == kMost_mps) continue;
+      EXPECT_NEAR(spare_mps2(carried), 0.0, 1e-9) << radius_m << " " << bank_deg;
+      EXPECT_LT(spare_mps2(carried + 0.01), 0.0) << radius_m << " " << bank_deg;
+    }
+  const RoadLoad beyond{kUnset, 1.0 / 30.0, from_deg(-60.0)};
+  EXPECT_EQ(carried_mps(kCar, beyond, kUsed, kMost_mps), 0.0);
+}
+
 }  // namespace
 }  // namespace pitwall::envelope

@@ -96,18 +96,24 @@ double limit_mps(const LinePoint& p, const DriveLimits& limits) {
   return steering::fastest_mps(*limits.steering, p.curvature_per_m, p.bank_rad, by_grip_mps);
 }
 
-SpeedsAhead look_ahead(const Line& line, double s_m, const DriveLimits& limits) {
+SpeedsAhead look_ahead(const Line& line, double s_m, const DriveLimits& limits,
+                       const OffsetChange& merge) {
   SpeedsAhead out;
   const double begin = line.wrap(s_m) / line.spacing_m, step = kAheadStep_m / line.spacing_m;
   const std::size_t count = line.points.size();
   for (std::size_t i = kAheadPoints; i-- > 0;) {
     const double index = begin + static_cast<double>(i) * step;
     const auto floor = static_cast<std::size_t>(index);
-    const LinePoint p = point_between(line.points[floor % count], line.points[(floor + 1) % count],
-                                      index - static_cast<double>(floor));
+    LinePoint p = point_between(line.points[floor % count], line.points[(floor + 1) % count],
+                                index - static_cast<double>(floor));
+    const Offset aside = offset_at(line, merge, s_m + ahead_m(i));
+    const bool merges = aside.slope != 0.0 || aside.bend_per_m != 0.0;
+    if (merges) p.curvature_per_m = curvature_beside(p.curvature_per_m, aside);
     AheadPoint& at = out.at[i];
     at.road = {.speed_mps = kUnset, .curvature_per_m = p.curvature_per_m, .bank_rad = p.bank_rad};
     at.speed_mps = limit_mps(p, limits);
+    if (merges)  // the speeds of the line are for its own curvature
+      at.speed_mps = carried_mps(limits.friction, at.road, limits.grip_share, at.speed_mps);
     if (i + 1 == kAheadPoints) {
       at.brake_mps2 = brake_mps2(at, at.speed_mps, limits);
       continue;

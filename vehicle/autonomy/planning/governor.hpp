@@ -21,6 +21,7 @@
 #include <cstddef>
 
 #include "vehicle/autonomy/planning/line.hpp"
+#include "vehicle/autonomy/planning/offset.hpp"
 #include "vehicle/autonomy/planning/speed_reference.hpp"
 #include "vehicle/envelope/friction.hpp"
 #include "vehicle/steering/angle_limits.hpp"
@@ -61,7 +62,9 @@ struct SpeedsAhead {
   std::array<AheadPoint, kAheadPoints> at;
 };
 
-SpeedsAhead look_ahead(const Line& line, double s_m, const DriveLimits& limits);
+// `merge`: the change of offset from the line that the car drives.
+SpeedsAhead look_ahead(const Line& line, double s_m, const DriveLimits& limits,
+                       const OffsetChange& merge = {});
 
 // For a reference that is this far ahead of the car's place.
 SpeedLimits drive_limits(const SpeedsAhead& ahead, double gone_m, const SpeedReference& now,

@@ -188,7 +188,10 @@ SpeedDemand race_on(const Params& p, const Lines& lines, const world::TrackMap& 
                                       .limits = limits.drive},
                                      now);
   if (next.pass.line != next.line && next.line < lines.size()) {
-    const double length_m = std::max(in.ego.vx_mps * p.passing->pass.merge_time_s, p.merge_least_m);
+    double length_m = std::max(in.ego.vx_mps * p.passing->pass.merge_time_s, p.merge_least_m);
+    if (next.pass.phase == PassPhase::kAhead)
+      length_m = unhurried_m(lines[next.line], next.merge, car.s_m, lines[next.pass.line], length_m,
+                             in.ego.vx_mps, limits.drive);
     go_to_line(lines, next.pass.line, length_m, in.ego, car, next);
   }
   if (decision.reason == RaceReason::kNone) return demand;
@@ -227,22 +230,22 @@ SpeedDemand by_pit(const Params& p, const Lines& lines, const Inputs& in, const 
   return box_mps < demand.speed_mps ? SpeedDemand{box_mps, Reason::kBox} : demand;
 }
 
-// The path that is followed stays; before, it is chosen anew from where the car is.
+// The path that is followed stays but for a car in its way; before, it is chosen anew from where
+// the car is.
 void plan_stop_path(const Params& params, const Line& line, const LinePosition& car,
                     const Neighbours& neighbours, double speed_mps, Followed followed,
                     const StopLimits& limits, State& state) {
+  const StopFrom from{.s_m = car.s_m,
+                      .speed_mps = speed_mps,
+                      .merge = state.merge,
+                      .beside_m = car.offset_m - offset_at(line, state.merge, car.s_m).n_m,
+                      .neighbours = neighbours.span()};
   if (stops(followed) && state.stop.chosen) {
     state.stop.gone_m += std::remainder(car.s_m - state.line_s_m, line.length_m);
+    keep_clear(state.stop, line, from, limits, params.stop_path);
     return;
   }
-  const double aside_m = car.offset_m - offset_at(line, state.merge, car.s_m).n_m;
-  state.stop = choose_stop(line,
-                           {.s_m = car.s_m,
-                            .speed_mps = speed_mps,
-                            .merge = state.merge,
-                            .beside_m = aside_m,
-                            .neighbours = neighbours.span()},
-                           limits, params.stop_path);
+  state.stop = choose_stop(line, from, limits, params.stop_path);
 }
 
 // The reference at `now`: moved on by what control followed, kept near the measured speed.
@@ -360,7 +363,7 @@ Output step(const Params& params, const Line& own_line, const world::TrackMap& t
                  in.followed, limits.stop, next);
   if (in.followed != Followed::kEmergency) limits.stop.decel_max_mps2 *= next.stop.decel_share;
   const RoadAhead road = road_ahead(line, next.stop, car.s_m);
-  const SpeedsAhead ahead = look_ahead(line, car.s_m, limits.drive);
+  const SpeedsAhead ahead = look_ahead(line, car.s_m, limits.drive, next.merge);
   const SpeedReference now_at = reference(params, ahead, state, road, limits, in, now);
   next.started = true;
   next.at = now;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "vehicle/autonomy/planning/flag_speed.hpp"
 #include "vehicle/autonomy/planning/paper_race.hpp"
@@ -17,6 +18,8 @@ constexpr double kWayStep_m = 20.0, kWay_m = 400.0;
 constexpr double kInWay_m =
     2.6;  // lateral distance of the centres, below which a car is in the way
 constexpr double kAnyLimit_mps = 1e3;
+constexpr std::array kStretches{1.0, 1.4, 2.0, 2.8};  // of a merge
+constexpr double kCarried = 1.06;   // of the grip that is planned with: the governor slows, too
 constexpr double kMoves_mps = 2.0;  // a slower car beside the way is passed even behind flags
 
 // The places of our car on every line, once.
@@ -126,6 +129,22 @@ double in_way_mps(const PassParams& p, const RaceInputs& in, const PassState& st
   return least_mps;
 }
 
+// Whether the corners have room for what the change adds.
+bool is_carried(const OffsetChange& change, const SpeedsAhead& ahead, double speed_mps,
+                const DriveLimits& limits) {
+  for (std::size_t i = 0; i < ahead.at.size(); ++i) {
+    const double gone_m = static_cast<double>(i) * kAheadStep_m;
+    if (gone_m > change.length_m) break;
+    steering::RoadLoad road = ahead.at[i].road;
+    road.speed_mps = std::min(speed_mps, ahead.at[i].speed_mps);
+    road.curvature_per_m =
+        curvature_beside(road.curvature_per_m, offset_at(change, change.from_s_m + gone_m));
+    const double carried_mps2 = limits.grip_share * grip_mps2(limits.friction, road);
+    if (std::abs(lateral_demand_mps2(road)) > kCarried * carried_mps2) return false;
+  }
+  return true;
+}
+
 RaceReason reason_of(PassPhase phase) {
   switch (phase) {
     case PassPhase::kFree:  // closes up to a rival that is not seen yet
@@ -191,6 +210,19 @@ OffsetChange change_line(const Line& from, const OffsetChange& merge, double s_m
           .to_m = 0.0,
           .from_slope = begin.slope,
           .from_bend_per_m = begin.bend_per_m};
+}
+
+double unhurried_m(const Line& from, const OffsetChange& merge, double s_m, const Line& to,
+                   double length_m, double speed_mps, const DriveLimits& limits) {
+  std::optional<SpeedsAhead> ahead;
+  double tried_m = length_m;
+  for (const double stretch : kStretches) {
+    tried_m = stretch * length_m;
+    const OffsetChange change = change_line(from, merge, s_m, to, tried_m);
+    if (!ahead) ahead = look_ahead(to, change.from_s_m, limits);
+    if (is_carried(change, *ahead, speed_mps, limits)) break;
+  }
+  return tried_m;
 }
 
 }  // namespace pitwall::planning

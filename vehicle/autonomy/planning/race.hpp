@@ -73,4 +73,9 @@ RaceDecision race(const PassParams& params, PassState& state, const RaceInputs& 
 OffsetChange change_line(const Line& from, const OffsetChange& merge, double s_m, const Line& to,
                          double length_m);
 
+// Length of such a merge that is in no hurry: longer than length_m where the corners on its way
+// would not carry a shorter one at this speed.
+double unhurried_m(const Line& from, const OffsetChange& merge, double s_m, const Line& to,
+                   double length_m, double speed_mps, const DriveLimits& limits);
+
 }  // namespace pitwall::planning

@@ -12,9 +12,12 @@ namespace pitwall::planning {
 namespace {
 
 constexpr std::array kDecelShares{1.0, 0.87, 0.75, 0.65};
-constexpr std::array kChangeShares{1.0, 0.75, 0.5, 0.25};     // of the way to the low side
-constexpr std::array kBegins{0.0, 0.15, 0.3, 0.45, 0.6};      // of the way to the low speed
-constexpr double kChangeMost_mps2 = 1.5;                      // lateral, of the change alone
+constexpr std::array kChangeShares{1.0, 0.75, 0.5, 0.25};  // of the way to the low side
+constexpr std::array kBegins{0.0, 0.15, 0.3, 0.45, 0.6};   // of the way to the low speed
+constexpr double kChangeMost_mps2 = 1.5;                   // lateral, of the change alone
+// Lateral, to end a change that is under way; the largest bend of a path that comes to run along
+// the line, per its slope and length.
+constexpr double kSettleMost_mps2 = 3.0, kSettleBend = 1.5;
 constexpr double kChangeGripShare = 0.95;                     // of the share: the rest brakes
 constexpr double kChangeLeast_m = 40.0, kShiftLeast_m = 0.3;  // less is not worth a change
 constexpr double kLevel_rad = from_deg(1.0);                  // a road without a low side
@@ -192,6 +195,32 @@ StopPath without_merge(const StopPath& path) {
   return out;
 }
 
+// The rest of a path that is followed, from where the car is.
+StopPath rest_of(const StopPath& path) {
+  StopPath rest = path;
+  for (OffsetChange* const change : {&rest.merge, &rest.low, &rest.back})
+    change->from_s_m -= path.gone_m;
+  rest.gone_m = 0.0;
+  return rest;
+}
+
+// Beside the place where the car is, as near as its sideways speed can be taken off.
+StopPath ended_here(const StopPath& rest, double speed_mps) {
+  const Offset now = offset_at(rest, 0.0);
+  const double length_m =
+      kSettleBend * std::abs(now.slope) * speed_mps * speed_mps / kSettleMost_mps2;
+  StopPath out = rest;
+  out.beside_m = 0.0;
+  out.low = out.back = {};
+  out.merge = {.from_s_m = 0.0,
+               .length_m = std::max(length_m, kChangeLeast_m),
+               .from_m = now.n_m,
+               .to_m = now.n_m + 0.5 * now.slope * length_m,
+               .from_slope = now.slope,
+               .from_bend_per_m = now.bend_per_m};
+  return out;
+}
+
 // How far the low side lies at the place where the car will stand; zero where it is level.
 double way_down_m(const LinePoint& place, double offset_m, double clearance_m) {
   if (std::abs(place.bank_rad) < kLevel_rad) return 0.0;
@@ -269,6 +298,19 @@ StopPath choose_stop(const Line& line, const StopFrom& from, const StopLimits& l
   if (meets_one_of(path, others, slowing)) path = as_it_is;
   lead_back(path, reach_m, from.speed_mps);
   return path;
+}
+
+void keep_clear(StopPath& path, const Line& line, const StopFrom& from, const StopLimits& limits,
+                const StopPathParams& params) {
+  if (from.neighbours.empty()) return;
+  const StopPath rest = rest_of(path);
+  const Slowing slowing = slow_down(road_ahead(line, rest, from.s_m), from.speed_mps,
+                                    softened(limits, path.decel_share), params.low_speed_mps);
+  StopPath here = ended_here(rest, from.speed_mps);
+  const Neighbours others = clear_of(here, from.neighbours, slowing);
+  if (!meets_one_of(rest, others, slowing)) return;
+  lead_back(here, distance_m(reach_of(slowing)), from.speed_mps);
+  path = here;
 }
 
 }  // namespace pitwall::planning

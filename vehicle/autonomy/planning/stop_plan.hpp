@@ -15,7 +15,8 @@
 //          nearer already comes no nearer, and neither does a line that is
 //          it meets no car that it would not meet at the offset where it is: no change leads into
 //          a car beside, or to where one from behind will come before the stop is over. A merge
-//          that does is taken back
+//          that does is taken back, and so is a change under way once a car that was to be gone has
+//          come into its way
 //   frames Map; offsets positive left
 //   errors none: if nothing better is possible the path stays parallel to the line
 //   cost   O(kRoadPoints * cars) per tried place and change, below 0.2 ms; no allocation
@@ -80,5 +81,9 @@ struct StopFrom {
 
 StopPath choose_stop(const Line& line, const StopFrom& from, const StopLimits& limits,
                      const StopPathParams& params);
+// For a path that is followed, at every step: where its rest meets a car that it would not meet
+// beside the place where it is, it ends there. `from.merge` and `from.beside_m` are not used.
+void keep_clear(StopPath& path, const Line& line, const StopFrom& from, const StopLimits& limits,
+                const StopPathParams& params);
 
 }  // namespace pitwall::planning

@@ -34,6 +34,8 @@ struct Governed {
   DriveLimits limits;
   SpeedReference now;
   double s_m = 0.0;
+  OffsetChange merge{};
+  bool knows_merge = true;
 
   Governed(double radius_m, double tyre_c, const Pace& pace)
       : line(build_line(testing::stadium(radius_m), params).value()),
@@ -48,13 +50,15 @@ struct Governed {
   // Its acceleration since the last one.
   void tick() {
     const SpeedReference last = now;
-    now = advance_drive(look_ahead(line, s_m, limits), last, limits, kTick_s);
+    now = advance_drive(look_ahead(line, s_m, limits, knows_merge ? merge : OffsetChange{}), last,
+                        limits, kTick_s);
     s_m += 0.5 * (last.speed_mps + now.speed_mps) * kTick_s;
   }
 
   steering::RoadLoad road() const {
     const LinePoint p = line.at(s_m);
-    return {now.speed_mps, p.curvature_per_m, p.bank_rad};
+    const double turn = curvature_beside(p.curvature_per_m, offset_at(line, merge, s_m));
+    return {now.speed_mps, turn, p.bank_rad};
   }
 };
 
@@ -111,6 +115,33 @@ TEST(Governor, RandomDemandsNeverStepAndStayWithinTheEnvelope) {
   }
   EXPECT_GT(fastest_mps, 65.0);
   EXPECT_GT(hardest_mps2, 5.0);
+}
+
+// Back to its line from 5 m beside it in 2.5 s, begun anywhere on the lap, as it is known a little
+// before: the merge turns the car more than the line does, which counts.
+TEST(Governor, AMergeInACornerIsWithinTheEnvelopeToo) {
+  constexpr double kNotice_m = 60.0;
+  const auto most_used = [](bool knows) {
+    double most = 0.0;
+    for (int begin = 0; begin < 24; ++begin) {
+      Governed car{120.0, 85.0, kRacing};
+      car.limits.target_mps = 80.0;
+      while (car.s_m < car.line.length_m * (1.0 + begin / 24.0)) car.tick();
+      const double begin_m = car.s_m, length_m = 2.5 * car.now.speed_mps;
+      car.merge = {.from_s_m = car.line.wrap(begin_m + kNotice_m),
+                   .length_m = length_m,
+                   .from_m = begin % 2 == 0 ? -5.0 : 5.0};
+      car.knows_merge = knows;
+      for (; car.s_m < begin_m + kNotice_m + length_m; car.tick()) {
+        const steering::RoadLoad at = car.road();
+        const double carried = car.limits.grip_share * grip_mps2(car.limits.friction, at);
+        most = std::max(most, std::abs(lateral_demand_mps2(at)) / carried);
+      }
+    }
+    return most;
+  };
+  EXPECT_LE(most_used(true), 1.03);
+  EXPECT_GT(most_used(false), 1.08) << "it made no difference";
 }
 
 TEST(Governor, SlowsInTimeForATightTurn) {

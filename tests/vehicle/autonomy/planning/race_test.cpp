@@ -193,6 +193,35 @@ TEST(Race, ALineChangeGoesOnWithPlaceDirectionAndCurvature) {
   }
 }
 
+// At the speed that the line allows in its turn a merge takes longer, so that the turn carries it;
+// on the straight, and for a slow car, it does not.
+TEST(Race, AMergeThatIsInNoHurryIsLongerInACorner) {
+  const world::TrackMap track = testing::stadium(120.0);
+  LineParams inside = testing::kParams.line, outside = inside;
+  inside.offset_m = 3.0, outside.offset_m = -3.0;
+  const Line from = build_line(track, outside).value(), to = build_line(track, inside).value();
+  const envelope::FrictionParams& friction = testing::kParams.line.friction;
+  const DriveLimits limits{.target_mps = 0.0,
+                           .pace = testing::kParams.racing,
+                           .corners = testing::kParams.racing,
+                           .friction = on_tyres(friction, 85.0),
+                           .grip_share = testing::kParams.line.grip_share,
+                           .tyres = world::place_of(friction.tyres, 85.0),
+                           .steering = nullptr};
+  constexpr double kLength_m = 160.0;
+  int longer = 0, as_long = 0;
+  for (double s_m = 0.0; s_m < from.length_m; s_m += 25.0) {
+    EXPECT_EQ(unhurried_m(from, {}, s_m, to, kLength_m, 30.0, limits), kLength_m) << s_m;
+    const double limit_mps = to.at(s_m).speed_mps.back();
+    const double chosen_m = unhurried_m(from, {}, s_m, to, kLength_m, limit_mps, limits);
+    EXPECT_GE(chosen_m, kLength_m) << s_m;
+    EXPECT_LE(chosen_m, 3.0 * kLength_m) << s_m;
+    ++(chosen_m > kLength_m ? longer : as_long);
+  }
+  EXPECT_GT(longer, 3);
+  EXPECT_GT(as_long, 3);
+}
+
 Reason reason_after(RaceRig& rig, int ticks, TrackFlag flag) {
   Reason reason = Reason::kUnknown;
   for (int i = 0; i < ticks; ++i) reason = rig.tick(flag, VehicleFlag::kAttacker, kSlow_mps).reason;

@@ -176,6 +176,46 @@ TEST(StopPlan, AMergeThatLeadsIntoACarIsTakenBack) {
   EXPECT_NEAR(end_of(std::span{&beside, 1}), offset_at(merge, 61.0).n_m, 1e-6);
 }
 
+// A car that was to pass us, but stays beside the place where the change ends.
+TEST(StopPlan, AChangeUnderWayEndsWhereItIsForACarThatHasComeIntoItsWay) {
+  const StopRig rig;
+  constexpr double kBegin_m = 61.0, kSpeed_mps = 38.0, kReach_m = 120.0;
+  const StopPath planned =
+      choose_stop(rig.line, {.s_m = kBegin_m, .speed_mps = 45.0, .merge = {}, .beside_m = -2.5},
+                  limits_on(85.0), kParams.stop_path);
+  ASSERT_GT(lowest_m(planned), 2.0);
+  for (const double share : {0.0, 0.15, 0.3}) {
+    StopPath path = planned;
+    path.gone_m = planned.low.from_s_m + share * planned.low.length_m;
+    const Offset before = offset_at(path, path.gone_m);
+    const auto followed = [&](std::vector<Neighbour> others) {
+      StopPath out = path;
+      keep_clear(out, rig.line,
+                 {.s_m = kBegin_m + path.gone_m,
+                  .speed_mps = kSpeed_mps,
+                  .merge = {},
+                  .neighbours = others},
+                 limits_on(85.0), kParams.stop_path);
+      return out;
+    };
+    const StopPath alone = followed({}), passed = followed({{80.0, before.n_m, 60.0}});
+    for (const StopPath& same : {alone, passed})
+      for (double d = 0.0; d < kReach_m; d += 5.0)
+        EXPECT_EQ(offset_at(same, same.gone_m + d).n_m, offset_at(path, path.gone_m + d).n_m);
+    const double other_m = -2.5 + lowest_m(planned) + 2.5;
+    const StopPath ended = followed({{0.0, other_m, 30.0}});
+    const Offset now = offset_at(ended, ended.gone_m);
+    EXPECT_NEAR(now.n_m, before.n_m, 1e-9) << share;
+    EXPECT_NEAR(now.slope, before.slope, 1e-9) << share;
+    EXPECT_NEAR(now.bend_per_m, before.bend_per_m, 1e-9) << share;
+    for (double d = 0.0; d < kReach_m; d += 1.0) {
+      const Offset o = offset_at(ended, ended.gone_m + d);
+      EXPECT_LE(o.n_m, other_m - 3.0) << share << " after " << d;
+      EXPECT_LE(std::abs(o.bend_per_m) * kSpeed_mps * kSpeed_mps, 4.0) << share << " after " << d;
+    }
+  }
+}
+
 // Whoever is around, and wherever: those whom the chosen path meets, it would meet anyway.
 TEST(StopPlan, MeetsNobodyWhomItWouldNotMeetWhereItIs) {
   const StopRig rig;
