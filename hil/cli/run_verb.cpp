@@ -11,6 +11,7 @@
 #include "hil/bench/live/live_plan.hpp"
 #include "hil/bench/loading.hpp"
 #include "hil/bench/lockstep/lockstep.hpp"
+#include "hil/can_bus/bus_options.hpp"
 #include "hil/can_bus/bus_verb.hpp"
 #include "hil/can_bus/own_hub.hpp"
 #include "hil/cli/command_line.hpp"
@@ -184,6 +185,11 @@ Result<std::vector<std::string>, Problem> exec_arguments(const RunOptions& optio
                                                          std::span<const std::string> other_buses) {
   std::vector<std::string> words{"exec", "--auto", "--interface", options.interface};
   for (const std::string& bus : other_buses) words.insert(words.end(), {"--interface", bus});
+  if (!other_buses.empty()) {  // each car with a stack locks its memory
+    const int cars = 1 + static_cast<int>(other_buses.size());
+    const int each_mib = can_bus::BusExecOptions{}.memory_mib;
+    words.insert(words.end(), {"--memory", std::to_string(cars * each_mib)});
+  }
   if (is_clock_file(options.clock)) words.insert(words.end(), {"--clock", options.clock});
   RunOptions inside = options;
   inside.clock = on_host(options.clock);

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "hil/can_bus/bus_options.hpp"
 #include "hil/can_bus/line_relay.hpp"
 #include "hil/cli/live/clock_place.hpp"
 #include "hil/cli/live/programs.hpp"
@@ -284,6 +285,19 @@ TEST(ExecWords, LeadTheRadioOutOfTheGuest) {
   const auto any = exec_arguments(options);
   ASSERT_TRUE(any);
   EXPECT_NE((*any)[5].substr(0, 2), "0:");
+}
+
+// Cars lock their memory: two in the guest of one end by its kernel.
+TEST(ExecWords, GiveEveryCarWithAStackItsMemory) {
+  RunOptions options;
+  options.scenario = "s.yaml";
+  options.interface = "vcan0";
+  EXPECT_EQ(std::ranges::count(exec_arguments(options).value(), "--memory"), 0) << "the default";
+  const std::vector<std::string> others{"vcan1"};
+  const std::vector<std::string> words = exec_arguments(options, others).value();
+  const auto memory = std::ranges::find(words, "--memory");
+  ASSERT_NE(memory, words.end());
+  EXPECT_EQ(*(memory + 1), std::to_string(2 * can_bus::BusExecOptions{}.memory_mib));
 }
 
 }  // namespace
