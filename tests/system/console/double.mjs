@@ -73,7 +73,6 @@ const kBaseFields = {
   },
 };
 const kFirstBaseField = 16_384;
-const kFramesPerSecond = 25;
 /** By which each car drives behind the one before it. */
 const kBehindS = 3;
 
@@ -133,6 +132,8 @@ export class Double {
   overrides = new Map();
   /** False: the car is silent, ages grow, every field becomes stale in its time. */
   carAlive = true;
+  /** How often it sends; as a base does, unless a test looks at what is drawn alone. */
+  framesPerSecond = 25;
   /** What it says once a second of the check list, and what it has recorded; null: nothing. */
   checklist = null;
   recordings = null;
@@ -170,7 +171,7 @@ export class Double {
     this.sockets = new WebSocketServer({ server: this.server, path: "/ws" });
     this.sockets.on("connection", (socket, request) => this.greet(socket, request));
     await new Promise((done) => this.server.listen(port, "127.0.0.1", done));
-    this.timer = setInterval(() => this.tick(), 40);
+    this.timer = setInterval(() => this.tick(), 1000 / this.framesPerSecond);
     return `http://127.0.0.1:${this.server.address().port}`;
   }
 
@@ -238,7 +239,7 @@ export class Double {
       const car = socket.car ?? 0;
       socket.send((frames[car] ??= wire.snapshot(this.entries(car), head)));
     }
-    if (this.checklist && this.sequence % kFramesPerSecond === 0) {
+    if (this.checklist && this.sequence % this.framesPerSecond === 0) {
       this.say(this.checklist(this.nowMs()));
     }
     for (const listener of this.frameListeners) listener(this.nowMs());

@@ -23,6 +23,7 @@ const kStatusContrast = 4.5;
 const kLeastDistance = 20;
 
 const stage = doubleStage((double) => {
+  double.framesPerSecond = 5; // what is drawn is looked at, not how often
   double.greetings = greetings(double);
   Object.assign(double, { checklist, recordings: kRecordings });
   troubles(double);

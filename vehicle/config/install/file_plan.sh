@@ -36,12 +36,13 @@ may_change() {
     fail 'this machine can be changed by root only: sudo, or --root DIR for a tree of your own'
 }
 
-scratch=''
+scratch='' owner=''
 begin_plan() {
   trap on_exit EXIT
   trap 'exit 130' INT
   trap 'exit 143' TERM HUP
   scratch=$(mktemp -d)
+  if ((EUID == 0)); then owner=root:root; else owner=$(id -un):$(id -gn); fi
   load_manifest
 }
 
@@ -62,7 +63,7 @@ say_manifest() {
   local action=create
   [[ ! -f $target$manifest ]] || action=replace
   changes || action=keep
-  printf '%-8s %s %s 0644 (what is installed, with checksums)' "$action" "$manifest" "$(owner)"
+  printf '%-8s %s %s 0644 (what is installed, with checksums)' "$action" "$manifest" "$owner"
 }
 
 load_manifest() {
@@ -190,8 +191,6 @@ changes() {
   return 1
 }
 
-owner() { if ((EUID == 0)); then echo root:root; else echo "$(id -un):$(id -gn)"; fi; }
-
 same_attributes() { # FILE MODE
   [[ 0$(stat -c %a "$1") == "$2" ]] || return 1
   ((EUID != 0)) || [[ $(stat -c %U:%G "$1") == root:root ]]
@@ -201,14 +200,14 @@ show_line() {
   local i=$1 action=${plan_action[$1]} path=${plan_path[$1]}
   case ${plan_kind[i]}:$action in
     folder:remove) printf '%-8s %s/ (if empty)\n' "$action" "$path" ;;
-    folder:*) printf '%-8s %s/ %s %s\n' "$action" "$path" "$(owner)" "${plan_mode[i]}" ;;
+    folder:*) printf '%-8s %s/ %s %s\n' "$action" "$path" "$owner" "${plan_mode[i]}" ;;
     *:remove) printf '%-8s %s\n' "$action" "$path" ;;
     link:*) printf '%-8s %s -> %s\n' "$action" "$path" "${plan_source[i]}" ;;
     program:*)
-      printf '%-8s %s %s %s%s\n' "$action" "$path" "$(owner)" "${plan_mode[i]}" \
+      printf '%-8s %s %s %s%s\n' "$action" "$path" "$owner" "${plan_mode[i]}" \
         "$([[ -f ${plan_source[i]} ]] || echo ' (not built yet)')"
       ;;
-    *) printf '%-8s %s %s %s\n' "$action" "$path" "$(owner)" "${plan_mode[i]}" ;;
+    *) printf '%-8s %s %s %s\n' "$action" "$path" "$owner" "${plan_mode[i]}" ;;
   esac
   [[ $action != replace || ${plan_kind[i]} =~ ^(program|secret)$ ]] ||
     diff -u --label "$path (as it is)" --label "$path (as it will be)" \
@@ -250,7 +249,11 @@ commit_plan() {
 }
 
 swap() { # PATH ACTION
-  if [[ -e $1 || -L $1 ]]; then ln -fT -- "$1" "$1.pitwall-old"; else rm -f -- "$1.pitwall-old"; fi
+  if [[ -e $1 || -L $1 ]]; then
+    ln -fT -- "$1" "$1.pitwall-old"
+  elif [[ -e $1.pitwall-old || -L $1.pitwall-old ]]; then
+    rm -f -- "$1.pitwall-old"
+  fi
   done_paths+=("$1")
   if [[ $2 == remove ]]; then rm -- "$1"; else mv -T -- "$1.pitwall-new" "$1"; fi
 }
@@ -282,7 +285,7 @@ apply_removal() {
 finish_plan() {
   local i
   committed=1
-  for i in "${done_paths[@]}"; do rm -f -- "$i.pitwall-old"; done
+  rm -f -- "${done_paths[@]/%/.pitwall-old}"
   for i in "${!plan_path[@]}"; do
     [[ ${plan_kind[i]}:${plan_action[i]} != folder:remove ]] ||
       rmdir --ignore-fail-on-non-empty -- "$target${plan_path[i]}" 2>/dev/null || true

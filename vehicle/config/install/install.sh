@@ -59,18 +59,19 @@ source "$here/settings.sh"
 
 # --- what the car's computer gets ------------------------------------------------------------
 
-# render TEMPLATE [NAME]: the template with its @NAMES@ filled in, as a file of its own.
-render() {
-  local out=$scratch/${2:-$1}
-  sed -e "s|@IFACE@|$can|g" -e "s|@BITRATE@|$bitrate|g" -e "s|@RESTART_MS@|$restart_ms|g" \
-    -e "s|@LISTEN_ONLY_YES_NO@|$( ((listen_only)) && echo yes || echo no)|g" \
-    -e "s|@LISTEN_ONLY_ON_OFF@|$( ((listen_only)) && echo on || echo off)|g" \
-    -e "s|@TX_QUEUE@|$tx_queue_frames|g" -e "s|@CAR@|${car##*/}|g" -e "s|@TRACK@|${track##*/}|g" \
-    -e "s|@RECEIVER_0@|${receiver[0]}|g" -e "s|@RECEIVER_1@|${receiver[1]}|g" \
-    -e "s|@GUARDIAN_RECEIVER_0@|${guardian_receiver[0]}|g" \
-    -e "s|@GUARDIAN_RECEIVER_1@|${guardian_receiver[1]}|g" \
-    -e "s|@RADIO@|$radio|g" "$here/$1" >"$out"
-  printf '%s' "$out"
+# plan_rendered KIND PATH TEMPLATE: the template with its @NAMES@ filled in is planned for PATH.
+plan_rendered() {
+  local text name out=$scratch/$3
+  local -A values=([IFACE]=$can [BITRATE]=$bitrate [RESTART_MS]=$restart_ms
+    [LISTEN_ONLY_YES_NO]=no [LISTEN_ONLY_ON_OFF]=off [TX_QUEUE]=$tx_queue_frames
+    [CAR]=${car##*/} [TRACK]=${track##*/} [RADIO]=$radio
+    [RECEIVER_0]=${receiver[0]} [RECEIVER_1]=${receiver[1]}
+    [GUARDIAN_RECEIVER_0]=${guardian_receiver[0]} [GUARDIAN_RECEIVER_1]=${guardian_receiver[1]})
+  ((!listen_only)) || values[LISTEN_ONLY_YES_NO]=yes values[LISTEN_ONLY_ON_OFF]=on
+  text=$(<"$here/$3")
+  for name in "${!values[@]}"; do text=${text//"@$name@"/"${values[$name]}"}; done
+  printf '%s\n' "$text" >"$out"
+  plan_file "$1" 0644 "$2" "$out"
 }
 
 # The car file and those that it is like, which lie beside it.
@@ -97,18 +98,16 @@ plan_files() {
   plan_file program 0755 /opt/pitwall/bin/pitwall-hil "$build/hil/pitwall-hil"
   plan_car_files
   plan_file config 0644 "/etc/pitwall/tracks/${track##*/}" "$track"
-  plan_file config 0644 /etc/pitwall/vehicle.env "$(render vehicle.env)"
+  plan_rendered config /etc/pitwall/vehicle.env vehicle.env
   plan_keys
-  plan_file system 0644 /etc/sysusers.d/pitwall.conf "$(render sysusers.conf)"
-  plan_file system 0644 /etc/modules-load.d/pitwall.conf "$(render modules.conf)"
-  plan_file config 0644 /etc/sysctl.d/05-pitwall.conf "$(render sysctl.conf)"
-  plan_file config 0644 /etc/security/limits.d/70-pitwall.conf "$(render limits.conf)"
+  plan_rendered system /etc/sysusers.d/pitwall.conf sysusers.conf
+  plan_rendered system /etc/modules-load.d/pitwall.conf modules.conf
+  plan_rendered config /etc/sysctl.d/05-pitwall.conf sysctl.conf
+  plan_rendered config /etc/security/limits.d/70-pitwall.conf limits.conf
   plan_bus
-  plan_file system 0644 /etc/systemd/system/pitwall-vehicle.service \
-    "$(render pitwall-vehicle.service)"
+  plan_rendered system /etc/systemd/system/pitwall-vehicle.service pitwall-vehicle.service
   plan_wanted_by_device pitwall-vehicle.service
-  plan_file system 0644 /etc/systemd/system/pitwall-guardian.service \
-    "$(render pitwall-guardian.service)"
+  plan_rendered system /etc/systemd/system/pitwall-guardian.service pitwall-guardian.service
   plan_wanted_by_device pitwall-guardian.service
   plan_serial pitwall-vehicle.service "${receiver[@]}"
   plan_serial pitwall-guardian.service "${guardian_receiver[@]}"
@@ -169,15 +168,14 @@ plan_bus() {
   local other
   other=$(other_manager)
   if [[ -L $target$networkd_link && ${old_kind[$networkd_link]:-} != link || -z $other ]]; then
-    plan_file config 0644 "/etc/systemd/network/70-pitwall-$can.network" "$(render can.network)"
-    plan_file config 0644 "/etc/systemd/network/70-pitwall-$can.link" "$(render can.link)"
+    plan_rendered config "/etc/systemd/network/70-pitwall-$can.network" can.network
+    plan_rendered config "/etc/systemd/network/70-pitwall-$can.link" can.link
     [[ -L $target$networkd_link && ${old_kind[$networkd_link]:-} != link ]] ||
       plan_link "$networkd_link" /lib/systemd/system/systemd-networkd.service
   else
     note "$other manages this machine: systemd-networkd is not enabled," \
       "pitwall-can-$can.service sets $can up"
-    plan_file system 0644 "/etc/systemd/system/pitwall-can-$can.service" \
-      "$(render pitwall-can.service)"
+    plan_rendered system "/etc/systemd/system/pitwall-can-$can.service" pitwall-can.service
     plan_wanted_by_device "pitwall-can-$can.service"
   fi
   note_rivals
