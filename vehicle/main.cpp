@@ -19,6 +19,7 @@
 #include "vehicle/io/black_box.hpp"
 #include "vehicle/io/car_io.hpp"
 #include "vehicle/io/computer_watch.hpp"
+#include "vehicle/io/detect/detect_command.hpp"
 #include "vehicle/io/guardian_link.hpp"
 #include "vehicle/io/ingress/sensor_ingress.hpp"
 #include "vehicle/io/radio.hpp"
@@ -321,6 +322,9 @@ void introduce(const io::Arguments& args, const pipeline::Setup& setup, Parts& p
 }
 
 int run(int argc, const char* const* argv) {
+  const std::span words{argv, static_cast<std::size_t>(argc)};
+  if (words.size() > 1 && std::string_view{words[1]} == "detect")
+    return io::detect_command(words.subspan(2));
   const auto parsed = io::parse_arguments(argc, argv);
   if (const int* code = std::get_if<int>(&parsed)) return *code;
   const auto& args = std::get<io::Arguments>(parsed);

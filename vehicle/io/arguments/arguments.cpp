@@ -16,6 +16,7 @@ namespace pitwall::io {
 std::variant<Arguments, int> parse_arguments(int argc, const char* const* argv) {
   Arguments args;
   CLI::App app{"pitwall-vehicle: the on-car autonomy process"};
+  app.footer("pitwall-vehicle detect FILE: the cars in a point cloud file");
   app.add_option("--car", args.car_file, "car file (vehicle/config/cars/*.yaml)")->required();
   app.add_option("--track", args.track_file, "track file (vehicle/config/tracks/*.yaml)")
       ->required();

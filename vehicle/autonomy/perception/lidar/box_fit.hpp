@@ -1,0 +1,31 @@
+// Rectangle about the points of one object, seen from above: of a car a LiDAR sees one side or two,
+// an L.
+//   in     points in the plane, two at least
+//   out    the rectangle whose sides lie closest to the points: its axes, and how far the points
+//          reach along them
+//   law    turning and moving the points turns and moves the rectangle
+//   cost   O(points x headings): 10 us for 100 points
+//   source X. Zhang, W. Xu, C. Dong, J. Dolan: Efficient L-shape fitting for vehicle detection using
+//          laser scanners, IV 2017, algorithm 2 (search) with algorithm 4 (closeness)
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <span>
+
+#include "protocol/vocabulary/units.hpp"
+
+namespace pitwall::perception {
+
+struct PlanePoint {
+  double x_m = 0.0, y_m = 0.0;
+};
+
+struct Rectangle {
+  double x_m = kUnset, y_m = kUnset;           // centre
+  double yaw_rad = kUnset;                     // of its first side, in [0, pi/2)
+  double along_m = kUnset, across_m = kUnset;  // lengths of its sides
+};
+
+Rectangle fit_rectangle(std::span<const PlanePoint> points);
+
+}  // namespace pitwall::perception
