@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <numbers>
 #include <random>
 
 namespace pitwall::testing {
@@ -19,6 +20,12 @@ inline double draw_uniform(std::mt19937_64& random, double from, double to) {
 
 inline double draw_exponential(std::mt19937_64& random, double mean) {
   return -mean * std::log1p(-draw_uniform(random));
+}
+
+// Of the mean 0 (Box and Muller).
+inline double draw_normal(std::mt19937_64& random, double sigma) {
+  const double radius = std::sqrt(-2.0 * std::log1p(-draw_uniform(random)));
+  return sigma * radius * std::cos(2.0 * std::numbers::pi * draw_uniform(random));
 }
 
 }  // namespace pitwall::testing

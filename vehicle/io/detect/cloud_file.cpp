@@ -11,7 +11,7 @@
 namespace pitwall::io {
 namespace {
 
-using world::LidarPoint, world::PointCloud;
+using perception::LidarPoint, perception::PointCloud;
 
 constexpr std::array<std::string_view, 4> kNames{"x", "y", "z", "intensity"};
 constexpr std::size_t kNeeded = 3;  // of the names
@@ -132,7 +132,7 @@ class PcdReader {
           if (!is_known(f)) return refuse_here("a type of " + f.name + " that no PCD has");
         return head;
       }
-      if (const auto said = take(words, head); !said) return Unexpected{said.error()};
+      if (const auto taken = take(words, head); !taken) return Unexpected{taken.error()};
     }
     return refuse_here("no DATA in the head of a PCD");
   }

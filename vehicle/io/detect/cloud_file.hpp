@@ -14,12 +14,13 @@
 #include <string_view>
 
 #include "protocol/vocabulary/result.hpp"
-#include "vehicle/world/point_cloud.hpp"
+#include "vehicle/autonomy/perception/lidar/point_cloud.hpp"
 
 namespace pitwall::io {
 
 inline constexpr std::size_t kCloudPointsMax = 10'000'000;
 
-Result<world::PointCloud, Problem> parse_cloud(std::string_view bytes, const std::string& name);
+Result<perception::PointCloud, Problem> parse_cloud(std::string_view bytes,
+                                                    const std::string& name);
 
 }  // namespace pitwall::io

@@ -20,7 +20,7 @@ int refuse_file(const Problem& problem) {
   return kExitUsage;
 }
 
-Result<world::PointCloud, Problem> read_cloud(const std::string& path) {
+Result<perception::PointCloud, Problem> read_cloud(const std::string& path) {
   const auto bytes = transport::read_file(path);
   if (!bytes) return Unexpected{bytes.error()};
   return parse_cloud(*bytes, path);

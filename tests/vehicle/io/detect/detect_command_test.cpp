@@ -33,7 +33,7 @@ TEST_F(DetectCommand, PrintsTheCarsOfAFile) {
   const std::string file =
       std::filesystem::temp_directory_path() / ("pitwall_detect_" + std::to_string(::getpid()));
   const std::string name = file + ".bin";
-  const world::PointCloud sweep =
+  const perception::PointCloud sweep =
       perception::sweep_of({.boxes = {{.x_m = 25.0, .y_m = -3.0, .yaw_rad = 0.05},
                                       {.x_m = -20.0, .y_m = 0.0, .yaw_rad = 0.0}}},
                            1);

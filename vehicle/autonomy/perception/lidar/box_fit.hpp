@@ -5,8 +5,8 @@
 //          reach along them
 //   law    turning and moving the points turns and moves the rectangle
 //   cost   O(points x headings): 10 us for 100 points
-//   source X. Zhang, W. Xu, C. Dong, J. Dolan: Efficient L-shape fitting for vehicle detection using
-//          laser scanners, IV 2017, algorithm 2 (search) with algorithm 4 (closeness)
+//   source X. Zhang, W. Xu, C. Dong, J. Dolan: Efficient L-shape fitting for vehicle detection
+//          using laser scanners, IV 2017, algorithm 2 (search) with algorithm 4 (closeness)
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

@@ -17,9 +17,9 @@ struct Area {
   float lowest_m = kNothing;
 };
 
-Area area_of(std::span<const world::LidarPoint> points) {
+Area area_of(std::span<const LidarPoint> points) {
   Area a;
-  for (const world::LidarPoint& p : points) {
+  for (const LidarPoint& p : points) {
     a.from_x_m = std::min(a.from_x_m, p.x_m), a.to_x_m = std::max(a.to_x_m, p.x_m);
     a.from_y_m = std::min(a.from_y_m, p.y_m), a.to_y_m = std::max(a.to_y_m, p.y_m);
     a.lowest_m = std::min(a.lowest_m, p.z_m);
@@ -144,7 +144,7 @@ std::size_t cells_of(float length_m, double cell_m) {
 
 }  // namespace
 
-Cloth::Cloth(std::span<const world::LidarPoint> points, const ClothParams& params)
+Cloth::Cloth(std::span<const LidarPoint> points, const ClothParams& params)
     : cell_m_(params.cell_m), height_m_(1, 0.0F) {
   if (points.empty()) return;
   const Area area = area_of(points);
@@ -153,7 +153,7 @@ Cloth::Cloth(std::span<const world::LidarPoint> points, const ClothParams& param
   rows_ = cells_of(area.to_y_m - area.from_y_m, cell_m_);
   const Grid grid{columns_, rows_};
   std::vector<float> stop_m(grid.size(), kNothing);
-  for (const world::LidarPoint& p : points) {
+  for (const LidarPoint& p : points) {
     const auto column = static_cast<std::size_t>((p.x_m - area.from_x_m) / cell_m_ + 0.5);
     const auto row = static_cast<std::size_t>((p.y_m - area.from_y_m) / cell_m_ + 0.5);
     if (column >= columns_ || row >= rows_) continue;

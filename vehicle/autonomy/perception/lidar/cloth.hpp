@@ -2,8 +2,8 @@
 //   in     points in Body or in the sensor's frame, z up
 //   out    height of the ground at any place of the area, between the particles of the cloth
 //          linearly; beside the area that of its edge
-//   law    a plane that does not rise more than kSlopeMax is found to a centimetre; the ground never
-//          rises onto something narrower than a few cells
+//   law    it lies on the lowest points: below a road that leans, by half a cell's slope. It never
+//          rises onto something that is narrower than a few cells
 //   errors none: without points the ground is at 0
 //   cost   O(cells x steps): 15 ms for 200 m x 40 m in cells of 1 m and 75,000 points
 //   source W. Zhang et al.: An easy-to-use airborne LiDAR data filtering method based on cloth
@@ -15,7 +15,7 @@
 #include <span>
 #include <vector>
 
-#include "vehicle/world/point_cloud.hpp"
+#include "vehicle/autonomy/perception/lidar/point_cloud.hpp"
 
 namespace pitwall::perception {
 
@@ -29,7 +29,7 @@ struct ClothParams {
 
 class Cloth {
  public:
-  Cloth(std::span<const world::LidarPoint> points, const ClothParams& params);
+  Cloth(std::span<const LidarPoint> points, const ClothParams& params);
   double height_m(double x_m, double y_m) const;
 
  private:

@@ -13,22 +13,21 @@
 namespace pitwall::perception {
 namespace {
 
-constexpr double kQuarter_rad = 0.5 * std::numbers::pi;
+constexpr double kQuarterTurn_rad = 0.5 * std::numbers::pi;
 
 struct Object {
   PlanePoint at;
   double over_m = 0.0;  // height over the ground
 };
 
-bool is_finite(const world::LidarPoint& p) {
+bool is_finite(const LidarPoint& p) {
   return std::isfinite(p.x_m) && std::isfinite(p.y_m) && std::isfinite(p.z_m);
 }
 
-world::PointCloud cropped(std::span<const world::LidarPoint> sweep, const Crop& crop,
-                          ClusterResult& result) {
-  world::PointCloud points;
+PointCloud cropped(std::span<const LidarPoint> sweep, const Crop& crop, ClusterResult& result) {
+  PointCloud points;
   points.reserve(sweep.size());
-  for (const world::LidarPoint& p : sweep) {
+  for (const LidarPoint& p : sweep) {
     if (!is_finite(p)) {
       ++result.not_finite;
     } else if (p.x_m > crop.ahead_m || p.x_m < -crop.behind_m || std::abs(p.y_m) > crop.side_m) {
@@ -41,10 +40,10 @@ world::PointCloud cropped(std::span<const world::LidarPoint> sweep, const Crop& 
 }
 
 // Of what stands on the ground, within the height of a car.
-std::vector<Object> objects_of(std::span<const world::LidarPoint> points, const Cloth& ground,
+std::vector<Object> objects_of(std::span<const LidarPoint> points, const Cloth& ground,
                                const ClusterParams& params, std::size_t& of_ground) {
   std::vector<Object> objects;
-  for (const world::LidarPoint& p : points) {
+  for (const LidarPoint& p : points) {
     const double over_m = p.z_m - ground.height_m(p.x_m, p.y_m);
     if (over_m < params.above_m) ++of_ground;
     if (over_m >= params.above_m && over_m <= params.below_m)
@@ -67,14 +66,14 @@ Side stretched(double middle_m, double seen_m, double car_m) {
 
 CarBox car_about(const Rectangle& seen, const ClusterParams& params) {
   const bool is_turned = seen.across_m > seen.along_m;
-  double yaw_rad = seen.yaw_rad + (is_turned ? kQuarter_rad : 0.0);
+  double yaw_rad = seen.yaw_rad + (is_turned ? kQuarterTurn_rad : 0.0);
   double longer_m = std::max(seen.along_m, seen.across_m);
   double shorter_m = std::min(seen.along_m, seen.across_m);
   // Not longer than a car is wide: its front or rear, where the sight goes along it.
   if (longer_m <= params.width_m + 0.5 * params.larger_m) {
     const double sight_rad = std::atan2(seen.y_m, seen.x_m);
     if (std::abs(std::sin(sight_rad - yaw_rad)) > std::sqrt(0.5)) {
-      yaw_rad += kQuarter_rad;
+      yaw_rad += kQuarterTurn_rad;
       std::swap(longer_m, shorter_m);
     }
   }
@@ -141,10 +140,9 @@ void keep_one_a_place(ClusterResult& result) {
 
 }  // namespace
 
-ClusterResult detect_clusters(std::span<const world::LidarPoint> sweep,
-                              const ClusterParams& params) {
+ClusterResult detect_clusters(std::span<const LidarPoint> sweep, const ClusterParams& params) {
   ClusterResult result;
-  const world::PointCloud points = cropped(sweep, params.crop, result);
+  const PointCloud points = cropped(sweep, params.crop, result);
   const Cloth ground{points, params.cloth};
   const std::vector<Object> objects = objects_of(points, ground, params, result.ground);
   std::vector<PlanePoint> places;

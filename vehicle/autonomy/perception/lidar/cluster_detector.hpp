@@ -1,8 +1,8 @@
 // Cars in a LiDAR sweep without a trained network: what stands on the ground, in clusters that are
 // as large as a car can look.
 //   in     points in Body or in the sensor's frame, z up, the sensor at its origin
-//   out    boxes on the ground, nearest first. Where a LiDAR sees one or two sides of a car, the box
-//          has the size of a car and reaches away from the sensor. Why other clusters are none
+//   out    boxes on the ground, nearest first; of a car that a LiDAR sees from one side or two the
+//          box has the size of a car and reaches away from the sensor. Why other clusters are none
 //   errors a point that is not finite is counted and left out, as is one beside the crop
 //   source the first LiDAR detector of the MIT-Pitt-RW stack: cloth filter, DBSCAN, gates of size
 // SPDX-License-Identifier: Apache-2.0
@@ -14,7 +14,7 @@
 
 #include "protocol/vocabulary/units.hpp"
 #include "vehicle/autonomy/perception/lidar/cloth.hpp"
-#include "vehicle/world/point_cloud.hpp"
+#include "vehicle/autonomy/perception/lidar/point_cloud.hpp"
 
 namespace pitwall::perception {
 
@@ -51,7 +51,6 @@ struct ClusterResult {
   std::size_t parts = 0;                                   // clusters in the place of a car
 };
 
-ClusterResult detect_clusters(std::span<const world::LidarPoint> sweep,
-                              const ClusterParams& params);
+ClusterResult detect_clusters(std::span<const LidarPoint> sweep, const ClusterParams& params);
 
 }  // namespace pitwall::perception

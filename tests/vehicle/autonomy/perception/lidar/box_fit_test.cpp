@@ -8,6 +8,8 @@
 #include <random>
 #include <vector>
 
+#include "tests/support/draw.hpp"
+
 namespace pitwall::perception {
 namespace {
 
@@ -20,13 +22,12 @@ PlanePoint moved(const PlanePoint& p, double x_m, double y_m, double yaw_rad) {
 
 // The rear and the right side of a car, as an L.
 Points corner(double length_m, double width_m, double noise_m, std::uint32_t seed) {
-  std::mt19937 random{seed};
-  std::normal_distribution<double> noise{0.0, noise_m};
+  std::mt19937_64 random{seed};
   Points points;
   constexpr int kPoints = 20;
   for (int i = 0; i <= kPoints; ++i) {
-    points.push_back({length_m * i / kPoints, noise(random)});
-    points.push_back({noise(random), width_m * i / kPoints});
+    points.push_back({length_m * i / kPoints, testing::draw_normal(random, noise_m)});
+    points.push_back({testing::draw_normal(random, noise_m), width_m * i / kPoints});
   }
   return points;
 }
@@ -60,11 +61,11 @@ TEST(BoxFit, NoiseOfALidarTurnsItByAFewDegreesAtMost) {
 }
 
 TEST(BoxFit, HoldsEveryPoint) {
-  std::mt19937 random{4};
-  std::uniform_real_distribution<double> anywhere{-5.0, 5.0};
+  std::mt19937_64 random{4};
+  const auto anywhere = [&] { return testing::draw_uniform(random, -5.0, 5.0); };
   for (int n = 2; n < 60; ++n) {
     Points points;
-    for (int i = 0; i < n; ++i) points.push_back({anywhere(random), anywhere(random)});
+    for (int i = 0; i < n; ++i) points.push_back({anywhere(), anywhere()});
     const Rectangle fit = fit_rectangle(points);
     EXPECT_GE(fit.yaw_rad, 0.0);
     EXPECT_LT(fit.yaw_rad, 0.5 * std::numbers::pi);

@@ -15,10 +15,10 @@ const SceneBox kCar{.x_m = 25.0, .y_m = 3.0, .yaw_rad = 0.1};
 TEST(Cloth, LiesOnARoadThatLeans) {
   for (const double lean : {0.0, 0.05, -0.1}) {
     const LidarScene scene{.lean = lean, .boxes = {kCar}};
-    world::PointCloud points = sweep_of(scene, 3);
+    PointCloud points = sweep_of(scene, 3);
     std::erase_if(points, [](const auto& p) { return p.x_m > 100.0F || std::abs(p.y_m) > 20.0F; });
     const Cloth cloth{points, {}};
-    for (const world::LidarPoint& p : points) {
+    for (const LidarPoint& p : points) {
       const double road_m = lean * p.y_m - scene.sensor_m;
       if (std::abs(p.x_m - kCar.x_m) < 4.0 && std::abs(p.y_m - kCar.y_m) < 3.0) continue;
       // The lowest point of a cell, and half a cell of slope.
@@ -29,13 +29,13 @@ TEST(Cloth, LiesOnARoadThatLeans) {
 }
 
 TEST(Cloth, DoesNotRiseOntoACar) {
-  const world::PointCloud points = sweep_of({.boxes = {kCar}}, 4);
+  const PointCloud points = sweep_of({.boxes = {kCar}}, 4);
   const Cloth cloth{points, {}};
   EXPECT_NEAR(cloth.height_m(kCar.x_m, kCar.y_m), -1.0, 0.2);
 }
 
 TEST(Cloth, IsTheGroundBesideTheAreaToo) {
-  const Cloth cloth{world::PointCloud{{0, 0, 2, 0}, {5, 0, 2, 0}, {0, 5, 2, 0}, {5, 5, 2, 0}}, {}};
+  const Cloth cloth{PointCloud{{0, 0, 2, 0}, {5, 0, 2, 0}, {0, 5, 2, 0}, {5, 5, 2, 0}}, {}};
   EXPECT_NEAR(cloth.height_m(2.5, 2.5), 2.0, 0.01);
   EXPECT_NEAR(cloth.height_m(-100.0, 40.0), 2.0, 0.01);
 }

@@ -56,7 +56,7 @@ TEST(ClusterDetector, TwoCarsSideBySideAreTwo) {
 TEST(ClusterDetector, CountsPointsThatAreNone) {
   constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
   constexpr float kInfinite = std::numeric_limits<float>::infinity();
-  world::PointCloud points = sweep_of({.boxes = {{.x_m = 12.0, .y_m = -4.0, .yaw_rad = 0.0}}}, 1);
+  PointCloud points = sweep_of({.boxes = {{.x_m = 12.0, .y_m = -4.0, .yaw_rad = 0.0}}}, 1);
   const ClusterResult before = detect_clusters(points, {});
   for (const float bad : {kNan, kInfinite, -kInfinite})
     points.insert(points.end(), {{bad, 0, 0, 0}, {0, bad, 0, 0}, {0, 0, bad, 0}});

@@ -10,6 +10,8 @@
 #include <set>
 #include <vector>
 
+#include "tests/support/draw.hpp"
+
 namespace pitwall::perception {
 namespace {
 
@@ -46,11 +48,11 @@ std::set<Indices> by_definition(const Points& points, double cell_m, std::size_t
 }
 
 TEST(Clusters, AreThoseOfTheDefinition) {
-  std::mt19937 random{7};
-  std::uniform_real_distribution<double> anywhere{-12.0, 12.0};
+  std::mt19937_64 random{7};
+  const auto anywhere = [&] { return testing::draw_uniform(random, -12.0, 12.0); };
   for (const std::size_t count : {0U, 1U, 10U, 100U, 400U, 900U}) {
     Points points;
-    for (std::size_t i = 0; i < count; ++i) points.push_back({anywhere(random), anywhere(random)});
+    for (std::size_t i = 0; i < count; ++i) points.push_back({anywhere(), anywhere()});
     for (const double cell_m : {0.2, 0.5, 1.0}) {
       const auto found = clusters_of(points, cell_m, 3);
       EXPECT_EQ(std::set<Indices>(found.begin(), found.end()), by_definition(points, cell_m, 3))

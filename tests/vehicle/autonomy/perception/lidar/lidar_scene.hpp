@@ -12,7 +12,8 @@
 #include <random>
 #include <vector>
 
-#include "vehicle/world/point_cloud.hpp"
+#include "tests/support/draw.hpp"
+#include "vehicle/autonomy/perception/lidar/point_cloud.hpp"
 
 namespace pitwall::perception {
 
@@ -53,11 +54,10 @@ inline std::optional<double> hit(const LidarScene& scene, const SceneBox& box, c
 
 }  // namespace scene_rays
 
-inline world::PointCloud sweep_of(const LidarScene& scene, std::uint32_t seed) {
+inline PointCloud sweep_of(const LidarScene& scene, std::uint32_t seed) {
   constexpr double kDegree = 0.017453292519943295, kReach_m = 240.0;
-  std::mt19937 random{seed};
-  std::normal_distribution<double> noise_m{0.0, scene.noise_m};
-  world::PointCloud points;
+  std::mt19937_64 random{seed};
+  PointCloud points;
   for (int ring = 0; ring < 60; ++ring) {
     const double up_rad = (7.9 - 0.54 * ring) * kDegree;
     for (double at = scene.from_rad; at < scene.to_rad; at += 0.14 * kDegree) {
@@ -69,7 +69,7 @@ inline world::PointCloud sweep_of(const LidarScene& scene, std::uint32_t seed) {
         if (const auto at_m = scene_rays::hit(scene, box, ray))
           nearest_m = std::min(nearest_m, *at_m);
       if (nearest_m >= kReach_m) continue;
-      nearest_m += noise_m(random);
+      nearest_m += testing::draw_normal(random, scene.noise_m);
       points.push_back({static_cast<float>(ray[0] * nearest_m),
                         static_cast<float>(ray[1] * nearest_m),
                         static_cast<float>(ray[2] * nearest_m), 0.1F});

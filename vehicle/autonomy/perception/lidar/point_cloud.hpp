@@ -7,7 +7,7 @@
 
 #include <vector>
 
-namespace pitwall::world {
+namespace pitwall::perception {
 
 struct LidarPoint {
   float x_m = 0.0F, y_m = 0.0F, z_m = 0.0F;
@@ -16,4 +16,4 @@ struct LidarPoint {
 
 using PointCloud = std::vector<LidarPoint>;
 
-}  // namespace pitwall::world
+}  // namespace pitwall::perception
