@@ -44,9 +44,9 @@ void visit_neighbours(const Grid& grid, std::size_t i, Visit visit) {
   if (row + 1 < grid.rows) visit(i + 1);
 }
 
-// The value of a neighbour that has one, ring by ring. Returns which cells had none.
-std::vector<std::size_t> spread_into_holes(const Grid& grid, std::vector<float>& stop_m) {
-  std::vector<std::size_t> known, next, holes;
+// Cells without a point take the value of a neighbour that has one, ring by ring.
+void fill_holes(const Grid& grid, std::vector<float>& stop_m) {
+  std::vector<std::size_t> known, next;
   for (std::size_t i = 0; i < stop_m.size(); ++i)
     if (stop_m[i] < kNothing) known.push_back(i);
   while (!known.empty()) {
@@ -57,28 +57,12 @@ std::vector<std::size_t> spread_into_holes(const Grid& grid, std::vector<float>&
         stop_m[to] = stop_m[i];
         next.push_back(to);
       });
-    holes.insert(holes.end(), next.begin(), next.end());
     std::swap(known, next);
   }
-  return holes;
 }
 
-// Between rings that are far apart, and behind a car, nothing is seen: there the road goes on from
-// edge to edge of the hole (Laplace's equation, by successive over-relaxation).
-void fill_holes(const Grid& grid, std::vector<float>& stop_m) {
-  constexpr int kPasses = 80;
-  constexpr float kOver = 1.85F;
-  const std::vector<std::size_t> holes = spread_into_holes(grid, stop_m);
-  for (int pass = 0; pass < kPasses; ++pass)
-    for (const std::size_t i : holes) {
-      float sum_m = 0.0F, count = 0.0F;
-      visit_neighbours(grid, i,
-                       [&](std::size_t beside) { sum_m += stop_m[beside], count += 1.0F; });
-      stop_m[i] += kOver * (sum_m / std::max(count, 1.0F) - stop_m[i]);
-    }
-}
-
-// The cloth rises from below the lowest point and stays where it meets one.
+// The cloth rises from below the lowest point, and nowhere above the points. Its particles hold
+// each other back, so that it spans the foot of what is narrow.
 class Rising {
  public:
   Rising(const Grid& grid, std::vector<float> stop_m, float from_m, const ClothParams& params)
@@ -86,10 +70,9 @@ class Rising {
         stop_m_(std::move(stop_m)),
         now_m_(grid.size(), from_m),
         before_m_(now_m_),
-        lies_(grid.size(), 0),
         lift_m_(static_cast<float>(params.gravity_mps2 * params.step_s * params.step_s)),
         kept_(static_cast<float>(1.0 - params.damping)),
-        pull_(static_cast<float>(params.pull)) {}
+        pull_(static_cast<float>(0.5 * params.pull)) {}
 
   // The largest way of a particle.
   float step() {
@@ -103,16 +86,14 @@ class Rising {
   void rise() {
     for (std::size_t i = 0; i < now_m_.size(); ++i) {
       const float was_m = now_m_[i];
-      if (lies_[i] == 0) now_m_[i] += kept_ * (was_m - before_m_[i]) + lift_m_;
+      now_m_[i] += kept_ * (was_m - before_m_[i]) + lift_m_;
       before_m_[i] = was_m;
     }
   }
-  // Both of a pair that are free take half of the way each; one beside a particle that lies takes
-  // it alone.
   void pull_pair(std::size_t a, std::size_t b) {
     const float way_m = pull_ * (now_m_[b] - now_m_[a]);
-    if (lies_[a] == 0) now_m_[a] += lies_[b] == 0 ? 0.5F * way_m : way_m;
-    if (lies_[b] == 0) now_m_[b] -= lies_[a] == 0 ? 0.5F * way_m : way_m;
+    now_m_[a] += way_m;
+    now_m_[b] -= way_m;
   }
   void pull_together() {
     for (std::size_t column = 0; column < grid_.columns; ++column)
@@ -125,8 +106,7 @@ class Rising {
   float meet() {
     float most_m = 0.0F;
     for (std::size_t i = 0; i < now_m_.size(); ++i) {
-      if (lies_[i] != 0) continue;
-      if (now_m_[i] >= stop_m_[i]) now_m_[i] = stop_m_[i], lies_[i] = 1;
+      now_m_[i] = std::min(now_m_[i], stop_m_[i]);
       most_m = std::max(most_m, std::abs(now_m_[i] - before_m_[i]));
     }
     return most_m;
@@ -134,7 +114,6 @@ class Rising {
 
   Grid grid_;
   std::vector<float> stop_m_, now_m_, before_m_;
-  std::vector<char> lies_;
   float lift_m_, kept_, pull_;
 };
 

@@ -34,6 +34,17 @@ TEST(Cloth, DoesNotRiseOntoACar) {
   EXPECT_NEAR(cloth.height_m(kCar.x_m, kCar.y_m), -1.0, 0.2);
 }
 
+TEST(Cloth, RoundsTheEdgeOfAStepWithinACell) {
+  PointCloud points;
+  for (float x_m = 0.0F; x_m <= 20.0F; x_m += 0.5F)
+    for (float y_m = -5.0F; y_m <= 5.0F; y_m += 0.5F)
+      points.push_back({x_m, y_m, x_m < 10.0F ? 0.0F : -1.0F, 0.0F});
+  const Cloth cloth{points, {}};
+  EXPECT_NEAR(cloth.height_m(8.0, 0.0), 0.0, 0.01);
+  EXPECT_GT(cloth.height_m(9.0, 0.0), -0.5);
+  EXPECT_NEAR(cloth.height_m(10.0, 0.0), -1.0, 0.01);
+}
+
 TEST(Cloth, IsTheGroundBesideTheAreaToo) {
   const Cloth cloth{PointCloud{{0, 0, 2, 0}, {5, 0, 2, 0}, {0, 5, 2, 0}, {5, 5, 2, 0}}, {}};
   EXPECT_NEAR(cloth.height_m(2.5, 2.5), 2.0, 0.01);
