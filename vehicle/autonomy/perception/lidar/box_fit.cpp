@@ -21,14 +21,6 @@ struct Reach {
   double to_side(double value) const { return std::min(most - value, value - least); }
 };
 
-struct Axes {
-  double cos_yaw, sin_yaw;
-
-  explicit Axes(double yaw_rad) : cos_yaw(std::cos(yaw_rad)), sin_yaw(std::sin(yaw_rad)) {}
-  double along(const PlanePoint& p) const { return p.x_m * cos_yaw + p.y_m * sin_yaw; }
-  double across(const PlanePoint& p) const { return p.y_m * cos_yaw - p.x_m * sin_yaw; }
-};
-
 struct Sides {
   Reach along, across;
 };
@@ -72,9 +64,9 @@ Rectangle fit_rectangle(std::span<const PlanePoint> points) {
   yaw_rad -= kQuarter_rad * std::floor(yaw_rad / kQuarter_rad);
   const Axes axes{yaw_rad};
   const Sides sides = sides_of(points, axes);
-  const double u = sides.along.middle(), v = sides.across.middle();
-  return {.x_m = u * axes.cos_yaw - v * axes.sin_yaw,
-          .y_m = u * axes.sin_yaw + v * axes.cos_yaw,
+  const PlanePoint centre = axes.at(sides.along.middle(), sides.across.middle());
+  return {.x_m = centre.x_m,
+          .y_m = centre.y_m,
           .yaw_rad = yaw_rad,
           .along_m = sides.along.most - sides.along.least,
           .across_m = sides.across.most - sides.across.least};

@@ -10,6 +10,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cmath>
 #include <span>
 
 #include "protocol/vocabulary/units.hpp"
@@ -18,6 +19,18 @@ namespace pitwall::perception {
 
 struct PlanePoint {
   double x_m = 0.0, y_m = 0.0;
+};
+
+// Of a box that is turned by `yaw_rad`: coordinates along its sides, and back.
+struct Axes {
+  double cos_yaw, sin_yaw;
+
+  explicit Axes(double yaw_rad) : cos_yaw(std::cos(yaw_rad)), sin_yaw(std::sin(yaw_rad)) {}
+  double along(const PlanePoint& p) const { return p.x_m * cos_yaw + p.y_m * sin_yaw; }
+  double across(const PlanePoint& p) const { return p.y_m * cos_yaw - p.x_m * sin_yaw; }
+  PlanePoint at(double along_m, double across_m) const {
+    return {along_m * cos_yaw - across_m * sin_yaw, along_m * sin_yaw + across_m * cos_yaw};
+  }
 };
 
 struct Rectangle {

@@ -5,7 +5,7 @@
 //   law    it lies on the lowest points: below a road that leans, by half a cell's slope. It never
 //          rises onto something that is narrower than a few cells
 //   errors none: without points the ground is at 0
-//   cost   O(cells x steps): 15 ms for 200 m x 40 m in cells of 1 m and 75,000 points
+//   cost   O(points + cells x steps): 2 ms for 60,000 points on 200 m x 40 m
 //   source W. Zhang et al.: An easy-to-use airborne LiDAR data filtering method based on cloth
 //          simulation, Remote Sensing 2016, 8(6), 501: equations 6 to 9
 // SPDX-License-Identifier: Apache-2.0

@@ -77,11 +77,13 @@ CarBox car_about(const Rectangle& seen, const ClusterParams& params) {
       std::swap(longer_m, shorter_m);
     }
   }
-  const double c = std::cos(yaw_rad), s = std::sin(yaw_rad);
-  const Side along = stretched(seen.x_m * c + seen.y_m * s, longer_m, params.length_m);
-  const Side across = stretched(seen.y_m * c - seen.x_m * s, shorter_m, params.width_m);
-  return {.x_m = along.middle_m * c - across.middle_m * s,
-          .y_m = along.middle_m * s + across.middle_m * c,
+  const Axes axes{yaw_rad};
+  const PlanePoint middle{seen.x_m, seen.y_m};
+  const Side along = stretched(axes.along(middle), longer_m, params.length_m);
+  const Side across = stretched(axes.across(middle), shorter_m, params.width_m);
+  const PlanePoint centre = axes.at(along.middle_m, across.middle_m);
+  return {.x_m = centre.x_m,
+          .y_m = centre.y_m,
           .yaw_rad = std::remainder(yaw_rad, std::numbers::pi),
           .length_m = along.length_m,
           .width_m = across.length_m};
@@ -116,10 +118,10 @@ void judge(const Indices& cluster, std::span<const Object> objects, const Cloth&
 // Two cars are never in one place: what seems so is one, whose rays leave gaps.
 bool is_same_place(const CarBox& car, const CarBox& other) {
   constexpr double kShare = 0.9;
-  const double c = std::cos(car.yaw_rad), s = std::sin(car.yaw_rad);
-  const double dx_m = other.x_m - car.x_m, dy_m = other.y_m - car.y_m;
-  return std::abs(dx_m * c + dy_m * s) < kShare * car.length_m &&
-         std::abs(dy_m * c - dx_m * s) < kShare * car.width_m;
+  const Axes axes{car.yaw_rad};
+  const PlanePoint apart{other.x_m - car.x_m, other.y_m - car.y_m};
+  return std::abs(axes.along(apart)) < kShare * car.length_m &&
+         std::abs(axes.across(apart)) < kShare * car.width_m;
 }
 
 // Of each place the cluster with the most points.
