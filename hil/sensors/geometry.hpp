@@ -25,15 +25,33 @@ constexpr Vector3 cross(const Vector3& a, const Vector3& b) {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
 
-inline Vector3 in_map(const Vector3& v, const plant::Truth& t) {
-  const double cos_roll = std::cos(t.roll_rad), sin_roll = std::sin(t.roll_rad);
-  const double cos_pitch = std::cos(t.pitch_rad), sin_pitch = std::sin(t.pitch_rad);
-  const double cos_yaw = std::cos(t.yaw_rad), sin_yaw = std::sin(t.yaw_rad);
+struct Attitude {
+  double roll_rad = 0.0, pitch_rad = 0.0, yaw_rad = 0.0;
+};
+
+inline Vector3 in_map(const Vector3& v, const Attitude& a) {
+  const double cos_roll = std::cos(a.roll_rad), sin_roll = std::sin(a.roll_rad);
+  const double cos_pitch = std::cos(a.pitch_rad), sin_pitch = std::sin(a.pitch_rad);
+  const double cos_yaw = std::cos(a.yaw_rad), sin_yaw = std::sin(a.yaw_rad);
   const double left = v[1] * cos_roll - v[2] * sin_roll;
   const double raised = v[1] * sin_roll + v[2] * cos_roll;
   const double ahead = v[0] * cos_pitch + raised * sin_pitch;
   return {ahead * cos_yaw - left * sin_yaw, ahead * sin_yaw + left * cos_yaw,
           raised * cos_pitch - v[0] * sin_pitch};
+}
+
+inline Vector3 in_map(const Vector3& v, const plant::Truth& t) {
+  return in_map(v, Attitude{t.roll_rad, t.pitch_rad, t.yaw_rad});
+}
+
+// Of a rotation: the axes of the turned frame, in the frame around it.
+using Rotation = std::array<Vector3, 3>;
+
+inline Rotation rotation(const Attitude& a) {
+  return {in_map({1.0, 0.0, 0.0}, a), in_map({0.0, 1.0, 0.0}, a), in_map({0.0, 0.0, 1.0}, a)};
+}
+constexpr Vector3 turned(const Rotation& r, const Vector3& v) {
+  return plus(plus(times(v[0], r[0]), times(v[1], r[1])), times(v[2], r[2]));
 }
 
 // Bearing from north, clockwise, in [0, 2 pi).

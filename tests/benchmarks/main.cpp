@@ -17,6 +17,7 @@
 #include "tests/benchmarks/modules/bench_ekf.hpp"
 #include "tests/benchmarks/modules/bench_gnss.hpp"
 #include "tests/benchmarks/modules/bench_plant.hpp"
+#include "tests/benchmarks/perception/bench_perception.hpp"
 #include "tests/benchmarks/protocol_comparison/bench_radio.hpp"
 #include "tests/benchmarks/radio/radio_gates.hpp"
 #include "tests/benchmarks/replay/bench_replay.hpp"
@@ -47,6 +48,7 @@ constexpr std::array kBenchmarks{
     Benchmark{"speed", "longitudinal laws side by side, up and down the gears", bench_speed},
     Benchmark{"step", "one step of the car", bench_step},
     Benchmark{"time_trial", "laps of Las Vegas at the limit, 20 seeds", bench_time_trial},
+    Benchmark{"perception", "LiDAR detectors on drawn scenes", bench_perception},
     Benchmark{"tracking", "trackers of other cars on the same detections", bench_tracking},
 };
 

@@ -244,14 +244,17 @@ Result<PointCloud, Problem> parse_kitti(std::string_view bytes, const std::strin
   if (bytes.size() / kPointBytes > kCloudPointsMax)
     return refuse(name, "more than " + std::to_string(kCloudPointsMax) + " points");
   PointCloud points(bytes.size() / kPointBytes);
-  if (!points.empty()) std::memcpy(points.data(), bytes.data(), bytes.size());
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    std::array<float, 4> row{};
+    std::memcpy(row.data(), bytes.data() + i * kPointBytes, kPointBytes);
+    points[i] = {row[0], row[1], row[2], row[3]};
+  }
   return points;
 }
 
 }  // namespace
 
 Result<PointCloud, Problem> parse_cloud(std::string_view bytes, const std::string& name) {
-  static_assert(sizeof(LidarPoint) == 16);
   if (name.ends_with(".bin")) return parse_kitti(bytes, name);
   if (name.ends_with(".pcd")) return PcdReader{bytes, name}.read();
   return refuse(name, "expected a .pcd or a .bin of KITTI");

@@ -61,13 +61,14 @@ std::string to_text(const perception::ClusterResult& found) {
     text += formatted("%8.2f %8.2f %8.1f %8.2f %8.2f %8.2f %8.2f %7zu\n", car.x_m, car.y_m,
                       kDegrees * car.yaw_rad, car.length_m, car.width_m, car.ground_m, car.height_m,
                       car.points);
-  text += formatted("%zu cars; points: %zu of the ground, %zu beside the area, %zu not finite\n",
-                    found.cars.size(), found.ground, found.beside, found.not_finite);
   text += formatted(
-      "clusters that are no cars: %zu too large, %zu too small, %zu too high, %zu in the place of "
-      "a "
-      "car\n",
-      found.too_large, found.too_small, found.too_high, found.parts);
+      "%zu cars; points: %zu of the ground, %zu of dust, %zu beside the area, %zu "
+      "not finite\n",
+      found.cars.size(), found.ground, found.dust, found.beside, found.not_finite);
+  text += formatted(
+      "clusters that are no cars: %zu too large, %zu too small, %zu too thin, %zu too "
+      "high, %zu in the place of a car\n",
+      found.too_large, found.too_small, found.too_thin, found.too_high, found.parts);
   return text;
 }
 

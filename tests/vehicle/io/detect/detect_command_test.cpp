@@ -37,9 +37,12 @@ TEST_F(DetectCommand, PrintsTheCarsOfAFile) {
       perception::sweep_of({.boxes = {{.x_m = 25.0, .y_m = -3.0, .yaw_rad = 0.05},
                                       {.x_m = -20.0, .y_m = 0.0, .yaw_rad = 0.0}}},
                            1);
-  std::ofstream{name, std::ios::binary}.write(
-      reinterpret_cast<const char*>(sweep.data()),
-      static_cast<std::streamsize>(sweep.size() * sizeof sweep[0]));
+  std::ofstream out{name, std::ios::binary};
+  for (const perception::LidarPoint& p : sweep) {
+    const std::array row{p.x_m, p.y_m, p.z_m, p.intensity};
+    out.write(reinterpret_cast<const char*>(row.data()), sizeof row);
+  }
+  out.close();
   const std::array words{name.c_str()};
   EXPECT_EQ(run(words), 0);
   std::filesystem::remove(name);

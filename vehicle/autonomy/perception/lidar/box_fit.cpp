@@ -61,7 +61,10 @@ Rectangle fit_rectangle(std::span<const PlanePoint> points) {
   constexpr double kStep_rad = kQuarter_rad / kCoarse, kFineStep_rad = 2.0 * kStep_rad / kFine;
   const double about_rad = best_heading(points, 0.0, kStep_rad, kCoarse);
   double yaw_rad = best_heading(points, about_rad - kStep_rad, kFineStep_rad, kFine + 1);
-  yaw_rad -= kQuarter_rad * std::floor(yaw_rad / kQuarter_rad);
+  return rectangle_at(points, yaw_rad - kQuarter_rad * std::floor(yaw_rad / kQuarter_rad));
+}
+
+Rectangle rectangle_at(std::span<const PlanePoint> points, double yaw_rad) {
   const Axes axes{yaw_rad};
   const Sides sides = sides_of(points, axes);
   const PlanePoint centre = axes.at(sides.along.middle(), sides.across.middle());

@@ -35,10 +35,12 @@ struct Axes {
 
 struct Rectangle {
   double x_m = kUnset, y_m = kUnset;           // centre
-  double yaw_rad = kUnset;                     // of its first side, in [0, pi/2)
+  double yaw_rad = kUnset;                     // of its first side; fitted: in [0, pi/2)
   double along_m = kUnset, across_m = kUnset;  // lengths of its sides
 };
 
 Rectangle fit_rectangle(std::span<const PlanePoint> points);
+// The one with sides along and across `yaw_rad`.
+Rectangle rectangle_at(std::span<const PlanePoint> points, double yaw_rad);
 
 }  // namespace pitwall::perception

@@ -80,17 +80,23 @@ void join_neighbours(std::span<const Group> groups, Sets& sets) {
 
 }  // namespace
 
-std::vector<Indices> clusters_of(std::span<const PlanePoint> points, double cell_m,
-                                 std::size_t points_least) {
-  const std::vector<Placed> placed = by_cell(points, cell_m);
-  const std::vector<Group> groups = groups_of(placed);
+std::vector<Indices> clusters_of(std::span<const PlanePoint> points, const ClusterRule& rule,
+                                 std::span<const float> weights) {
+  const std::vector<Placed> placed = by_cell(points, rule.cell_m);
+  std::vector<Group> groups = groups_of(placed);
+  std::erase_if(groups, [&](const Group& group) {
+    double weight = 0.0;
+    for (std::size_t k = group.first; k < group.end; ++k)
+      weight += weights.empty() ? 1.0 : static_cast<double>(weights[placed[k].point]);
+    return weight < rule.weight_least;
+  });
   Sets sets{groups.size()};
   join_neighbours(groups, sets);
   std::vector<Indices> all(groups.size());
   for (std::size_t i = 0; i < groups.size(); ++i)
     for (std::size_t k = groups[i].first; k < groups[i].end; ++k)
       all[sets.top(i)].push_back(placed[k].point);
-  std::erase_if(all, [&](const Indices& c) { return c.empty() || c.size() < points_least; });
+  std::erase_if(all, [&](const Indices& c) { return c.empty() || c.size() < rule.points_least; });
   for (Indices& cluster : all) std::ranges::sort(cluster);
   std::ranges::sort(all, {}, [](const Indices& cluster) { return cluster.front(); });
   return all;

@@ -1,6 +1,6 @@
 // Groups of points that belong together, seen from above: those whose cells touch, as DBSCAN with
-// one point to a core finds them.
-//   in     points, the side of a cell
+// cells for neighbourhoods finds them.
+//   in     points, the side of a cell, how much is in a cell of a core
 //   out    indices of the points, cluster after cluster; clusters by their first point, points in
 //          their order: the same input gives the same output
 //   law    points in cells that touch, corners included, are in one cluster; two that are more than
@@ -21,8 +21,14 @@ namespace pitwall::perception {
 
 using Indices = std::vector<std::uint32_t>;
 
-// Clusters of at least `points_least` points.
-std::vector<Indices> clusters_of(std::span<const PlanePoint> points, double cell_m,
-                                 std::size_t points_least);
+struct ClusterRule {
+  double cell_m = 0.4;
+  std::size_t points_least = 5;  // of a cluster
+  double weight_least = 0.0;  // of a cell: a thinner one is left out, its points are in no cluster
+};
+
+// `weights`: of the points; empty: 1 each.
+std::vector<Indices> clusters_of(std::span<const PlanePoint> points, const ClusterRule& rule,
+                                 std::span<const float> weights = {});
 
 }  // namespace pitwall::perception

@@ -54,7 +54,7 @@ TEST(Clusters, AreThoseOfTheDefinition) {
     Points points;
     for (std::size_t i = 0; i < count; ++i) points.push_back({anywhere(), anywhere()});
     for (const double cell_m : {0.2, 0.5, 1.0}) {
-      const auto found = clusters_of(points, cell_m, 3);
+      const auto found = clusters_of(points, {cell_m, 3});
       EXPECT_EQ(std::set<Indices>(found.begin(), found.end()), by_definition(points, cell_m, 3))
           << count << " points, cells of " << cell_m;
     }
@@ -63,8 +63,17 @@ TEST(Clusters, AreThoseOfTheDefinition) {
 
 TEST(Clusters, ComeByTheirFirstPoint) {
   const Points points{{9.0, 9.0}, {1.0, 1.0}, {9.1, 9.1}, {1.1, 1.1}, {5.0, 5.0}};
-  EXPECT_EQ(clusters_of(points, 0.5, 1), (std::vector<Indices>{{0, 2}, {1, 3}, {4}}));
-  EXPECT_EQ(clusters_of(points, 0.5, 2), (std::vector<Indices>{{0, 2}, {1, 3}}));
+  EXPECT_EQ(clusters_of(points, {0.5, 1}), (std::vector<Indices>{{0, 2}, {1, 3}, {4}}));
+  EXPECT_EQ(clusters_of(points, {0.5, 2}), (std::vector<Indices>{{0, 2}, {1, 3}}));
+}
+
+TEST(Clusters, ThinCellsAreLeftOutAndJoinNothing) {
+  // Two full cells with a thin one between them.
+  const Points points{{0.1, 0.1}, {0.2, 0.2}, {0.7, 0.1}, {1.1, 0.1}, {1.2, 0.2}};
+  EXPECT_EQ(clusters_of(points, {0.5, 1}).size(), 1U);
+  EXPECT_EQ(clusters_of(points, {0.5, 1, 2.0}), (std::vector<Indices>{{0, 1}, {3, 4}}));
+  const std::vector<float> weights{1.0F, 1.0F, 2.0F, 0.9F, 1.0F};
+  EXPECT_EQ(clusters_of(points, {0.5, 1, 2.0}, weights), (std::vector<Indices>{{0, 1, 2}}));
 }
 
 }  // namespace

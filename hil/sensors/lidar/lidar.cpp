@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "hil/sensors/lidar/lidar.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace pitwall::sensors {
+namespace {
+
+Moving after(const Moving& body, double time_s) {
+  Moving moved = body;
+  moved.at_m = plus(body.at_m, times(time_s, body.velocity_mps));
+  moved.attitude.yaw_rad += time_s * body.yaw_rate_rad_per_s;
+  return moved;
+}
+
+constexpr double dot(const Vector3& a, const Vector3& b) {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+// Where dust sends a ray back, if it does: how far away.
+std::optional<double> met_dust(std::span<const DustCloud> dust, const Vector3& from,
+                               const Vector3& along, Noise& noise) {
+  std::optional<double> nearest_m;
+  for (const DustCloud& cloud : dust) {
+    const Vector3 to = plus(cloud.at_m, times(-1.0, from));
+    const double closest_m = dot(to, along);
+    if (closest_m <= 0.0) continue;
+    const double aside2_m2 = dot(to, to) - closest_m * closest_m;
+    const double spread = aside2_m2 / (2.0 * cloud.sigma_m * cloud.sigma_m);
+    if (spread > 6.0) continue;
+    const double depth = cloud.extinction_per_m * cloud.sigma_m *
+                         std::sqrt(2.0 * std::numbers::pi) * std::exp(-spread);
+    if (noise.uniform() >= 1.0 - std::exp(-depth)) continue;
+    const double at_m = closest_m + cloud.sigma_m * noise.normal();
+    if (at_m > 0.0 && (!nearest_m || at_m < *nearest_m)) nearest_m = at_m;
+  }
+  return nearest_m;
+}
+
+bool is_received(double signal, double range_m, const LidarErrors& errors, Noise& noise) {
+  if (noise.uniform() < errors.lost_share) return false;
+  const double share = errors.reach_m / range_m;
+  const double strength = signal / errors.reach_reflectance * share * share *
+                          std::exp(errors.signal_sigma * noise.normal());
+  return strength >= 1.0;
+}
+
+class Sweep {
+ public:
+  Sweep(const LidarUnit& unit, const RayScene& scene, const LidarWorld& world, Noise& noise)
+      : unit_(unit), scene_(scene), world_(world), noise_(noise) {}
+
+  void scan(int ring, double time_s, std::vector<LidarReturn>& out) {
+    const Moving body = after(world_.ours, time_s);
+    const Rotation axes = rotation(body.attitude);
+    const Vector3 from = plus(body.at_m, turned(axes, unit_.mount.at_m));
+    const Rotation mount = rotation(unit_.mount.attitude);
+    const Rotation sensor{turned(axes, mount[0]), turned(axes, mount[1]), turned(axes, mount[2])};
+    const LidarPattern& pattern = unit_.pattern;
+    const double up_rad = pattern.top_rad - ring * pattern.ring_step_rad;
+    const double cos_up = std::cos(up_rad), sin_up = std::sin(up_rad);
+    for (double az_rad = -pattern.half_width_rad; az_rad < pattern.half_width_rad;
+         az_rad += pattern.ray_step_rad) {
+      const Vector3 ray{cos_up * std::cos(az_rad), cos_up * std::sin(az_rad), sin_up};
+      shoot(from, turned(sensor, ray), ray, time_s, out);
+    }
+  }
+
+ private:
+  void shoot(const Vector3& from, const Vector3& along, const Vector3& ray, double time_s,
+             std::vector<LidarReturn>& out) {
+    constexpr double kDustReflectance = 0.05;
+    const LidarErrors& errors = unit_.errors;
+    std::optional<Meeting> met = scene_.first(from, along, errors.most_m);
+    if (const auto dust_m = met_dust(world_.dust, from, along, noise_);
+        dust_m && (!met || *dust_m < met->range_m))
+      met = Meeting{.range_m = *dust_m, .cos_incidence = 1.0, .reflectance = kDustReflectance};
+    if (!met || met->range_m < errors.least_m) return;
+    const double signal = met->reflectance * met->cos_incidence;
+    if (!is_received(signal, met->range_m, errors, noise_)) return;
+    const double range_m = met->range_m + errors.range_sigma_m * noise_.normal();
+    out.push_back({static_cast<float>(range_m * ray[0]), static_cast<float>(range_m * ray[1]),
+                   static_cast<float>(range_m * ray[2]), static_cast<float>(signal),
+                   static_cast<float>(time_s),
+                   static_cast<std::int16_t>(met->car ? static_cast<int>(*met->car) : -1)});
+  }
+
+  const LidarUnit& unit_;
+  const RayScene& scene_;
+  const LidarWorld& world_;
+  Noise& noise_;
+};
+
+}  // namespace
+
+std::vector<LidarUnit> av21_lidars() {
+  const auto facing = [](double x_m, double y_m, double yaw_deg) {
+    LidarUnit unit;
+    unit.mount = {{x_m, y_m, 0.55}, {.yaw_rad = from_deg(yaw_deg)}};
+    return unit;
+  };
+  return {facing(1.0, 0.0, 0.0), facing(-0.4, 0.35, 120.0), facing(-0.4, -0.35, -120.0)};
+}
+
+std::vector<LidarReturn> lidar_sweep(const LidarUnit& unit, RayScene& scene,
+                                     const LidarWorld& world, Noise& noise) {
+  std::vector<LidarReturn> returns;
+  Sweep sweep{unit, scene, world, noise};
+  for (int ring = 0; ring < unit.pattern.rings; ++ring) {
+    const double time_s = ring * unit.pattern.ring_period_s;
+    for (std::size_t car = 0; car < world.cars.size(); ++car) {
+      const Moving at = after(world.cars[car], time_s);
+      scene.place(car, rotation(at.attitude), at.at_m);
+    }
+    scene.commit();
+    sweep.scan(ring, time_s, returns);
+  }
+  return returns;
+}
+
+}  // namespace pitwall::sensors

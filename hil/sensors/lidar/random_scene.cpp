@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "hil/sensors/lidar/random_scene.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "hil/sensors/lidar/track_mesh.hpp"
+
+namespace pitwall::sensors {
+namespace {
+
+constexpr std::size_t kSceneCarsMost = 5;
+constexpr double kBehind_m = 100.0, kAhead_m = 125.0;
+constexpr double kLengthApart_m = 7.0, kWidthApart_m = 2.6, kWallApart_m = 1.3;
+
+struct OnTrack {
+  double s_m, n_m, speed_mps, turned_rad;
+};
+
+double between(Noise& noise, double least, double most) {
+  return least + (most - least) * noise.uniform();
+}
+
+// The frame that stands on the road at this place, `over_m` above it.
+Moving standing_on(const world::TrackMap& track, const OnTrack& car, double over_m) {
+  const world::TrackPoint road = track.offset(car.s_m, car.n_m);
+  Moving body;
+  body.attitude = {.roll_rad = -road.bank_rad, .yaw_rad = road.yaw_rad + car.turned_rad};
+  const Rotation axes = rotation(body.attitude);
+  const Vector3 foot{road.x_m, road.y_m, track.road(car.s_m, car.n_m).height_m};
+  body.at_m = plus(foot, times(over_m, axes[2]));
+  body.velocity_mps = times(car.speed_mps, axes[0]);
+  body.yaw_rate_rad_per_s = car.speed_mps * road.curvature_per_m;
+  return body;
+}
+
+double drawn_offset_m(const world::TrackMap& track, double s_m, Noise& noise) {
+  const world::TrackPoint at = track.at(s_m);
+  return between(noise, -at.width_right_m + kWallApart_m, at.width_left_m - kWallApart_m);
+}
+
+std::vector<OnTrack> drawn_cars(const world::TrackMap& track, const OnTrack& ours, Noise& noise) {
+  std::vector<OnTrack> cars{ours};
+  const std::size_t count = noise.next() % (kSceneCarsMost + 1);
+  for (int attempt = 0; attempt < 50 && cars.size() < count + 1; ++attempt) {
+    const double s_m = track.wrap_station(ours.s_m + between(noise, -kBehind_m, kAhead_m));
+    const OnTrack car{s_m, drawn_offset_m(track, s_m, noise),
+                      std::max(0.0, ours.speed_mps + between(noise, -15.0, 15.0)),
+                      from_deg(3.0) * std::clamp(noise.normal(), -2.0, 2.0)};
+    const bool is_free = std::ranges::all_of(cars, [&](const OnTrack& other) {
+      return std::abs(std::remainder(car.s_m - other.s_m, track.length_m())) > kLengthApart_m ||
+             std::abs(car.n_m - other.n_m) > kWidthApart_m;
+    });
+    if (is_free) cars.push_back(car);
+  }
+  cars.erase(cars.begin());
+  return cars;
+}
+
+void add_trail(const Moving& car, double dust, Noise& noise, std::vector<DustCloud>& clouds) {
+  const Rotation axes = rotation(car.attitude);
+  for (const double behind_m : {3.5, 5.5, 8.5, 12.0}) {
+    const Vector3 at =
+        plus(car.at_m, plus(times(-behind_m, axes[0]), times(between(noise, 0.3, 0.9), axes[2])));
+    clouds.push_back(
+        {at, between(noise, 0.5, 0.8) + 0.06 * behind_m, dust * between(noise, 0.02, 0.12)});
+  }
+}
+
+std::vector<DustCloud> drawn_dust(const world::TrackMap& track, const OnTrack& ours,
+                                  std::span<const Moving> cars, double dust, Noise& noise) {
+  std::vector<DustCloud> clouds;
+  if (dust <= 0.0) return clouds;
+  for (const Moving& car : cars)
+    if (noise.uniform() < 1.0 / 3.0) add_trail(car, dust, noise, clouds);
+  if (noise.uniform() < 0.25) {
+    const double s_m = track.wrap_station(ours.s_m + between(noise, 10.0, 80.0));
+    const OnTrack blown{s_m, drawn_offset_m(track, s_m, noise), 0.0, 0.0};
+    add_trail(standing_on(track, blown, 0.0), dust, noise, clouds);
+  }
+  return clouds;
+}
+
+Moving sprung(Moving body, Noise& noise) {
+  body.attitude.roll_rad += from_deg(0.4) * noise.normal();
+  body.attitude.pitch_rad += from_deg(0.4) * noise.normal();
+  body.at_m[2] += 0.01 * noise.normal();
+  return body;
+}
+
+TrueBox box_of(const Moving& ours, const Moving& car, const CarShape& shape) {
+  const Rotation axes = rotation({ours.attitude.roll_rad, ours.attitude.pitch_rad,
+                                  ours.attitude.yaw_rad + kReference_s * ours.yaw_rate_rad_per_s});
+  const Vector3 speed = plus(car.velocity_mps, times(-1.0, ours.velocity_mps));
+  const Vector3 apart = plus(plus(car.at_m, times(-1.0, ours.at_m)), times(kReference_s, speed));
+  const auto along = [&apart](const Vector3& axis) {
+    return apart[0] * axis[0] + apart[1] * axis[1] + apart[2] * axis[2];
+  };
+  const double yaw_rad = car.attitude.yaw_rad - ours.attitude.yaw_rad +
+                         kReference_s * (car.yaw_rate_rad_per_s - ours.yaw_rate_rad_per_s);
+  return {.x_m = along(axes[0]),
+          .y_m = along(axes[1]),
+          .yaw_rad = yaw_rad,
+          .length_m = shape.length_m,
+          .width_m = shape.width_m};
+}
+
+}  // namespace
+
+SceneMaker::SceneMaker(const world::TrackMap& track, const CarShape& shape, double dust)
+    : track_(&track), shape_(shape), dust_(dust), rays_(track_meshes(track)) {
+  const std::vector<Mesh> meshes = car_meshes(shape_);
+  for (std::size_t car = 0; car < kSceneCarsMost; ++car) rays_.add_car(meshes);
+}
+
+LidarScene SceneMaker::make(std::uint64_t seed) {
+  Noise noise{seed, 0x11DA4};
+  const double s_m = between(noise, 0.0, track_->length_m());
+  const OnTrack ours{s_m, drawn_offset_m(*track_, s_m, noise), between(noise, 20.0, 75.0),
+                     from_deg(1.0) * noise.normal()};
+  std::vector<Moving> cars;
+  for (const OnTrack& car : drawn_cars(*track_, ours, noise))
+    cars.push_back(standing_on(*track_, car, 0.0));
+  const std::vector<DustCloud> dust = drawn_dust(*track_, ours, cars, dust_, noise);
+  const Moving body = sprung(standing_on(*track_, ours, kOriginOverRoad_m), noise);
+  for (std::size_t car = 0; car < kSceneCarsMost; ++car) rays_.hide(car);
+
+  LidarScene scene;
+  for (const Moving& car : cars) scene.cars.push_back(box_of(body, car, shape_));
+  for (const LidarUnit& unit : av21_lidars()) {
+    scene.sweeps.push_back({unit.mount, lidar_sweep(unit, rays_, {body, cars, dust}, noise)});
+    for (const LidarReturn& back : scene.sweeps.back().returns)
+      if (back.car >= 0) ++scene.cars[static_cast<std::size_t>(back.car)].returns;
+  }
+  const Moving then = {plus(body.at_m, times(kReference_s, body.velocity_mps)), body.attitude,
+                       body.velocity_mps, body.yaw_rate_rad_per_s};
+  scene.x_m = then.at_m[0] + 0.05 * noise.normal();
+  scene.y_m = then.at_m[1] + 0.05 * noise.normal();
+  scene.yaw_rad = then.attitude.yaw_rad + kReference_s * body.yaw_rate_rad_per_s +
+                  from_deg(0.1) * noise.normal();
+  scene.speed_mps = ours.speed_mps;
+  scene.yaw_rate_rad_per_s = body.yaw_rate_rad_per_s;
+  return scene;
+}
+
+}  // namespace pitwall::sensors

@@ -1,0 +1,62 @@
+// Drawn scenes for a LiDAR detector: our car on a track among others and dust, seen by its LiDARs
+// once, with what is true.
+//   in     track, body of the other cars, density of dust, seed
+//   out    one sweep of each LiDAR; the true boxes at the reference time, in Body, with the number
+//          of returns; our place as localization would tell it
+//   drawn  up to five others from 100 m behind to 125 m ahead, no two in one place, within 15 m/s
+//          of our speed and 6 deg of the road's direction; behind every third a trail of dust; some
+//          dust of no car; our springs (pitch and roll 0.4 deg) and errors of our pose (0.05 m,
+//          0.1 deg)
+//   frames Map; Body of our car at the reference time
+//   law    the same seed gives the same scene
+//   cost   0.2 s a scene
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "hil/sensors/lidar/car_mesh.hpp"
+#include "hil/sensors/lidar/lidar.hpp"
+#include "hil/sensors/lidar/ray_scene.hpp"
+#include "vehicle/world/track_map.hpp"
+
+namespace pitwall::sensors {
+
+// After the sweep's begin: when the rings pass the horizon, where cars are.
+inline constexpr double kReference_s = 0.0123;
+inline constexpr double kOriginOverRoad_m = 0.3;  // of Body, without springs
+
+struct TrueBox {
+  double x_m = kUnset, y_m = kUnset, yaw_rad = kUnset;  // Body
+  double length_m = kUnset, width_m = kUnset;
+  std::size_t returns = 0;
+};
+
+struct UnitSweep {
+  LidarMount mount;
+  std::vector<LidarReturn> returns;
+};
+
+struct LidarScene {
+  std::vector<UnitSweep> sweeps;
+  std::vector<TrueBox> cars;
+  double x_m = kUnset, y_m = kUnset, yaw_rad = kUnset;  // our estimate, Map
+  double speed_mps = kUnset, yaw_rate_rad_per_s = kUnset;
+};
+
+class SceneMaker {
+ public:
+  // `track` outlives the maker.
+  SceneMaker(const world::TrackMap& track, const CarShape& shape, double dust = 1.0);
+  LidarScene make(std::uint64_t seed);
+
+ private:
+  const world::TrackMap* track_;
+  CarShape shape_;
+  double dust_;
+  RayScene rays_;
+};
+
+}  // namespace pitwall::sensors

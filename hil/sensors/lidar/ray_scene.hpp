@@ -1,0 +1,49 @@
+// What a LiDAR's rays meet: surfaces that stand still, and cars that are placed anew for each ring.
+//   frames Map
+//   out    the first surface along a ray
+//   law    the nearest of all triangles; of two at one distance either
+//   errors none that a caller can make: a place beyond the cars is a CHECK
+//   cost   about 1 us a ray; place() and commit() 20 us for some cars
+//   source Embree 3 (Wald et al., ACM TOG 33(4), 2014)
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <optional>
+#include <span>
+
+#include "hil/sensors/geometry.hpp"
+#include "hil/sensors/lidar/mesh.hpp"
+
+namespace pitwall::sensors {
+
+struct Meeting {
+  double range_m = 0.0;
+  double cos_incidence = 0.0;  // of the angle to the surface's normal, in [0, 1]
+  double reflectance = 0.0;
+  std::optional<std::size_t> car{};  // unset: a surface that stands still
+};
+
+class RayScene {
+ public:
+  explicit RayScene(std::span<const Mesh> still);
+  ~RayScene();
+  RayScene(RayScene&&) noexcept;
+  RayScene& operator=(RayScene&&) noexcept;
+
+  // Returns its number: 0, 1, ...
+  std::size_t add_car(std::span<const Mesh> meshes);
+  void place(std::size_t car, const Rotation& axes, const Vector3& at);
+  void hide(std::size_t car);
+  void commit();  // makes place() and hide() take effect
+
+  // `along` has the length 1.
+  std::optional<Meeting> first(const Vector3& from, const Vector3& along, double reach_m) const;
+
+ private:
+  struct Embree;
+  std::unique_ptr<Embree> embree_;
+};
+
+}  // namespace pitwall::sensors

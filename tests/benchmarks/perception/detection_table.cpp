@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tests/benchmarks/perception/detection_table.hpp"
+
+#include <cmath>
+#include <numbers>
+
+#include "protocol/json/json_text.hpp"
+#include "protocol/vocabulary/text.hpp"
+
+namespace pitwall::perception_bench {
+namespace {
+
+constexpr double kDegrees = 180.0 / std::numbers::pi;
+
+// A figure of no car is none.
+double known(double value, std::size_t count) { return count > 0 ? value : kUnset; }
+
+std::string column(double value, int digits) {
+  return std::isfinite(value) ? formatted(" %8.*f", digits, value) : formatted(" %8s", "-");
+}
+
+std::string row_text(const DetectorRow& row) {
+  std::string text = formatted("%s, %s: %zu sweeps, %.3f false cars a sweep\n", row.set.c_str(),
+                               row.detector.c_str(), row.score.sweeps, row.score.false_per_sweep());
+  for (std::size_t k = 0; k < kRanges; ++k) {
+    const RangeScore& range = row.score.by_range[k];
+    text += formatted("  %3.0f to %3.0f m %6zu", kRanges_m[k], kRanges_m[k + 1], range.cars) +
+            column(known(range.found_share(), range.cars), 3) +
+            column(known(range.position_rms_m(), range.found), 3) +
+            column(known(range.worst_m, range.found), 3) +
+            column(kDegrees * known(range.yaw_rms_rad(), range.found), 1) + "\n";
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string to_text(std::span<const DetectorRow> rows) {
+  std::string text = formatted("%-15s %6s %8s %8s %8s %8s\n", "simulation", "cars", "recall",
+                               "rms m", "worst m", "yaw deg");
+  for (const DetectorRow& row : rows) text += row_text(row);
+  return text;
+}
+
+std::string to_json(std::span<const DetectorRow> rows) {
+  json::Array array;
+  for (const DetectorRow& row : rows) {
+    json::Array ranges;
+    for (std::size_t k = 0; k < kRanges; ++k) {
+      const RangeScore& range = row.score.by_range[k];
+      ranges.json(json::Object{}
+                      .number("from_m", kRanges_m[k])
+                      .number("to_m", kRanges_m[k + 1])
+                      .number("cars", range.cars)
+                      .number("recall", known(range.found_share(), range.cars))
+                      .number("position_rms_m", known(range.position_rms_m(), range.found))
+                      .number("yaw_rms_rad", known(range.yaw_rms_rad(), range.found))
+                      .str());
+    }
+    array.json(json::Object{}
+                   .text("set", row.set)
+                   .text("detector", row.detector)
+                   .number("sweeps", row.score.sweeps)
+                   .number("false_per_sweep", row.score.false_per_sweep())
+                   .json("ranges", ranges.str())
+                   .str());
+  }
+  return array.str();
+}
+
+}  // namespace pitwall::perception_bench
