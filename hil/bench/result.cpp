@@ -162,6 +162,10 @@ std::string drive_text(const RunResult& r) {
   if (r.detections_lost > 0)
     out += formatted("frames of detections that never reached the car: %llu\n",
                      static_cast<unsigned long long>(r.detections_lost));
+  if (r.sweeps_on_map + r.sweeps_by_cloth > 0)
+    out += formatted("LiDARs, ray by ray: %llu sweeps on the ground of the map, %llu without\n",
+                     static_cast<unsigned long long>(r.sweeps_on_map),
+                     static_cast<unsigned long long>(r.sweeps_by_cloth));
   if (!r.refused_to_arm.empty()) out += "car refused to arm: " + r.refused_to_arm + "\n";
   for (const CompletedAction& done : r.done)
     out += formatted("at %.3f s: ", done.at.seconds()) + done.what + "\n";
@@ -330,7 +334,9 @@ std::string to_json(const RunResult& r) {
       .number("gate_refusals", r.gate_refusals)
       .number("bus_refusals", r.bus_refusals)
       .number("bus_losses", r.bus_losses)
-      .number("detections_lost", r.detections_lost);
+      .number("detections_lost", r.detections_lost)
+      .number("sweeps_on_map", r.sweeps_on_map)
+      .number("sweeps_by_cloth", r.sweeps_by_cloth);
   if (r.real_time) out.json("real_time", real_time_json(*r.real_time));
   if (!r.others.empty()) out.json("others", others_json(r.others));
   return out.json("done", done_json(r.done))

@@ -68,6 +68,8 @@ struct RunResult {
   // Frames of detections that never reached the car's loop: lost on the way, no room, or no process
   // that waited.
   std::uint64_t detections_lost = 0;
+  // Of LiDARs that are run ray by ray, else 0: sweeps on the map's ground, and on that of a cloth.
+  std::uint64_t sweeps_on_map = 0, sweeps_by_cloth = 0;
   double speed_max_mps = 0.0;
   Outcome outcome;
   std::size_t other_cars = 0;             // on the track

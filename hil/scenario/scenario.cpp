@@ -53,6 +53,11 @@ constexpr std::array kBusRevisions = {
     Named<BusRevision>{"v14_protected", BusRevision::kProtected},
 };
 
+constexpr std::array kLidarKinds = {
+    Named<LidarKind>{"model", LidarKind::kModel},
+    Named<LidarKind>{"rays", LidarKind::kRays},
+};
+
 constexpr std::array kReceiverKinds = {
     Named<world::ReceiverKind>{"novatel_oem7", world::ReceiverKind::kNovatelOem7},
     Named<world::ReceiverKind>{"vectornav", world::ReceiverKind::kVectorNav},
@@ -249,6 +254,7 @@ Scenario read_root(yaml::StrictMap& map) {
   scenario.track_file = map.text("track");
   scenario.car_file = map.text("car");
   scenario.bus = one_of(map, "bus", kBusRevisions, "v14");
+  scenario.lidars = one_of(map, "lidars", kLidarKinds, "model");
   if (map.has("receivers")) scenario.receivers = read_receivers(map);
   if (auto start = map.optional_map("start")) scenario.start = read_start(*start);
   if (auto tyres = map.optional_map("tyres")) scenario.tyres = read_tyres(*tyres);
@@ -286,5 +292,6 @@ bool is_shown_by(const Expectation& e, Duration end) {
 const char* name_of(world::TrackFlag flag) { return word_of(kTrackFlags, flag); }
 const char* name_of(world::VehicleFlag flag) { return word_of(kVehicleFlags, flag); }
 const char* name_of(BusRevision revision) { return word_of(kBusRevisions, revision); }
+const char* name_of(LidarKind lidars) { return word_of(kLidarKinds, lidars); }
 
 }  // namespace pitwall::scenario

@@ -98,6 +98,10 @@ struct NamedContact {
   std::string reason;
 };
 
+// How the LiDARs see the other cars; lockstep only. kModel: as detections with drawn errors. kRays:
+// ray by ray, with the car's own detector.
+enum class LidarKind : std::uint8_t { kModel, kRays };
+
 struct Scenario {
   std::string name;
   std::uint64_t seed = 0;
@@ -106,6 +110,7 @@ struct Scenario {
   // Overrides the receivers of the car file; lockstep only.
   std::optional<std::array<world::ReceiverKind, world::kGnssUnits>> receivers;
   BusRevision bus = BusRevision::kV14;
+  LidarKind lidars = LidarKind::kModel;
   Start start;
   Tyres tyres;
   std::string plant_file;  // of the modelled car; empty: the AV-21 of hil/plant/params.hpp
@@ -128,5 +133,6 @@ Result<Scenario, Problem> read_scenario(const std::string& text, const std::stri
 const char* name_of(world::TrackFlag flag);
 const char* name_of(world::VehicleFlag flag);
 const char* name_of(BusRevision revision);
+const char* name_of(LidarKind lidars);
 
 }  // namespace pitwall::scenario

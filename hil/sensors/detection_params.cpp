@@ -82,4 +82,11 @@ DetectionSensors with_noise(const DetectionSensors& sensors, double factor) {
   return noisy;
 }
 
+DetectionSensors without(const DetectionSensors& sensors, world::DetectionSource source) {
+  DetectionSensors kept;
+  for (const DetectionSensor& sensor : sensors)
+    if (sensor.source != source) CHECK(kept.push(sensor));
+  return kept;
+}
+
 }  // namespace pitwall::sensors

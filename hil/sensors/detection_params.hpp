@@ -83,4 +83,7 @@ DetectionSensors av21_detection_sensors();
 // Every standard deviation times the factor.
 DetectionSensors with_noise(const DetectionSensors& sensors, double factor);
 
+// All but those of one kind.
+DetectionSensors without(const DetectionSensors& sensors, world::DetectionSource source);
+
 }  // namespace pitwall::sensors

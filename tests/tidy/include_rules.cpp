@@ -193,6 +193,8 @@ const std::vector<Part> kParts{
     {"hil/bench", kBench, rim_and({"eigen"})},
     // It publishes detections as the car's own rim reads them.
     {"hil/bench/live", bench_and({"vehicle/io/ingress"}), rim_and({"eigen"})},
+    // Ray by ray, it needs the car's detector behind the LiDARs.
+    {"hil/bench/lockstep", bench_and({"vehicle/autonomy/perception"}), rim_and({"eigen"})},
     // A run is driven again by what the car's own rim kept of it.
     {"hil/bench/recorded", bench_and({"vehicle/io"}), rim_and({})},
     {"hil/can_bus", kBench, rim_and({})},

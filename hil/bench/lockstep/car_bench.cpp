@@ -76,6 +76,8 @@ CarBench::CarBench(const scenario::Scenario& scenario, const pipeline::Setup& se
   if (!has_others) return;
   detection_sensors_ =
       with_noise(sensors::av21_detection_sensors(), scenario_.perturb.detection_noise);
+  if (scenario_.lidars == scenario::LidarKind::kRays)
+    detection_sensors_ = without(detection_sensors_, world::DetectionSource::kLidar);
   detection_ = sensors::make_detections(detection_sensors_, scenario_.seed, Instant{});
   detections_.reserve(kDetectionFrames);
 }
@@ -94,6 +96,11 @@ void CarBench::show_others(Field& field, std::size_t own, Instant at) {
   sensors::step_detections(detection_sensors_, detection_,
                            {.ours = field.car(own).pose, .others = field.others_of(own)}, at,
                            arrivals_);
+  if (scenario_.lidars == scenario::LidarKind::kRays) {
+    const std::span<const plant::CarPose> others = field.others_of(own);
+    if (!lidars_) lidars_.emplace(setup_.track, others.size(), scenario_.seed);
+    lidars_->step(rig_.truth(), others, out_ ? out_->ego : world::EgoState{}, at, arrivals_);
+  }
   for (const world::DetectionFrame& frame : arrivals_) {
     if (detections_.size() < kDetectionFrames)
       detections_.push_back(frame);
@@ -304,6 +311,11 @@ RunResult CarBench::finish() {
   for (const std::string& refusal : base_.refusals())
     result_.remarks.push_back("the operator was refused: " + refusal);
   result_.detections_lost += detection_.overflows;
+  if (lidars_) {
+    result_.sweeps_on_map = lidars_->counts().on_map;
+    result_.sweeps_by_cloth = lidars_->counts().by_cloth;
+    result_.detections_lost += lidars_->counts().no_room;
+  }
   result_.traffic.lost = frames_lost();
   result_.traffic.bus_load = bus_.load();
   if (record_) {

@@ -16,6 +16,7 @@
 #include "hil/bench/lockstep/clock_faults.hpp"
 #include "hil/bench/lockstep/guardian_node.hpp"
 #include "hil/bench/lockstep/lockstep.hpp"
+#include "hil/bench/lockstep/swept_lidars.hpp"
 #include "hil/bench/lockstep/virtual_station.hpp"
 #include "hil/bench/path_deviation.hpp"
 #include "hil/bench/receiver_codec.hpp"
@@ -104,6 +105,7 @@ class CarBench {
   bool identity_changed_ = false;
   sensors::DetectionSensors detection_sensors_;  // none for a car that is alone
   sensors::DetectionState detection_;
+  std::optional<SweptLidars> lidars_;  // in place of the modelled ones
   sensors::Arrivals arrivals_;
   std::vector<world::DetectionFrame> detections_;  // since the last tick
 };

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 
+#include "hil/sensors/lidar/standing.hpp"
 #include "hil/sensors/lidar/track_mesh.hpp"
 
 namespace pitwall::sensors {
@@ -22,17 +23,17 @@ double between(Noise& noise, double least, double most) {
   return least + (most - least) * noise.uniform();
 }
 
-// The frame that stands on the road at this place, `over_m` above it.
 Moving standing_on(const world::TrackMap& track, const OnTrack& car, double over_m) {
   const world::TrackPoint road = track.offset(car.s_m, car.n_m);
-  Moving body;
-  body.attitude = {.roll_rad = -road.bank_rad, .yaw_rad = road.yaw_rad + car.turned_rad};
-  const Rotation axes = rotation(body.attitude);
-  const Vector3 foot{road.x_m, road.y_m, track.road(car.s_m, car.n_m).height_m};
-  body.at_m = plus(foot, times(over_m, axes[2]));
-  body.velocity_mps = times(car.speed_mps, axes[0]);
-  body.yaw_rate_rad_per_s = car.speed_mps * road.curvature_per_m;
-  return body;
+  const plant::CarPose pose{.x_m = road.x_m,
+                            .y_m = road.y_m,
+                            .yaw_rad = road.yaw_rad + car.turned_rad,
+                            .vx_mps = car.speed_mps,
+                            .vy_mps = 0.0,
+                            .yaw_rate_rad_per_s = car.speed_mps * road.curvature_per_m,
+                            .s_m = car.s_m,
+                            .n_m = car.n_m};
+  return standing(track, pose, over_m);
 }
 
 double drawn_offset_m(const world::TrackMap& track, double s_m, Noise& noise) {

@@ -264,6 +264,14 @@ TEST(Scenario, TheReceiversAreThoseOfTheCarUnlessTheyAreNamed) {
   }
 }
 
+TEST(Scenario, TheLidarsAreModelledUnlessTheyShootRays) {
+  EXPECT_EQ(read_scenario(kGood, "good.yaml")->lidars, LidarKind::kModel);
+  EXPECT_EQ(read_scenario(kGood + "lidars: rays\n", "good.yaml")->lidars, LidarKind::kRays);
+  const auto wrong = read_scenario(kGood + "lidars: lasers\n", "l.yaml");
+  ASSERT_FALSE(wrong);
+  EXPECT_EQ(to_string(wrong.error()).rfind("l.yaml:", 0), 0u) << to_string(wrong.error());
+}
+
 TEST(Expectation, OfATimeThatIsCutAwayIsNotShown) {
   using enum ExpectKind;
   for (const ExpectKind kind : {kAlways, kNever, kWithin, kDetects}) {

@@ -37,6 +37,16 @@ TEST(DetectionParams, AFactorScalesEveryNoiseAndNothingElse) {
   }
 }
 
+TEST(DetectionParams, WithoutAKindTheOthersAreLeft) {
+  const DetectionSensors all = av21_detection_sensors();
+  for (const auto source : {DetectionSource::kLidar, DetectionSource::kCamera}) {
+    const DetectionSensors kept = without(all, source);
+    EXPECT_LT(kept.size(), all.size());
+    for (const DetectionSensor& sensor : kept) EXPECT_NE(sensor.source, source);
+    EXPECT_EQ(without(kept, source).size(), kept.size());
+  }
+}
+
 TEST(DetectionParams, EachSensorHasItsOwnNumberOfItsKind) {
   std::set<std::pair<DetectionSource, int>> seen;
   for (const DetectionSensor& s : av21_detection_sensors()) {

@@ -112,6 +112,7 @@ seed: %llu
 duration_s: 400
 track: vehicle/config/tracks/tms.yaml
 car: %s
+lidars: %s
 start: {s_m: %.0f, n_m: 0, speed_mps: 0}
 tyres: {temperature_c: 85}
 perturb: {friction: %.4f, detection_noise: %.4f}
@@ -140,9 +141,10 @@ match:
 )",
                    attempt.round_mph, static_cast<unsigned long long>(attempt.seed),
                    text_of(attempt.driver), static_cast<unsigned long long>(attempt.seed),
-                   car_of(attempt.driver), kOwnStart_m, draw.friction, draw.detection_noise,
-                   kOwnStart_m - draw.start_gap_m, draw.lane_sigma_m, draw.lane_correlation_s,
-                   draw.speed_sigma_mps, draw.speed_correlation_s, attempt.round_mph);
+                   car_of(attempt.driver), name_of(attempt.lidars), kOwnStart_m, draw.friction,
+                   draw.detection_noise, kOwnStart_m - draw.start_gap_m, draw.lane_sigma_m,
+                   draw.lane_correlation_s, draw.speed_sigma_mps, draw.speed_correlation_s,
+                   attempt.round_mph);
 }
 
 AttemptRun run_attempt(const AttemptCase& attempt) {

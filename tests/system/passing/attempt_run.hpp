@@ -16,6 +16,7 @@
 #include <string>
 #include <utility>
 
+#include "hil/scenario/scenario.hpp"
 #include "protocol/vocabulary/units.hpp"
 #include "vehicle/autonomy/planning/pass.hpp"
 
@@ -30,6 +31,7 @@ struct AttemptCase {
   std::uint64_t seed = 0;
   double round_mph = kUnset;
   Driver driver = Driver::kOurs;
+  scenario::LidarKind lidars = scenario::LidarKind::kModel;
 };
 
 struct AttemptDraw {

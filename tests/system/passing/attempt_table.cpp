@@ -42,11 +42,12 @@ AttemptCount count_of(const std::vector<AttemptRun>& runs, double round_mph, Dri
   return count;
 }
 
-std::vector<std::string> missed_gates(const std::vector<AttemptRun>& runs, Seeds seeds) {
+std::vector<std::string> missed_gates(const std::vector<AttemptRun>& runs, Seeds seeds,
+                                      std::span<const BracketGate> brackets) {
   std::vector<std::string> missed;
   for (const AttemptRun& run : runs)
     if (!run.problem.empty()) missed.push_back("a run was not made: " + run.problem);
-  for (const BracketGate& gate : kBrackets) {
+  for (const BracketGate& gate : brackets) {
     const AttemptCount c = count_of(runs, gate.round_mph, Driver::kOurs);
     const std::size_t may_fail =
         gate.may_fail[static_cast<std::size_t>(seeds)] * c.runs / kGateAttempts;

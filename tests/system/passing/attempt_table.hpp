@@ -10,6 +10,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -46,8 +47,9 @@ struct AttemptCount {
 };
 AttemptCount count_of(const std::vector<AttemptRun>& runs, double round_mph, Driver driver);
 
-// The gates that these runs miss, one sentence each; empty: all hold.
-std::vector<std::string> missed_gates(const std::vector<AttemptRun>& runs, Seeds seeds);
+// The gates of these brackets that the runs miss, one sentence each; empty: all hold.
+std::vector<std::string> missed_gates(const std::vector<AttemptRun>& runs, Seeds seeds,
+                                      std::span<const BracketGate> brackets = kBrackets);
 
 std::string table_of(const std::vector<AttemptRun>& runs, Seeds seeds);
 std::string row_of(const AttemptRun& run);

@@ -1,8 +1,11 @@
 // Attempts to pass in every bracket, ours and the published planner's: `./pitwall long matches`.
+// With `--lidars rays` ours alone, at three speeds, by LiDARs that shoot their rays.
 // Exit: 0 the gates hold, 1 one does not, 2 the command line is wrong.
 // SPDX-License-Identifier: Apache-2.0
 #include <CLI/CLI.hpp>
+#include <array>
 #include <cstdio>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -13,7 +16,10 @@
 namespace pitwall::testing {
 namespace {
 
-constexpr double kAttempt_s = 7.0;  // processor time of one, on the reference machine
+// Processor time of one, on the reference machine.
+constexpr double kAttempt_s = 7.0, kByRays_s = 110.0;
+constexpr std::array kByRays{kBrackets[1], kBrackets[3], kBrackets[5]};
+constexpr std::size_t kByRaysAttempts = 5;
 
 std::vector<AttemptCase> cases_of(Seeds seeds, const std::string& commit, std::size_t attempts) {
   std::vector<AttemptCase> cases;
@@ -21,6 +27,16 @@ std::vector<AttemptCase> cases_of(Seeds seeds, const std::string& commit, std::s
     for (std::size_t i = 0; i < attempts; ++i)
       for (const Driver driver : kDrivers)
         cases.push_back(case_of(seeds, commit, i, bracket.round_mph, driver));
+  return cases;
+}
+
+std::vector<AttemptCase> cases_by_rays(std::size_t attempts) {
+  std::vector<AttemptCase> cases;
+  for (const BracketGate& bracket : kByRays)
+    for (std::size_t i = 0; i < attempts; ++i) {
+      cases.push_back(case_of(Seeds::kCommitted, "", i, bracket.round_mph, Driver::kOurs));
+      cases.back().lidars = scenario::LidarKind::kRays;
+    }
   return cases;
 }
 
@@ -32,9 +48,8 @@ void keep(const AttemptRun& run, const std::string& folder) {
     std::printf("  written: %s\n", file.c_str());
 }
 
-bool run_all(Seeds seeds, const std::string& commit, std::size_t attempts, unsigned processes,
-             const std::string& lost_folder) {
-  const std::vector<AttemptCase> cases = cases_of(seeds, commit, attempts);
+bool run_all(const std::vector<AttemptCase>& cases, std::span<const BracketGate> brackets,
+             Seeds seeds, unsigned processes, const std::string& lost_folder) {
   std::vector<AttemptRun> runs(cases.size());
   sweep::in_parallel(runs.size(), processes, [&](std::size_t i) {
     runs[i] = run_attempt(cases[i]);
@@ -47,7 +62,7 @@ bool run_all(Seeds seeds, const std::string& commit, std::size_t attempts, unsig
     std::printf("%s\n", row_of(run).c_str());
     if (!lost_folder.empty()) keep(run, lost_folder);
   }
-  const std::vector<std::string> missed = missed_gates(runs, seeds);
+  const std::vector<std::string> missed = missed_gates(runs, seeds, brackets);
   for (const std::string& why : missed) std::printf("MISSED %s\n", why.c_str());
   if (missed.empty()) std::printf("all gates hold\n");
   return missed.empty();
@@ -58,23 +73,37 @@ bool run_all(Seeds seeds, const std::string& commit, std::size_t attempts, unsig
 
 int main(int argc, char** argv) {
   using namespace pitwall::testing;
-  std::size_t attempts = kGateAttempts;
+  std::size_t attempts = 0;
   unsigned processes = 2;
-  std::string commit, lost_folder;
+  std::string commit, lost_folder, lidars = "model";
   CLI::App app{"Attempts to pass a defender at every round speed: ours and the published planner."};
-  app.add_option("--attempts", attempts, "of each driver at each speed, for each kind of seeds")
+  app.add_option("--attempts", attempts,
+                 "of each driver at each speed, for each kind of seeds; 20, by rays 5")
       ->check(CLI::Range(1, 1'000));
+  app.add_option("--lidars", lidars, "model; rays: ours alone at 100, 125 and 150 mph")
+      ->check(CLI::IsMember({"model", "rays"}));
   app.add_option("--commit", commit, "its name gives the second kind of seeds; without: none");
   app.add_option("--processes", processes, "at once")->check(CLI::Range(1, 256));
   app.add_option("--lost", lost_folder, "scenarios of attempts that ours did not make go here");
   CLI11_PARSE(app, argc, argv);
-  const std::size_t kinds = commit.empty() ? 1 : 2;
-  const std::size_t all = kinds * attempts * kBrackets.size() * kDrivers.size();
-  std::printf("simulated: %zu attempts, about %.0f min on %u processors\n", all,
-              static_cast<double>(all) * kAttempt_s / 60.0 / processes, processes);
-  std::fflush(stdout);
-  bool held = run_all(Seeds::kCommitted, commit, attempts, processes, lost_folder);
+  const bool by_rays = lidars == "rays";
+  if (attempts == 0) attempts = by_rays ? kByRaysAttempts : kGateAttempts;
+  const auto announce = [&](std::size_t all, double one_s) {
+    std::printf("simulated: %zu attempts, about %.0f min on %u processors\n", all,
+                static_cast<double>(all) * one_s / 60.0 / processes, processes);
+    std::fflush(stdout);
+  };
+  if (by_rays) {
+    const auto cases = cases_by_rays(attempts);
+    announce(cases.size(), kByRays_s);
+    return run_all(cases, kByRays, Seeds::kCommitted, processes, lost_folder) ? 0 : 1;
+  }
+  const auto committed = cases_of(Seeds::kCommitted, commit, attempts);
+  announce((commit.empty() ? 1 : 2) * committed.size(), kAttempt_s);
+  bool held = run_all(committed, kBrackets, Seeds::kCommitted, processes, lost_folder);
   if (!commit.empty())
-    held = run_all(Seeds::kOfCommit, commit, attempts, processes, lost_folder) && held;
+    held = run_all(cases_of(Seeds::kOfCommit, commit, attempts), kBrackets, Seeds::kOfCommit,
+                   processes, lost_folder) &&
+           held;
   return held ? 0 : 1;
 }

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "hil/bench/lockstep/swept_lidars.hpp"
+
+#include "hil/sensors/lidar/car_mesh.hpp"
+#include "hil/sensors/lidar/standing.hpp"
+#include "hil/sensors/lidar/track_mesh.hpp"
+
+namespace pitwall::bench {
+namespace {
+
+constexpr std::uint64_t kStream = 0x11DA5;
+// After a sweep's begin: when its rays pass the horizon.
+constexpr Duration kHorizon = microseconds(12'300);
+
+sensors::Moving moving(const plant::Truth& t) {
+  return {.at_m = {t.x_m, t.y_m, t.z_m},
+          .attitude = {t.roll_rad, t.pitch_rad, t.yaw_rad},
+          .velocity_mps = {t.map_vx_mps, t.map_vy_mps, t.map_vz_mps},
+          .yaw_rate_rad_per_s = t.heading_rate_rad_per_s};
+}
+
+perception::SensorPose pose_of(const sensors::LidarMount& mount) {
+  return {mount.at_m[0],
+          mount.at_m[1],
+          mount.at_m[2],
+          mount.attitude.roll_rad,
+          mount.attitude.pitch_rad,
+          mount.attitude.yaw_rad};
+}
+
+perception::PointCloud points_of(std::span<const sensors::LidarReturn> returns) {
+  perception::PointCloud points;
+  points.reserve(returns.size());
+  for (const sensors::LidarReturn& back : returns)
+    points.push_back({back.x_m, back.y_m, back.z_m, back.intensity, back.after_s});
+  return points;
+}
+
+}  // namespace
+
+SweptLidars::SweptLidars(const world::TrackMap& track, std::size_t others, std::uint64_t seed)
+    : track_(track), rays_(sensors::track_meshes(track)), noise_(seed, kStream), detector_(track) {
+  const std::vector<sensors::Mesh> body = sensors::car_meshes(sensors::av21_shape());
+  for (std::size_t car = 0; car < others; ++car) rays_.add_car(body);
+}
+
+void SweptLidars::step(const plant::Truth& ours, std::span<const plant::CarPose> others,
+                       const world::EgoState& ego, Instant now, sensors::Arrivals& out) {
+  if (now >= next_) {
+    next_ = now + kPeriod;
+    under_way_.push_back(sweep(ours, others, ego, now));
+  }
+  while (!under_way_.empty() && under_way_.front().received <= now && out.push(under_way_.front()))
+    under_way_.pop_front();
+}
+
+world::DetectionFrame SweptLidars::sweep(const plant::Truth& ours,
+                                         std::span<const plant::CarPose> others,
+                                         const world::EgoState& ego, Instant now) {
+  std::vector<sensors::Moving> cars;
+  for (const plant::CarPose& car : others) cars.push_back(sensors::standing(track_, car));
+  const sensors::Moving body = moving(ours);
+  std::vector<perception::PointCloud> clouds;
+  std::vector<perception::LidarSweep> sweeps;
+  for (const sensors::LidarUnit& unit : units_)
+    clouds.push_back(points_of(sensors::lidar_sweep(unit, rays_, {body, cars, {}}, noise_)));
+  for (std::size_t k = 0; k < units_.size(); ++k)
+    sweeps.push_back({pose_of(units_[k].mount), clouds[k], -kHorizon.seconds()});
+  world::DetectionFrame frame = detector_.detect(sweeps, ego, now + kHorizon);
+  frame.received = now + kLatency;
+  return frame;
+}
+
+}  // namespace pitwall::bench

@@ -1,0 +1,54 @@
+// LiDARs of a car in a lockstep run, ray by ray, with the car's own detector behind them: in place
+// of the model of both (hil/sensors/detections.hpp).
+//   in     the true cars; what the car knows of itself
+//   out    a frame of detections for each sweep, kLatency after it began
+//   law    a sweep is taken at the first call at or after its time; all LiDARs sweep together. What
+//          moves goes on as at the sweep's begin, until its end
+//   cost   0.1 s a sweep of three: a run takes two to three times as long as it lasts
+//   limit  our own body hides nothing; no dust
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <span>
+#include <vector>
+
+#include "hil/plant/car_pose.hpp"
+#include "hil/plant/plant.hpp"
+#include "hil/sensors/detections.hpp"
+#include "hil/sensors/lidar/lidar.hpp"
+#include "hil/sensors/noise.hpp"
+#include "vehicle/autonomy/perception/lidar/lidar_detector.hpp"
+
+namespace pitwall::bench {
+
+class SweptLidars {
+ public:
+  static constexpr Duration kPeriod = milliseconds(50);
+  // The sweep itself takes 50 ms; then transport, and the detector's 10 ms.
+  static constexpr Duration kLatency = milliseconds(75);
+
+  // `track` outlives it.
+  SweptLidars(const world::TrackMap& track, std::size_t others, std::uint64_t seed);
+
+  // Appends the frames that are due.
+  void step(const plant::Truth& ours, std::span<const plant::CarPose> others,
+            const world::EgoState& ego, Instant now, sensors::Arrivals& out);
+  const perception::LidarCounts& counts() const { return detector_.counts(); }
+
+ private:
+  world::DetectionFrame sweep(const plant::Truth& ours, std::span<const plant::CarPose> others,
+                              const world::EgoState& ego, Instant now);
+
+  const world::TrackMap& track_;
+  std::vector<sensors::LidarUnit> units_ = sensors::av21_lidars();
+  sensors::RayScene rays_;
+  sensors::Noise noise_;
+  perception::LidarDetector detector_;
+  Instant next_{};
+  std::deque<world::DetectionFrame> under_way_;  // the oldest first
+};
+
+}  // namespace pitwall::bench
