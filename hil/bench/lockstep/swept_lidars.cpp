@@ -19,6 +19,8 @@ sensors::Moving moving(const plant::Truth& t) {
           .yaw_rate_rad_per_s = t.heading_rate_rad_per_s};
 }
 
+}  // namespace
+
 perception::SensorPose pose_of(const sensors::LidarMount& mount) {
   return {mount.at_m[0],
           mount.at_m[1],
@@ -35,8 +37,6 @@ perception::PointCloud points_of(std::span<const sensors::LidarReturn> returns) 
     points.push_back({back.x_m, back.y_m, back.z_m, back.intensity, back.after_s});
   return points;
 }
-
-}  // namespace
 
 SweptLidars::SweptLidars(const world::TrackMap& track, std::size_t others, std::uint64_t seed)
     : track_(track), rays_(sensors::track_meshes(track)), noise_(seed, kStream), detector_(track) {

@@ -24,6 +24,10 @@
 
 namespace pitwall::bench {
 
+// As the car's detector takes them.
+perception::SensorPose pose_of(const sensors::LidarMount& mount);
+perception::PointCloud points_of(std::span<const sensors::LidarReturn> returns);
+
 class SweptLidars {
  public:
   static constexpr Duration kPeriod = milliseconds(50);

@@ -1,37 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tests/benchmarks/perception/detection_run.hpp"
 
+#include "hil/bench/lockstep/swept_lidars.hpp"
 #include "protocol/transport/file.hpp"
 #include "vehicle/autonomy/perception/lidar/motion.hpp"
 #include "vehicle/parameters/track_file.hpp"
 
 namespace pitwall::perception_bench {
-namespace {
-
-perception::PointCloud points_of(const sensors::UnitSweep& sweep) {
-  perception::PointCloud points;
-  points.reserve(sweep.returns.size());
-  for (const sensors::LidarReturn& back : sweep.returns)
-    points.push_back({back.x_m, back.y_m, back.z_m, back.intensity, back.after_s});
-  return points;
-}
-
-perception::SensorPose mounted(const sensors::LidarMount& mount) {
-  return {mount.at_m[0],
-          mount.at_m[1],
-          mount.at_m[2],
-          mount.attitude.roll_rad,
-          mount.attitude.pitch_rad,
-          mount.attitude.yaw_rad};
-}
-
-}  // namespace
 
 perception::PointCloud merged(const sensors::LidarScene& scene) {
   perception::PointCloud cloud;
   for (const sensors::UnitSweep& sweep : scene.sweeps)
-    append_in_body({mounted(sweep.mount), points_of(sweep), -sensors::kReference_s},
-                   {scene.speed_mps, 0.0, scene.yaw_rate_rad_per_s}, cloud);
+    append_in_body(
+        {bench::pose_of(sweep.mount), bench::points_of(sweep.returns), -sensors::kReference_s},
+        {scene.speed_mps, 0.0, scene.yaw_rate_rad_per_s}, cloud);
   return cloud;
 }
 

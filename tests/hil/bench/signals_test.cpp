@@ -100,6 +100,17 @@ TEST(Signals, TheLiveBenchRefusesWhatOnlyLockstepCanJudge) {
   EXPECT_EQ(expectations->back().limit, seconds(1));
 }
 
+TEST(Signals, LidarsShootNoRaysLive) {
+  scenario::Scenario s;
+  s.name = "by_rays";
+  EXPECT_FALSE(unjudged_by(BenchMode::kLive, s));
+  s.lidars = scenario::LidarKind::kRays;
+  EXPECT_FALSE(unjudged_by(BenchMode::kLockstep, s));
+  const auto problem = unjudged_by(BenchMode::kLive, s);
+  ASSERT_TRUE(problem);
+  EXPECT_EQ(problem->place, "by_rays");
+}
+
 TEST(Signals, AreNumbersBeforeTheCarHasSpoken) {
   const Rig rig = standing_rig();
   const SignalValues v = observe({.rig = rig, .car = {}});

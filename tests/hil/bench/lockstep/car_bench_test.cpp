@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <optional>
 #include <string>
 #include <vector>
@@ -59,6 +60,29 @@ TEST(CarBench, ACarIsToldOfItsNearestRival) {
   ASSERT_EQ(had(run_lockstep(stacks)).size(), 3u);
   EXPECT_EQ(seen.number, lap().setup.params.outbound.vehicle_number);
   EXPECT_NEAR(seen.lap_distance_m, 2'200.0, 150.0);
+}
+
+// Both stand: the second one 25 m ahead, a lane to the left.
+TEST(CarBench, ACarIsFoundByRays) {
+  scenario::Scenario own = part_of_lap(2'250.0, 7), other = part_of_lap(2'275.0, 8);
+  own.duration = other.duration = seconds(3);
+  other.start.n_m = 4.0;
+  own.lidars = scenario::LidarKind::kRays;
+  world::Opponents seen;
+  std::array stacks{stack_of(own), stack_of(other, "other")};
+  stacks[0].options.watch = [&](const pipeline::Outputs& out, const Rig&, Instant) {
+    seen = out.opponents;
+  };
+  const auto results = had(run_lockstep(stacks));
+  ASSERT_EQ(results.size(), 2u);
+  EXPECT_GE(results[0].sweeps_on_map + results[0].sweeps_by_cloth, 60u);
+  EXPECT_GE(results[0].sweeps_on_map, 20u) << "as soon as it knows its place";
+  EXPECT_EQ(results[1].sweeps_on_map, 0u) << "the other one's are modelled";
+  EXPECT_EQ(results[0].detections_lost, 0u);
+  const bool is_there = std::ranges::any_of(seen.cars, [](const world::Opponent& car) {
+    return std::abs(car.s_m - 2'275.0) < 1.5 && std::abs(car.n_m - 4.0) < 1.0;
+  });
+  EXPECT_TRUE(is_there);
 }
 
 // A car that starts in another one touches it at once, and nobody moved.
