@@ -21,6 +21,9 @@ constexpr Vector3 plus(const Vector3& a, const Vector3& b) {
 constexpr Vector3 times(double factor, const Vector3& a) {
   return {factor * a[0], factor * a[1], factor * a[2]};
 }
+constexpr double dot(const Vector3& a, const Vector3& b) {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
 constexpr Vector3 cross(const Vector3& a, const Vector3& b) {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }

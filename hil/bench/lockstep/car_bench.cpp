@@ -92,12 +92,11 @@ bool CarBench::is_over(Instant now) {
 
 void CarBench::show_others(Field& field, std::size_t own, Instant at) {
   rig_.show_rival(field.rival_of(own));
+  const std::span<const plant::CarPose> others = field.others_of(own);
   arrivals_.clear();
   sensors::step_detections(detection_sensors_, detection_,
-                           {.ours = field.car(own).pose, .others = field.others_of(own)}, at,
-                           arrivals_);
+                           {.ours = field.car(own).pose, .others = others}, at, arrivals_);
   if (scenario_.lidars == scenario::LidarKind::kRays) {
-    const std::span<const plant::CarPose> others = field.others_of(own);
     if (!lidars_) lidars_.emplace(setup_.track, others.size(), scenario_.seed);
     lidars_->step(rig_.truth(), others, out_ ? out_->ego : world::EgoState{}, at, arrivals_);
   }

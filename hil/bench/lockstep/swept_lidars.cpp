@@ -9,8 +9,6 @@ namespace pitwall::bench {
 namespace {
 
 constexpr std::uint64_t kStream = 0x11DA5;
-// After a sweep's begin: when its rays pass the horizon.
-constexpr Duration kHorizon = microseconds(12'300);
 
 sensors::Moving moving(const plant::Truth& t) {
   return {.at_m = {t.x_m, t.y_m, t.z_m},
@@ -65,8 +63,8 @@ world::DetectionFrame SweptLidars::sweep(const plant::Truth& ours,
   for (const sensors::LidarUnit& unit : units_)
     clouds.push_back(points_of(sensors::lidar_sweep(unit, rays_, {body, cars, {}}, noise_)));
   for (std::size_t k = 0; k < units_.size(); ++k)
-    sweeps.push_back({pose_of(units_[k].mount), clouds[k], -kHorizon.seconds()});
-  world::DetectionFrame frame = detector_.detect(sweeps, ego, now + kHorizon);
+    sweeps.push_back({pose_of(units_[k].mount), clouds[k], -sensors::kHorizon.seconds()});
+  world::DetectionFrame frame = detector_.detect(sweeps, ego, now + sensors::kHorizon);
   frame.received = now + kLatency;
   return frame;
 }

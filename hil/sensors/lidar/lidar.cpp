@@ -8,17 +8,6 @@
 namespace pitwall::sensors {
 namespace {
 
-Moving after(const Moving& body, double time_s) {
-  Moving moved = body;
-  moved.at_m = plus(body.at_m, times(time_s, body.velocity_mps));
-  moved.attitude.yaw_rad += time_s * body.yaw_rate_rad_per_s;
-  return moved;
-}
-
-constexpr double dot(const Vector3& a, const Vector3& b) {
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
 // Where dust sends a ray back, if it does: how far away.
 std::optional<double> met_dust(std::span<const DustCloud> dust, const Vector3& from,
                                const Vector3& along, Noise& noise) {
@@ -94,6 +83,13 @@ class Sweep {
 };
 
 }  // namespace
+
+Moving after(const Moving& body, double time_s) {
+  Moving moved = body;
+  moved.at_m = plus(body.at_m, times(time_s, body.velocity_mps));
+  moved.attitude.yaw_rad += time_s * body.yaw_rate_rad_per_s;
+  return moved;
+}
 
 std::vector<LidarUnit> av21_lidars() {
   const auto facing = [](double x_m, double y_m, double yaw_deg) {

@@ -22,6 +22,7 @@
 #include "hil/sensors/geometry.hpp"
 #include "hil/sensors/lidar/ray_scene.hpp"
 #include "hil/sensors/noise.hpp"
+#include "protocol/vocabulary/time.hpp"
 #include "protocol/vocabulary/units.hpp"
 
 namespace pitwall::sensors {
@@ -51,6 +52,9 @@ struct LidarUnit {
   LidarErrors errors;
 };
 
+// After a sweep's begin: when the rings pass the horizon, where cars are.
+inline constexpr Duration kHorizon = microseconds(12'300);
+
 // The three of the AV-21: ahead, to the left and right rear, 120 deg each.
 std::vector<LidarUnit> av21_lidars();
 
@@ -61,6 +65,9 @@ struct Moving {
   Vector3 velocity_mps{};
   double yaw_rate_rad_per_s = 0.0;
 };
+
+// Where it is later.
+Moving after(const Moving& body, double time_s);
 
 // A cloud of dust: Gaussian about its middle.
 struct DustCloud {

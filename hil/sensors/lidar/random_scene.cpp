@@ -90,19 +90,13 @@ Moving sprung(Moving body, Noise& noise) {
   return body;
 }
 
+// Both at one time.
 TrueBox box_of(const Moving& ours, const Moving& car, const CarShape& shape) {
-  const Rotation axes = rotation({ours.attitude.roll_rad, ours.attitude.pitch_rad,
-                                  ours.attitude.yaw_rad + kReference_s * ours.yaw_rate_rad_per_s});
-  const Vector3 speed = plus(car.velocity_mps, times(-1.0, ours.velocity_mps));
-  const Vector3 apart = plus(plus(car.at_m, times(-1.0, ours.at_m)), times(kReference_s, speed));
-  const auto along = [&apart](const Vector3& axis) {
-    return apart[0] * axis[0] + apart[1] * axis[1] + apart[2] * axis[2];
-  };
-  const double yaw_rad = car.attitude.yaw_rad - ours.attitude.yaw_rad +
-                         kReference_s * (car.yaw_rate_rad_per_s - ours.yaw_rate_rad_per_s);
-  return {.x_m = along(axes[0]),
-          .y_m = along(axes[1]),
-          .yaw_rad = yaw_rad,
+  const Rotation axes = rotation(ours.attitude);
+  const Vector3 apart = plus(car.at_m, times(-1.0, ours.at_m));
+  return {.x_m = dot(apart, axes[0]),
+          .y_m = dot(apart, axes[1]),
+          .yaw_rad = car.attitude.yaw_rad - ours.attitude.yaw_rad,
           .length_m = shape.length_m,
           .width_m = shape.width_m};
 }
@@ -128,18 +122,17 @@ LidarScene SceneMaker::make(std::uint64_t seed) {
   for (std::size_t car = 0; car < kSceneCarsMost; ++car) rays_.hide(car);
 
   LidarScene scene;
-  for (const Moving& car : cars) scene.cars.push_back(box_of(body, car, shape_));
+  const Moving then = after(body, kReference_s);
+  for (const Moving& car : cars)
+    scene.cars.push_back(box_of(then, after(car, kReference_s), shape_));
   for (const LidarUnit& unit : av21_lidars()) {
     scene.sweeps.push_back({unit.mount, lidar_sweep(unit, rays_, {body, cars, dust}, noise)});
     for (const LidarReturn& back : scene.sweeps.back().returns)
       if (back.car >= 0) ++scene.cars[static_cast<std::size_t>(back.car)].returns;
   }
-  const Moving then = {plus(body.at_m, times(kReference_s, body.velocity_mps)), body.attitude,
-                       body.velocity_mps, body.yaw_rate_rad_per_s};
   scene.x_m = then.at_m[0] + 0.05 * noise.normal();
   scene.y_m = then.at_m[1] + 0.05 * noise.normal();
-  scene.yaw_rad = then.attitude.yaw_rad + kReference_s * body.yaw_rate_rad_per_s +
-                  from_deg(0.1) * noise.normal();
+  scene.yaw_rad = then.attitude.yaw_rad + from_deg(0.1) * noise.normal();
   scene.speed_mps = ours.speed_mps;
   scene.yaw_rate_rad_per_s = body.yaw_rate_rad_per_s;
   return scene;

@@ -24,9 +24,8 @@
 
 namespace pitwall::sensors {
 
-// After the sweep's begin: when the rings pass the horizon, where cars are.
-inline constexpr double kReference_s = 0.0123;
-inline constexpr double kOriginOverRoad_m = 0.3;  // of Body, without springs
+inline constexpr double kReference_s = kHorizon.seconds();  // after the sweep's begin
+inline constexpr double kOriginOverRoad_m = 0.3;            // of Body, without springs
 
 struct TrueBox {
   double x_m = kUnset, y_m = kUnset, yaw_rad = kUnset;  // Body

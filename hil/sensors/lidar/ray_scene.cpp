@@ -28,6 +28,7 @@ struct RayScene::Embree {
     RTCScene scene = nullptr;
     RTCGeometry instance = nullptr;
     std::vector<float> reflectance{};
+    Rotation axes = rotation({});
   };
 
   RTCDevice device = rtcNewDevice("threads=1");
@@ -66,9 +67,9 @@ struct RayScene::Embree {
     parts.push_back(std::move(part));
   }
 
-  RTCGeometry car(std::size_t number) {
+  Part& car(std::size_t number) {
     CHECK(number + 1 < parts.size());
-    return parts[number + 1].instance;
+    return parts[number + 1];
   }
 };
 
@@ -92,15 +93,16 @@ void RayScene::place(std::size_t car, const Rotation& axes, const Vector3& at) {
       columns[3 * axis + k] = static_cast<float>(axes[axis][k]);
     columns[9 + k] = static_cast<float>(at[k]);
   }
-  RTCGeometry instance = embree_->car(car);
+  embree_->car(car).axes = axes;
+  RTCGeometry instance = embree_->car(car).instance;
   rtcSetGeometryTransform(instance, 0, RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR, columns.data());
   rtcEnableGeometry(instance);
   rtcCommitGeometry(instance);
 }
 
 void RayScene::hide(std::size_t car) {
-  rtcDisableGeometry(embree_->car(car));
-  rtcCommitGeometry(embree_->car(car));
+  rtcDisableGeometry(embree_->car(car).instance);
+  rtcCommitGeometry(embree_->car(car).instance);
 }
 
 void RayScene::commit() { rtcCommitScene(embree_->world); }
@@ -117,20 +119,14 @@ std::optional<Meeting> RayScene::first(const Vector3& from, const Vector3& along
   rtcInitIntersectContext(&context);
   rtcIntersect1(embree_->world, &context, &ray);
   if (ray.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
-  const std::size_t part = ray.hit.instID[0];
-  // The normal is in the frame of the part: of cars, which turn, the ray is turned back instead.
-  Vector3 normal{ray.hit.Ng_x, ray.hit.Ng_y, ray.hit.Ng_z};
-  std::array<float, 12> columns{};
-  rtcGetGeometryTransform(embree_->parts[part].instance, 0.0F, RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR,
-                          columns.data());
-  double dot = 0.0;
-  for (std::size_t axis = 0; axis < 3; ++axis)
-    for (std::size_t k = 0; k < 3; ++k) dot += normal[axis] * columns[3 * axis + k] * along[k];
-  const double length = std::hypot(normal[0], normal[1], normal[2]);
-  return Meeting{.range_m = ray.ray.tfar,
-                 .cos_incidence = std::min(1.0, std::abs(dot) / length),
-                 .reflectance = embree_->parts[part].reflectance[ray.hit.geomID],
-                 .car = part == 0 ? std::nullopt : std::optional{part - 1}};
+  const std::size_t number = ray.hit.instID[0];
+  const Embree::Part& part = embree_->parts[number];
+  const Vector3 normal = turned(part.axes, {ray.hit.Ng_x, ray.hit.Ng_y, ray.hit.Ng_z});
+  return Meeting{
+      .range_m = ray.ray.tfar,
+      .cos_incidence = std::min(1.0, std::abs(dot(normal, along)) / std::sqrt(dot(normal, normal))),
+      .reflectance = part.reflectance[ray.hit.geomID],
+      .car = number == 0 ? std::nullopt : std::optional{number - 1}};
 }
 
 }  // namespace pitwall::sensors

@@ -16,7 +16,6 @@
 namespace pitwall::sensors {
 namespace {
 
-double dot(const Vector3& a, const Vector3& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 Vector3 minus(const Vector3& a, const Vector3& b) { return plus(a, times(-1.0, b)); }
 
 struct Triangle {

@@ -41,8 +41,7 @@ PointCloud cropped(std::span<const LidarPoint> sweep, const Crop& crop, ClusterR
 // What the two kinds of ground tell of a place in Body.
 struct Surroundings {
   std::function<double(const PlanePoint&)> height_m;
-  std::function<std::optional<double>(const PlanePoint&)> road_yaw_rad;  // unset: not known
-  bool is_road = false;
+  std::function<std::optional<double>(const PlanePoint&)> road_yaw_rad;  // empty: no road is known
 };
 
 // A cell of a wall gets a share of 1 of all rays that go through it.
@@ -51,8 +50,8 @@ float share_of_full(const LidarPoint& p, const ClusterParams& params) {
   return range2_m2 * static_cast<float>(params.ray_rad * params.ring_rad / params.cell_m);
 }
 
-bool is_far(const LidarPoint& p, const ClusterParams& params) {
-  return std::hypot(p.x_m, p.y_m) > params.far_m;
+bool is_far(double x_m, double y_m, const ClusterParams& params) {
+  return std::hypot(x_m, y_m) > params.far_m;
 }
 
 double apart_m(const LidarPoint& a, const LidarPoint& b) {
@@ -136,7 +135,9 @@ Body body_of(const Indices& cluster, std::span<const Object> objects, double hei
 
 Rectangle about(const Body& body, const Surroundings& surroundings, const ClusterParams& params) {
   const Rectangle fitted = fit_rectangle(body.points);
-  const auto road_rad = surroundings.road_yaw_rad({fitted.x_m, fitted.y_m});
+  const auto road_rad = surroundings.road_yaw_rad
+                            ? surroundings.road_yaw_rad({fitted.x_m, fitted.y_m})
+                            : std::nullopt;
   return rectangle_at(
       body.points, road_rad ? heading_on(*road_rad, fitted, params) : heading_of(fitted, params));
 }
@@ -151,8 +152,8 @@ std::size_t ClusterResult::*reason_against(const Body& body, const Rectangle& se
   if (std::max(seen.along_m, seen.across_m) < params.extent_least_m)
     return &ClusterResult::too_small;
   // Far away one ring may meet a car anywhere.
-  const bool is_far = std::hypot(seen.x_m, seen.y_m) > params.far_m;
-  if (body.height_m < params.height_least_m && !is_far) return &ClusterResult::too_small;
+  if (body.height_m < params.height_least_m && !is_far(seen.x_m, seen.y_m, params))
+    return &ClusterResult::too_small;
   return nullptr;
 }
 
@@ -251,7 +252,7 @@ void find_cars(std::span<const Object> objects, const Surroundings& surroundings
     weights.push_back(object.share_of_full);
   }
   auto clusters = clusters_of(places, {params.cell_m, 1, params.full_least}, weights);
-  if (surroundings.is_road) join_parts(clusters, objects, params);
+  if (surroundings.road_yaw_rad) join_parts(clusters, objects, params);
   for (const Indices& cluster : clusters)
     if (cluster.size() >= params.points_least)
       judge(cluster, objects, surroundings, params, result);
@@ -278,9 +279,7 @@ ClusterResult detect_clusters(std::span<const LidarPoint> sweep, const ClusterPa
       objects.push_back({at, over_m, at, share_of_full(p, params)});
     }
   }
-  find_cars(objects,
-            {[&](const PlanePoint& at) { return ground.height_m(at.x_m, at.y_m); },
-             [](const PlanePoint&) { return std::optional<double>{}; }, false},
+  find_cars(objects, {[&](const PlanePoint& at) { return ground.height_m(at.x_m, at.y_m); }, {}},
             params, result);
   return result;
 }
@@ -299,7 +298,8 @@ ClusterResult detect_clusters(std::span<const LidarPoint> sweep, const TrackGrou
     } else if (!at || at->place.wall_m < crop.wall_m || ahead_m > crop.ahead_m ||
                ahead_m < -crop.behind_m) {
       ++result.beside;
-    } else if (at->over_m < (is_far(p, params) ? params.far_above_m : params.road_above_m)) {
+    } else if (at->over_m <
+               (is_far(p.x_m, p.y_m, params) ? params.far_above_m : params.road_above_m)) {
       ++result.ground;
     } else if (!has_surface(sweep, i, params)) {
       ++result.dust;
@@ -317,10 +317,9 @@ ClusterResult detect_clusters(std::span<const LidarPoint> sweep, const TrackGrou
     if (!on) return std::nullopt;
     return ground.yaw_rad(on->place);
   };
-  find_cars(
-      objects,
-      {[&](const PlanePoint& at) { return ground.height_m(at.x_m, at.y_m); }, road_yaw_rad, true},
-      params, result);
+  find_cars(objects,
+            {[&](const PlanePoint& at) { return ground.height_m(at.x_m, at.y_m); }, road_yaw_rad},
+            params, result);
   return result;
 }
 
