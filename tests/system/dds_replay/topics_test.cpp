@@ -107,9 +107,9 @@ void take_all(dds_entity_t reader, std::vector<Taken>& out) {
 }
 
 // Readers of all four topics, one that may lose messages among them. Those that may lose none ask
-// for the messages before them: Cyclone DDS begins a volatile reader behind the first heartbeat that
-// it gets after it learnt of the writer, which on a busy machine is later than the writer learnt of
-// the reader.
+// for the messages before them: Cyclone DDS begins a volatile reader behind the first heartbeat
+// after it learnt of the writer, which on a busy machine is long after the writer learnt of the
+// reader.
 struct Readers {
   explicit Readers(int domain) : peer(static_cast<unsigned>(domain)) {
     constexpr int kAll = 2 * kPassesOfTest * kMessages;
