@@ -22,6 +22,7 @@
 #include "hil/cli/recordings/scenario_verb.hpp"
 #include "hil/cli/report_verb.hpp"
 #include "hil/cli/run_verb.hpp"
+#include "hil/cli/scenes_verb.hpp"
 #include "hil/cli/serve_verb.hpp"
 #include "hil/cli/track_verb.hpp"
 #include "hil/replay/replay_verb.hpp"
@@ -57,6 +58,7 @@ constexpr std::array kVerbs{
     Verb{"faults", "every fault of the catalogue: who notices it, how fast, and the outcome",
          cli::faults_verb},
     Verb{"track", "tracks: check, import from a CSV, picture", cli::track_verb},
+    Verb{"scenes", "drawn scenes for the training of the LiDAR's network", cli::scenes_verb},
     Verb{"track-kitti", "the tracker of other cars on a sequence of KITTI", cli::track_kitti_verb},
 };
 

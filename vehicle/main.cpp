@@ -9,6 +9,7 @@
 #include <string_view>
 #include <utility>
 #include <variant>
+#include <vector>
 
 #include "protocol/transport/clock.hpp"
 #include "protocol/transport/file.hpp"
@@ -22,6 +23,7 @@
 #include "vehicle/io/detect/detect_command.hpp"
 #include "vehicle/io/guardian_link.hpp"
 #include "vehicle/io/ingress/sensor_ingress.hpp"
+#include "vehicle/io/perception/lidar_worker.hpp"
 #include "vehicle/io/radio.hpp"
 #include "vehicle/io/report/local_report.hpp"
 #include "vehicle/io/report/radio_summary.hpp"
@@ -81,6 +83,7 @@ struct Parts {
   io::BlackBox box;
   std::unique_ptr<io::ComputerWatch> computer;  // none: the kernel gave no event file
   std::unique_ptr<io::SensorIngress> sensors;   // none: no sensor comes over ROS 2 topics
+  std::unique_ptr<io::LidarWorker> lidars;      // none: no LiDAR is looked at here
 };
 
 class Drive {
@@ -92,7 +95,9 @@ class Drive {
         parts_(std::move(parts)),
         adapter_(car_text),
         car_(std::make_unique<pipeline::Car>()),
-        log_(std::make_unique<pipeline::TickLog>()) {}
+        log_(std::make_unique<pipeline::TickLog>()) {
+    detections_.reserve(io::SensorIngress::kFramesMost + io::FrameQueue::kRoom);
+  }
 
   int run(transport::StopSignal& stop) {
     if (const auto taken = transport::take_turns(); !taken)
@@ -125,6 +130,7 @@ class Drive {
     const pipeline::Outputs out = pipeline::step(setup_, *car_, in);
     parts_.guardian.publish(setup_, *car_, out, out.requests.reset, now);
     parts_.car_io.write(out.passed.frames.span(), now);
+    if (parts_.lidars) parts_.lidars->report(out.ego);
     parts_.box.tick(in, out.passed.frames.span());
     if (out.bus_guard.restart_now) parts_.car_io.restart_bus();
     tally_.add(transport::monotonic_now() - now, tick.missed);
@@ -181,7 +187,12 @@ class Drive {
 
   std::span<const world::DetectionFrame> detections() {
     if (!parts_.sensors) return {};
-    return parts_.sensors->take_detections();
+    const auto received = parts_.sensors->take_detections();
+    if (!parts_.lidars) return received;
+    detections_.assign(received.begin(), received.end());
+    for (; parts_.lidars->front() != nullptr; parts_.lidars->pop())
+      detections_.push_back(*parts_.lidars->front());
+    return detections_;
   }
 
   world::ComputerHealth computer() const {
@@ -197,13 +208,14 @@ class Drive {
   }
 
   void show_sensors(pipeline::IoCounters& counters, Instant now) const {
-    const auto stream = [&](const char* name) {
-      const io::ArrivalFigures figures = parts_.sensors->figures(name, now);
+    const auto stream = [&](const io::ArrivalFigures& figures) {
       return pipeline::IoCounters::Stream{figures.rate_hz, figures.gap_ms, figures.latency_ms};
     };
-    counters.lidar = stream("lidar");
-    counters.camera = stream("camera");
-    counters.radar = stream("radar");
+    const io::SensorIngress& sensors = *parts_.sensors;
+    counters.lidar =
+        stream(parts_.lidars ? parts_.lidars->figures(now) : sensors.figures("lidar", now));
+    counters.camera = stream(sensors.figures("camera", now));
+    counters.radar = stream(sensors.figures("radar", now));
   }
 
   void tell_schema(Instant now) {
@@ -239,17 +251,16 @@ class Drive {
     frames_.sent = parts_.car_io.can().sent;
     frames_.rx_dropped = parts_.car_io.can().rx_dropped_queue;
     frames_.tx_drops = parts_.car_io.tx_drops();
-    const std::string radio =
-        parts_.radio ? io::radio_json(parts_.radio->endpoint().report(transport::monotonic_now()),
-                                      parts_.radio->paths())
-                     : "{}";
-    const std::string sensors =
-        parts_.sensors ? parts_.sensors->json(transport::monotonic_now()) : "[]";
+    const Instant now = transport::monotonic_now();
+    io::PartTexts parts{.receivers = io::receivers_json(parts_.car_io.receivers()),
+                        .recorder = parts_.box.json(),
+                        .tracking = io::tracking_json(car_->tracking.counters, opponents_)};
+    if (parts_.radio)
+      parts.radio = io::radio_json(parts_.radio->endpoint().report(now), parts_.radio->paths());
+    if (parts_.sensors)
+      parts.sensors = parts_.sensors->json(now, parts_.lidars ? parts_.lidars->json(now) : "");
     const auto written = transport::write_file(
-        args_.summary_file,
-        io::summary_json(tally_, frames_, bus_, losses_, radio,
-                         io::receivers_json(parts_.car_io.receivers()), parts_.box.json(), sensors,
-                         io::tracking_json(car_->tracking.counters, opponents_)));
+        args_.summary_file, io::summary_json(tally_, frames_, bus_, losses_, parts));
     return written ? 0 : (refuse(written.error()), kExitFailed);
   }
 
@@ -259,6 +270,7 @@ class Drive {
   pipeline::RadioAdapter adapter_;
   std::unique_ptr<pipeline::Car> car_;
   std::unique_ptr<pipeline::TickLog> log_;
+  std::vector<world::DetectionFrame> detections_;  // of this tick
   io::StepTally tally_;
   io::FrameTotals frames_;
   io::LossTally losses_;
@@ -271,12 +283,22 @@ class Drive {
   Instant last_;
 };
 
-Result<std::unique_ptr<io::SensorIngress>, Problem> open_sensors(const io::Arguments& args) {
-  if (args.sensors_file.empty()) return std::unique_ptr<io::SensorIngress>{};
+struct Sensors {
+  std::unique_ptr<io::SensorIngress> ingress;
+  std::unique_ptr<io::LidarWorker> lidars;
+};
+
+Result<Sensors, Problem> open_sensors(const io::Arguments& args, const world::TrackMap& track) {
+  if (args.sensors_file.empty()) return Sensors{};
   auto file = io::read_sensor_file(args.sensors_file);
   if (!file) return Unexpected{file.error()};
   file->domain.domain = args.sensors_domain.value_or(file->domain.domain);
-  return io::SensorIngress::start(*file);
+  auto network = perception::PillarDetector::read(file->network, read_whole);
+  if (!network) return Unexpected{network.error()};
+  auto ingress = io::SensorIngress::start(*file);
+  if (!ingress) return Unexpected{ingress.error()};
+  auto lidars = io::LidarWorker::start(io::lidars_of(**ingress), track, *std::move(network));
+  return Sensors{*std::move(ingress), std::move(lidars)};
 }
 
 Result<Parts, Problem> open_parts(const io::Arguments& args, const pipeline::Setup& setup,
@@ -302,11 +324,11 @@ Result<Parts, Problem> open_parts(const io::Arguments& args, const pipeline::Set
                                  .bank = setup.params.planning.line.bank},
                                 args.no_base);
   if (!box) return Unexpected{box.error()};
-  auto sensors = open_sensors(args);
+  auto sensors = open_sensors(args, setup.track);
   if (!sensors) return Unexpected{sensors.error()};
-  return Parts{*std::move(car_io), *std::move(guardian), std::move(radio),
-               *std::move(report), *std::move(box),      io::ComputerWatch::start(),
-               *std::move(sensors)};
+  return Parts{*std::move(car_io),          *std::move(guardian),      std::move(radio),
+               *std::move(report),          *std::move(box),           io::ComputerWatch::start(),
+               std::move(sensors->ingress), std::move(sensors->lidars)};
 }
 
 void introduce(const io::Arguments& args, const pipeline::Setup& setup, Parts& parts) {

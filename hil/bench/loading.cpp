@@ -6,6 +6,7 @@
 
 #include "hil/nodes/protected_messages.hpp"
 #include "hil/plant/plant_file.hpp"
+#include "hil/scenario/lidar_error_file.hpp"
 #include "hil/traffic/ghost_builder.hpp"
 #include "protocol/transport/file.hpp"
 #include "protocol/vocabulary/text.hpp"
@@ -107,6 +108,12 @@ Result<std::vector<LoadedStack>, Problem> stacks_of(const scenario::Scenario& ru
   return stacks;
 }
 
+Result<sensors::DetectorErrors, Problem> lidar_errors_in(const std::string& file) {
+  const auto text = transport::read_file(file);
+  if (!text) return Unexpected{text.error()};
+  return scenario::read_lidar_errors(*text, file);
+}
+
 }  // namespace
 
 Result<Loaded, Problem> load(const std::string& scenario_file, const std::string& folder) {
@@ -114,6 +121,11 @@ Result<Loaded, Problem> load(const std::string& scenario_file, const std::string
   if (!text) return Unexpected{text.error()};
   auto scenario = scenario::read_scenario(*text, scenario_file);
   if (!scenario) return Unexpected{scenario.error()};
+  if (scenario->lidars == scenario::LidarKind::kMeasured) {
+    auto errors = lidar_errors_in(below(folder, scenario::kLidarErrorFile));
+    if (!errors) return Unexpected{errors.error()};
+    scenario->lidar_errors = *std::move(errors);
+  }
   const std::string track_file = below(folder, scenario->track_file);
   const auto track_text = transport::read_file(track_file);
   if (!track_text) return Unexpected{track_text.error()};

@@ -165,8 +165,9 @@ std::optional<Problem> unjudged_by(BenchMode mode, const scenario::Scenario& sce
   for (const scenario::Expectation& row : scenario.expect)
     if (row.signal.starts_with(kSeen))
       return Problem{row.place, "signals seen.* exist in lockstep only: run without --live"};
-  if (scenario.lidars == scenario::LidarKind::kRays)
-    return Problem{scenario.name, "\"lidars: rays\" is for lockstep only: run without --live"};
+  if (has_rays(scenario.lidars))
+    return Problem{scenario.name, std::string("\"lidars: ") + name_of(scenario.lidars) +
+                                      "\" is for lockstep only: run without --live"};
   return std::nullopt;
 }
 

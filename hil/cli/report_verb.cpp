@@ -8,19 +8,15 @@
 #include "hil/cli/exit_code.hpp"
 #include "hil/report/junit.hpp"
 #include "hil/report/page.hpp"
+#include "hil/track_file/track_map_file.hpp"
 #include "protocol/transport/file.hpp"
-#include "vehicle/parameters/track_file.hpp"
 
 namespace pitwall::cli {
 namespace {
 
 Result<world::TrackMap, Problem> load_track(const std::string& path) {
   if (path.empty()) return Unexpected{Problem{"the log", "names no track file"}};
-  const auto text = transport::read_file(path);
-  if (!text) return Unexpected{text.error()};
-  const auto described = parameters::read_track(*text, path);
-  if (!described) return Unexpected{described.error()};
-  return world::TrackMap::build(*described);
+  return track_file::read_track_map(path);
 }
 
 report::RunData load_run(const ReportFiles& files) {

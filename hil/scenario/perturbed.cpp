@@ -62,4 +62,10 @@ plant::Surface perturbed(const plant::Surface& road, const scenario::Perturbatio
   return s;
 }
 
+sensors::DetectionSensors detection_sensors_of(const scenario::Scenario& scenario) {
+  sensors::DetectionSensors seeing = sensors::av21_detection_sensors();
+  if (scenario.lidar_errors) seeing = with_detector_errors(seeing, *scenario.lidar_errors);
+  return with_noise(seeing, scenario.perturb.detection_noise);
+}
+
 }  // namespace pitwall::plant

@@ -19,8 +19,13 @@
 #include "hil/plant/params.hpp"
 #include "hil/plant/plant.hpp"
 #include "hil/scenario/scenario.hpp"
+#include "hil/sensors/detection_params.hpp"
 
 namespace pitwall::plant {
+
+// The sensors that see other cars, with their noise and, where it asks for them, measured errors of
+// the LiDARs.
+sensors::DetectionSensors detection_sensors_of(const scenario::Scenario& scenario);
 
 // The car of a scenario, with its tank as filled and its consumption as drawn.
 plant::Params plant_of(const scenario::Scenario& scenario);

@@ -55,7 +55,9 @@ constexpr std::array kBusRevisions = {
 
 constexpr std::array kLidarKinds = {
     Named<LidarKind>{"model", LidarKind::kModel},
+    Named<LidarKind>{"measured", LidarKind::kMeasured},
     Named<LidarKind>{"rays", LidarKind::kRays},
+    Named<LidarKind>{"rays_clusters", LidarKind::kRaysClusters},
 };
 
 constexpr std::array kReceiverKinds = {

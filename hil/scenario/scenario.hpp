@@ -17,6 +17,7 @@
 #include "hil/scenario/cars_section.hpp"
 #include "hil/scenario/match_section.hpp"
 #include "hil/scenario/radio_section.hpp"
+#include "hil/sensors/detection_params.hpp"
 #include "protocol/vocabulary/result.hpp"
 #include "protocol/vocabulary/time.hpp"
 #include "protocol/vocabulary/units.hpp"
@@ -98,9 +99,12 @@ struct NamedContact {
   std::string reason;
 };
 
-// How the LiDARs see the other cars; lockstep only. kModel: as detections with drawn errors. kRays:
-// ray by ray, with the car's own detector.
-enum class LidarKind : std::uint8_t { kModel, kRays };
+// How the LiDARs see the other cars. kModel: as detections with drawn errors; kMeasured: with those
+// that the car's network was measured to make (lidar_error_file.hpp). Else ray by ray, in lockstep
+// only, with the car's own detector behind them: kRays its network, kRaysClusters its clusters.
+enum class LidarKind : std::uint8_t { kModel, kMeasured, kRays, kRaysClusters };
+
+constexpr bool has_rays(LidarKind lidars) { return lidars >= LidarKind::kRays; }
 
 struct Scenario {
   std::string name;
@@ -111,6 +115,7 @@ struct Scenario {
   std::optional<std::array<world::ReceiverKind, world::kGnssUnits>> receivers;
   BusRevision bus = BusRevision::kV14;
   LidarKind lidars = LidarKind::kModel;
+  std::optional<sensors::DetectorErrors> lidar_errors{};  // of kMeasured; by who opens the files
   Start start;
   Tyres tyres;
   std::string plant_file;  // of the modelled car; empty: the AV-21 of hil/plant/params.hpp

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hil/sensors/detection_params.hpp"
 
+#include <cmath>
+
 #include "protocol/vocabulary/check.hpp"
 
 namespace pitwall::sensors {
@@ -80,6 +82,28 @@ DetectionSensors with_noise(const DetectionSensors& sensors, double factor) {
       *sigma *= factor;
   }
   return noisy;
+}
+
+DetectionSensors with_detector_errors(const DetectionSensors& sensors,
+                                      const DetectorErrors& errors) {
+  CHECK(!errors.rows.empty());
+  RangeTable found, sigma;
+  double yaw_squares = 0.0;
+  for (const DetectorErrors::Row& row : errors.rows) {
+    const double middle_m = 0.5 * (row.from_m + row.to_m);
+    found.push_back({middle_m, row.found_share});
+    sigma.push_back({middle_m, row.position_rms_m * std::sqrt(0.5)});
+    yaw_squares += row.yaw_rms_rad * row.yaw_rms_rad;
+  }
+  DetectionSensors measured = sensors;
+  for (DetectionSensor& sensor : measured) {
+    if (sensor.source != DetectionSource::kLidar) continue;
+    sensor.hit_rate = found;
+    sensor.lidar.position_sigma_m = sigma;
+    sensor.lidar.yaw_sigma_rad = std::sqrt(yaw_squares / static_cast<double>(errors.rows.size()));
+    sensor.false_per_frame = errors.false_per_sweep;
+  }
+  return measured;
 }
 
 DetectionSensors without(const DetectionSensors& sensors, world::DetectionSource source) {

@@ -5,9 +5,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <numbers>
+#include <vector>
 
 #include "hil/sensors/unit_params.hpp"
 #include "protocol/vocabulary/fixed_vector.hpp"
@@ -20,7 +20,7 @@ namespace pitwall::sensors {
 struct RangeRow {
   double range_m = 0.0, value = 0.0;
 };
-using RangeTable = std::array<RangeRow, 3>;
+using RangeTable = std::vector<RangeRow>;  // by increasing range, at least one
 
 struct Sector {
   double from_rad = 0.0, to_rad = 0.0;  // counter-clockwise from `from` to `to`
@@ -82,6 +82,20 @@ DetectionSensors av21_detection_sensors();
 
 // Every standard deviation times the factor.
 DetectionSensors with_noise(const DetectionSensors& sensors, double factor);
+
+// What a LiDAR detector was measured to do, by distance; its cars have five returns at least.
+struct DetectorErrors {
+  struct Row {
+    double from_m = kUnset, to_m = kUnset;
+    double found_share = kUnset, position_rms_m = kUnset, yaw_rms_rad = kUnset;
+  };
+  std::vector<Row> rows;  // by increasing distance, at least one
+  double false_per_sweep = kUnset;
+};
+
+// The LiDAR finds as many cars, with such errors; those of the position are alike along both axes.
+DetectionSensors with_detector_errors(const DetectionSensors& sensors,
+                                      const DetectorErrors& errors);
 
 // All but those of one kind.
 DetectionSensors without(const DetectionSensors& sensors, world::DetectionSource source);

@@ -94,14 +94,14 @@ std::size_t CdrReader::take_count(std::size_t least_each) {
   return 0;
 }
 
-std::string CdrReader::take_text() {
+std::string_view CdrReader::take_text() {
   const std::size_t length = take_count(1);
   if (!ok()) return {};
   // Some writers leave the NUL of an empty string out.
   if (length == 0) return {};
   const auto* text = reinterpret_cast<const char*>(bytes_.data() + at_);
   if (text[length - 1] != '\0')
-    return refuse("expected NUL at the end of the string"), std::string{};
+    return refuse("expected NUL at the end of the string"), std::string_view{};
   at_ += length;
   return {text, length - 1};
 }

@@ -11,7 +11,7 @@
 //          end inside of a field, a length beyond the end, a string without NUL, a bool above 1,
 //          more than three bytes after the end (the padding of RTPS)
 //   cost   O(bytes); numbers are copied in one piece; a length never allocates more than the bytes
-//          can hold
+//          can hold; decode_into() allocates only where the message has no room
 //   source OMG DDS-XTypes 1.3 section 7.4.1 (XCDR1), OMG DDSI-RTPS 2.5 section 10.2
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
@@ -152,7 +152,7 @@ class CdrReader {
   bool has(std::size_t bytes);
   bool align(std::size_t bytes);
   std::size_t take_count(std::size_t least_each);
-  std::string take_text();
+  std::string_view take_text();  // of the bytes
   bool take_flag();
   void take_numbers(void* numbers, std::size_t count, std::size_t bytes_each);
 
@@ -168,13 +168,21 @@ void encode(const M& message, std::vector<std::uint8_t>& out) {
   CdrWriter{out}.put(message);
 }
 
+// Into a message whose storage is used again: without allocation where it is large enough. After an
+// error the message is anything.
 template <Message M>
-Result<M, Problem> decode(std::span<const std::uint8_t> bytes) {
+std::optional<Problem> decode_into(std::span<const std::uint8_t> bytes, M& message) {
   CdrReader reader{bytes};
-  M message;
   if (reader.ok()) reader.take(message);
   reader.finish();
-  if (!reader.ok()) return Unexpected{reader.problem()};
+  if (!reader.ok()) return reader.problem();
+  return std::nullopt;
+}
+
+template <Message M>
+Result<M, Problem> decode(std::span<const std::uint8_t> bytes) {
+  M message;
+  if (auto problem = decode_into(bytes, message)) return Unexpected{*std::move(problem)};
   return message;
 }
 

@@ -199,6 +199,8 @@ const std::vector<Part> kParts{
     {"hil/bench/recorded", bench_and({"vehicle/io"}), rim_and({})},
     {"hil/can_bus", kBench, rim_and({})},
     {"hil/cli", kBench, rim_and({"cli"})},
+    // Scenes as the car's network sees them.
+    {"hil/scenes", bench_and({"vehicle/autonomy/perception"}), {"files"}},
     // One module of the car by itself, on a public benchmark.
     {"hil/cli/kitti", bench_and({"vehicle/autonomy/tracking"}), {}},
     {"hil/sweep", kBench, rim_and({})},

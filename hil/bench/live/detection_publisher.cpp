@@ -49,11 +49,10 @@ void encode(M message, UtcTime at, std::vector<std::uint8_t>& bytes) {
 
 }  // namespace
 
-Result<DetectionPublisher, Problem> DetectionPublisher::open(const io::SensorFile& file,
-                                                             std::uint64_t seed, double noise) {
+Result<DetectionPublisher, Problem> DetectionPublisher::open(
+    const io::SensorFile& file, const sensors::DetectionSensors& simulated, std::uint64_t seed) {
   auto domain = dds::Domain::join(file.domain);
   if (!domain) return Unexpected{domain.error()};
-  const auto simulated = sensors::with_noise(sensors::av21_detection_sensors(), noise);
   std::vector<Topic> topics;
   for (const io::SensorRow& row : file.sensors) {
     if (!io::detects_cars(row.type)) continue;

@@ -24,9 +24,10 @@ namespace pitwall::bench {
 
 class DetectionPublisher {
  public:
-  // `seed` and the factor on the noise are those of the scenario: the draws are those of lockstep.
-  static Result<DetectionPublisher, Problem> open(const io::SensorFile& file, std::uint64_t seed,
-                                                  double noise = 1.0);
+  // Sensors and `seed` are those of the scenario: the draws are those of lockstep.
+  static Result<DetectionPublisher, Problem> open(const io::SensorFile& file,
+                                                  const sensors::DetectionSensors& simulated,
+                                                  std::uint64_t seed);
 
   // `at` is scenario time, `started` the time of this process at its zero.
   void step(const sensors::TrueCars& cars, Instant at, Instant started);

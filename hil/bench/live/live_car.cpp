@@ -12,6 +12,7 @@
 #include "hil/bench/live/car_summary.hpp"
 #include "hil/bench/match_run.hpp"
 #include "hil/bench/signals.hpp"
+#include "hil/scenario/perturbed.hpp"
 #include "protocol/transport/clock.hpp"
 
 namespace pitwall::bench {
@@ -27,7 +28,7 @@ Result<std::optional<DetectionPublisher>, Problem> open_detections(const LivePla
   auto file = io::read_sensor_file(plan.sensors);
   if (!file) return Unexpected{file.error()};
   file->domain.domain = plan.sensors_domain;
-  auto opened = DetectionPublisher::open(*file, run.seed, run.perturb.detection_noise);
+  auto opened = DetectionPublisher::open(*file, plant::detection_sensors_of(run), run.seed);
   if (!opened) return Unexpected{opened.error()};
   return Optional{*std::move(opened)};
 }

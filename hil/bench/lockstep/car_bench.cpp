@@ -9,7 +9,9 @@
 #include "hil/bench/contact.hpp"
 #include "hil/bench/match_run.hpp"
 #include "hil/bench/signals.hpp"
+#include "hil/scenario/perturbed.hpp"
 #include "protocol/telemetry/registry/labels.hpp"
+#include "protocol/transport/file.hpp"
 
 namespace pitwall::bench {
 namespace {
@@ -45,15 +47,21 @@ Result<std::unique_ptr<CarBench>, Problem> CarBench::build(const scenario::Scena
   for (const scenario::OperatorText& word : scenario.operator_texts)
     if (const auto fit = inputs::parse_text_command(word.text); !fit)
       return Unexpected{fit.error()};
+  auto network = perception::PillarDetector::read(
+      has_others && scenario.lidars == scenario::LidarKind::kRays ? perception::kPillarNetworkFile
+                                                                  : "",
+      [](const std::string& path) { return transport::read_file(path); });
+  if (!network) return Unexpected{network.error()};
   GuardianNode guardian{setup.params, faults->processes, options.guardian};
   return std::unique_ptr<CarBench>{new CarBench(scenario, setup, *std::move(rig),
                                                 *std::move(grader), std::move(guardian), *faults,
-                                                options, has_others)};
+                                                options, has_others, *std::move(network))};
 }
 
 CarBench::CarBench(const scenario::Scenario& scenario, const pipeline::Setup& setup, Rig rig,
                    grading::Grader grader, GuardianNode guardian, const FaultPlan& faults,
-                   const LockstepOptions& options, bool has_others)
+                   const LockstepOptions& options, bool has_others,
+                   std::optional<perception::PillarDetector> network)
     : scenario_(scenario),
       setup_(setup),
       rig_(std::move(rig)),
@@ -74,9 +82,9 @@ CarBench::CarBench(const scenario::Scenario& scenario, const pipeline::Setup& se
   received_.reserve(kInboxFrames);
   if (options.log) record_.emplace(scenario, "lockstep", options.log, has_others);
   if (!has_others) return;
-  detection_sensors_ =
-      with_noise(sensors::av21_detection_sensors(), scenario_.perturb.detection_noise);
-  if (scenario_.lidars == scenario::LidarKind::kRays)
+  detection_sensors_ = plant::detection_sensors_of(scenario_);
+  network_ = std::move(network);
+  if (has_rays(scenario_.lidars))
     detection_sensors_ = without(detection_sensors_, world::DetectionSource::kLidar);
   detection_ = sensors::make_detections(detection_sensors_, scenario_.seed, Instant{});
   detections_.reserve(kDetectionFrames);
@@ -96,8 +104,8 @@ void CarBench::show_others(Field& field, std::size_t own, Instant at) {
   arrivals_.clear();
   sensors::step_detections(detection_sensors_, detection_,
                            {.ours = field.car(own).pose, .others = others}, at, arrivals_);
-  if (scenario_.lidars == scenario::LidarKind::kRays) {
-    if (!lidars_) lidars_.emplace(setup_.track, others.size(), scenario_.seed);
+  if (has_rays(scenario_.lidars)) {
+    if (!lidars_) lidars_.emplace(setup_.track, others.size(), scenario_.seed, std::move(network_));
     lidars_->step(rig_.truth(), others, out_ ? out_->ego : world::EgoState{}, at, arrivals_);
   }
   for (const world::DetectionFrame& frame : arrivals_) {

@@ -65,7 +65,8 @@ class CarBench {
  private:
   CarBench(const scenario::Scenario& scenario, const pipeline::Setup& setup, Rig rig,
            grading::Grader grader, GuardianNode guardian, const FaultPlan& faults,
-           const LockstepOptions& options, bool has_others);
+           const LockstepOptions& options, bool has_others,
+           std::optional<perception::PillarDetector> network);
   RunView view(Instant now) const;
   void step_car(Instant now);
   void hang_planner(Instant now);
@@ -105,7 +106,8 @@ class CarBench {
   bool identity_changed_ = false;
   sensors::DetectionSensors detection_sensors_;  // none for a car that is alone
   sensors::DetectionState detection_;
-  std::optional<SweptLidars> lidars_;  // in place of the modelled ones
+  std::optional<perception::PillarDetector> network_;  // of lidars_, until they are made
+  std::optional<SweptLidars> lidars_;                  // in place of the modelled ones
   sensors::Arrivals arrivals_;
   std::vector<world::DetectionFrame> detections_;  // since the last tick
 };

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hil/bench/lockstep/swept_lidars.hpp"
 
+#include <utility>
+
 #include "hil/sensors/lidar/car_mesh.hpp"
 #include "hil/sensors/lidar/standing.hpp"
 #include "hil/sensors/lidar/track_mesh.hpp"
@@ -36,8 +38,12 @@ perception::PointCloud points_of(std::span<const sensors::LidarReturn> returns) 
   return points;
 }
 
-SweptLidars::SweptLidars(const world::TrackMap& track, std::size_t others, std::uint64_t seed)
-    : track_(track), rays_(sensors::track_meshes(track)), noise_(seed, kStream), detector_(track) {
+SweptLidars::SweptLidars(const world::TrackMap& track, std::size_t others, std::uint64_t seed,
+                         std::optional<perception::PillarDetector> network)
+    : track_(track),
+      rays_(sensors::track_meshes(track)),
+      noise_(seed, kStream),
+      detector_(track, {}, std::move(network)) {
   const std::vector<sensors::Mesh> body = sensors::car_meshes(sensors::av21_shape());
   for (std::size_t car = 0; car < others; ++car) rays_.add_car(body);
 }

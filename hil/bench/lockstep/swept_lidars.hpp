@@ -12,6 +12,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <deque>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -20,7 +21,7 @@
 #include "hil/sensors/detections.hpp"
 #include "hil/sensors/lidar/lidar.hpp"
 #include "hil/sensors/noise.hpp"
-#include "vehicle/autonomy/perception/lidar/lidar_detector.hpp"
+#include "vehicle/autonomy/perception/lidar_detector.hpp"
 
 namespace pitwall::bench {
 
@@ -34,8 +35,9 @@ class SweptLidars {
   // The sweep itself takes 50 ms; then transport, and the detector's 10 ms.
   static constexpr Duration kLatency = milliseconds(75);
 
-  // `track` outlives it.
-  SweptLidars(const world::TrackMap& track, std::size_t others, std::uint64_t seed);
+  // `track` outlives it. Without a network the detector looks for clusters.
+  SweptLidars(const world::TrackMap& track, std::size_t others, std::uint64_t seed,
+              std::optional<perception::PillarDetector> network = std::nullopt);
 
   // Appends the frames that are due.
   void step(const plant::Truth& ours, std::span<const plant::CarPose> others,

@@ -4,14 +4,15 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 
 #include "hil/sensors/lidar/standing.hpp"
 #include "hil/sensors/lidar/track_mesh.hpp"
+#include "protocol/vocabulary/check.hpp"
 
 namespace pitwall::sensors {
 namespace {
 
-constexpr std::size_t kSceneCarsMost = 5;
 constexpr double kBehind_m = 100.0, kAhead_m = 125.0;
 constexpr double kLengthApart_m = 7.0, kWidthApart_m = 2.6, kWallApart_m = 1.3;
 
@@ -41,7 +42,8 @@ double drawn_offset_m(const world::TrackMap& track, double s_m, Noise& noise) {
   return between(noise, -at.width_right_m + kWallApart_m, at.width_left_m - kWallApart_m);
 }
 
-std::vector<OnTrack> drawn_cars(const world::TrackMap& track, const OnTrack& ours, Noise& noise) {
+std::vector<OnTrack> drawn_cars(const world::TrackMap& track, const OnTrack& ours,
+                                double spun_share, Noise& noise) {
   std::vector<OnTrack> cars{ours};
   const std::size_t count = noise.next() % (kSceneCarsMost + 1);
   for (int attempt = 0; attempt < 50 && cars.size() < count + 1; ++attempt) {
@@ -53,7 +55,12 @@ std::vector<OnTrack> drawn_cars(const world::TrackMap& track, const OnTrack& our
       return std::abs(std::remainder(car.s_m - other.s_m, track.length_m())) > kLengthApart_m ||
              std::abs(car.n_m - other.n_m) > kWidthApart_m;
     });
-    if (is_free) cars.push_back(car);
+    if (!is_free) continue;
+    cars.push_back(car);
+    if (spun_share > 0.0 && noise.uniform() < spun_share) {
+      cars.back().speed_mps = 0.0;
+      cars.back().turned_rad = between(noise, -std::numbers::pi, std::numbers::pi);
+    }
   }
   cars.erase(cars.begin());
   return cars;
@@ -101,12 +108,43 @@ TrueBox box_of(const Moving& ours, const Moving& car, const CarShape& shape) {
           .width_m = shape.width_m};
 }
 
+// The whole and each of its parts a little larger or smaller.
+CarShape varied(const CarShape& shape, Noise& noise) {
+  const auto factor = [&](double share) { return between(noise, 1.0 - share, 1.0 + share); };
+  const double length = factor(0.08), width = factor(0.06), height = factor(0.12);
+  const auto stretched = [&](const Block::Face& face) {
+    return Block::Face{length * face.x_m, width * face.half_width_m * factor(0.1),
+                       height * face.low_m, height * face.high_m * factor(0.05)};
+  };
+  CarShape body{.name = "drawn",
+                .length_m = length * shape.length_m,
+                .width_m = width * shape.width_m,
+                .height_m = height * shape.height_m,
+                .blocks = {},
+                .wheels = {},
+                .body_reflectance = static_cast<float>(between(noise, 0.08, 0.7))};
+  for (const Block& block : shape.blocks)
+    body.blocks.push_back({stretched(block.rear), stretched(block.front), width * block.aside_m});
+  for (const Wheel& wheel : shape.wheels)
+    body.wheels.push_back({length * wheel.x_m, width * wheel.aside_m, wheel.radius_m * factor(0.08),
+                           wheel.width_m * factor(0.1)});
+  return body;
+}
+
 }  // namespace
 
-SceneMaker::SceneMaker(const world::TrackMap& track, const CarShape& shape, double dust)
-    : track_(&track), shape_(shape), dust_(dust), rays_(track_meshes(track)) {
-  const std::vector<Mesh> meshes = car_meshes(shape_);
-  for (std::size_t car = 0; car < kSceneCarsMost; ++car) rays_.add_car(meshes);
+std::vector<CarShape> bodies_like(const CarShape& shape, std::size_t count, std::uint64_t seed) {
+  Noise noise{seed, 0xB0D1E5};
+  std::vector<CarShape> bodies;
+  for (std::size_t i = 0; i < count; ++i) bodies.push_back(varied(shape, noise));
+  return bodies;
+}
+
+SceneMaker::SceneMaker(const world::TrackMap& track, const std::vector<CarShape>& bodies,
+                       const SceneRules& rules)
+    : track_(&track), bodies_(bodies), rules_(rules), rays_(track_meshes(track)) {
+  CHECK(!bodies_.empty());
+  for (std::size_t car = 0; car < kSceneCarsMost; ++car) rays_.add_car(car_meshes(shape_of(car)));
 }
 
 LidarScene SceneMaker::make(std::uint64_t seed) {
@@ -115,16 +153,16 @@ LidarScene SceneMaker::make(std::uint64_t seed) {
   const OnTrack ours{s_m, drawn_offset_m(*track_, s_m, noise), between(noise, 20.0, 75.0),
                      from_deg(1.0) * noise.normal()};
   std::vector<Moving> cars;
-  for (const OnTrack& car : drawn_cars(*track_, ours, noise))
+  for (const OnTrack& car : drawn_cars(*track_, ours, rules_.spun_share, noise))
     cars.push_back(standing_on(*track_, car, 0.0));
-  const std::vector<DustCloud> dust = drawn_dust(*track_, ours, cars, dust_, noise);
+  const std::vector<DustCloud> dust = drawn_dust(*track_, ours, cars, rules_.dust, noise);
   const Moving body = sprung(standing_on(*track_, ours, kOriginOverRoad_m), noise);
   for (std::size_t car = 0; car < kSceneCarsMost; ++car) rays_.hide(car);
 
   LidarScene scene;
   const Moving then = after(body, kReference_s);
-  for (const Moving& car : cars)
-    scene.cars.push_back(box_of(then, after(car, kReference_s), shape_));
+  for (std::size_t car = 0; car < cars.size(); ++car)
+    scene.cars.push_back(box_of(then, after(cars[car], kReference_s), shape_of(car)));
   for (const LidarUnit& unit : av21_lidars()) {
     scene.sweeps.push_back({unit.mount, lidar_sweep(unit, rays_, {body, cars, dust}, noise)});
     for (const LidarReturn& back : scene.sweeps.back().returns)

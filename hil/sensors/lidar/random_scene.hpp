@@ -1,12 +1,12 @@
 // Drawn scenes for a LiDAR detector: our car on a track among others and dust, seen by its LiDARs
 // once, with what is true.
-//   in     track, body of the other cars, density of dust, seed
+//   in     track, bodies of the other cars, what is drawn how often, seed
 //   out    one sweep of each LiDAR; the true boxes at the reference time, in Body, with the number
 //          of returns; our place as localization would tell it
 //   drawn  up to five others from 100 m behind to 125 m ahead, no two in one place, within 15 m/s
-//          of our speed and 6 deg of the road's direction; behind every third a trail of dust; some
-//          dust of no car; our springs (pitch and roll 0.4 deg) and errors of our pose (0.05 m,
-//          0.1 deg)
+//          of our speed and 6 deg of the road's direction, but for those that have spun: at rest in
+//          any direction; behind every third a trail of dust; some dust of no car; our springs
+//          (pitch and roll 0.4 deg) and errors of our pose (0.05 m, 0.1 deg)
 //   frames Map; Body of our car at the reference time
 //   law    the same seed gives the same scene
 //   cost   0.2 s a scene
@@ -45,16 +45,30 @@ struct LidarScene {
   double speed_mps = kUnset, yaw_rate_rad_per_s = kUnset;
 };
 
+struct SceneRules {
+  double dust = 1.0;        // density of the clouds; 0: there are none
+  double spun_share = 0.0;  // of the others
+};
+
+inline constexpr std::size_t kSceneCarsMost = 5;
+
+// As many bodies like `shape`, other in length, width and height, in each of their parts, and in
+// what they send back: what is learned of them holds for a car that was not among them.
+std::vector<CarShape> bodies_like(const CarShape& shape, std::size_t count, std::uint64_t seed);
+
 class SceneMaker {
  public:
-  // `track` outlives the maker.
-  SceneMaker(const world::TrackMap& track, const CarShape& shape, double dust = 1.0);
+  // `track` outlives the maker. One body for all others, or one for each of kSceneCarsMost.
+  SceneMaker(const world::TrackMap& track, const std::vector<CarShape>& bodies,
+             const SceneRules& rules = {});
   LidarScene make(std::uint64_t seed);
 
  private:
+  const CarShape& shape_of(std::size_t car) const { return bodies_[car % bodies_.size()]; }
+
   const world::TrackMap* track_;
-  CarShape shape_;
-  double dust_;
+  std::vector<CarShape> bodies_;
+  SceneRules rules_;
   RayScene rays_;
 };
 

@@ -1,4 +1,5 @@
-// Subcommand `pitwall-benchmarks perception [--scenes N] [--seed N] [--json FILE]`: LiDAR detectors
+// Subcommand `pitwall-benchmarks perception [--network FILE] [--scenes N] [--seed N]
+// [--errors FILE] [--json FILE]`: LiDAR detectors
 // on drawn scenes, in simulation.
 //
 //   in     scenes with another body, another track and more dust than any that a detector was made

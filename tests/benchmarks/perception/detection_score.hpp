@@ -12,7 +12,7 @@
 #include <span>
 
 #include "hil/sensors/lidar/random_scene.hpp"
-#include "vehicle/autonomy/perception/lidar/cluster_detector.hpp"
+#include "vehicle/autonomy/perception/lidar/car_box.hpp"
 
 namespace pitwall::perception_bench {
 

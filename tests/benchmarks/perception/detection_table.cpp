@@ -35,10 +35,39 @@ std::string row_text(const DetectorRow& row) {
 
 }  // namespace
 
+void add_gates(const DetectionScore& held_back, cost::CostGates& gates) {
+  const RangeScore near = held_back.between(0.0, 60.0), far = held_back.between(60.0, 100.0);
+  const RangeScore all = held_back.between(0.0, 100.0);
+  const auto add = [&](const char* what, double value, double limit, bool held) {
+    gates.count(formatted("network: %s: %.3f of %.3f", what, value, limit), held);
+  };
+  add("found to 60 m", near.found_share(), 0.98, near.found_share() >= 0.98);
+  add("found to 100 m", all.found_share(), 0.95, all.found_share() >= 0.95);
+  add("false cars a sweep", held_back.false_per_sweep(), 0.01, held_back.false_per_sweep() <= 0.01);
+  add("rms to 60 m", near.position_rms_m(), 0.15, near.position_rms_m() <= 0.15);
+  add("rms from 60 to 100 m", far.position_rms_m(), 0.30, far.position_rms_m() <= 0.30);
+}
+
 std::string to_text(std::span<const DetectorRow> rows) {
   std::string text = formatted("%-15s %6s %8s %8s %8s %8s\n", "simulation", "cars", "recall",
                                "rms m", "worst m", "yaw deg");
   for (const DetectorRow& row : rows) text += row_text(row);
+  return text;
+}
+
+std::string error_file(const DetectorRow& row) {
+  std::string text = formatted(
+      "# Measured in simulation by `./pitwall bench perception --errors`: %zu sweeps, %s.\n"
+      "detector: %s\nfalse_per_sweep: %.4f\nranges:\n",
+      row.score.sweeps, row.set.c_str(), row.detector.c_str(), row.score.false_per_sweep());
+  for (std::size_t k = 0; k < kRanges; ++k) {
+    const RangeScore& range = row.score.by_range[k];
+    if (range.found == 0) continue;
+    text += formatted(
+        "  - {from_m: %.0f, to_m: %.0f, found: %.4f, position_rms_m: %.4f, yaw_rms_deg: %.3f}\n",
+        kRanges_m[k], kRanges_m[k + 1], range.found_share(), range.position_rms_m(),
+        kDegrees * range.yaw_rms_rad());
+  }
   return text;
 }
 

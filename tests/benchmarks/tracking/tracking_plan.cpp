@@ -3,16 +3,9 @@
 
 #include <stdexcept>
 
-#include "protocol/transport/file.hpp"
-#include "vehicle/parameters/track_file.hpp"
+#include "hil/track_file/track_map_file.hpp"
 
 namespace pitwall::tracking_bench {
-namespace {
-
-constexpr std::size_t kTrackBytes = std::size_t{1} << 20U;
-
-}  // namespace
-
 Scene race_scene() {
   Scene scene{.name = "race", .span = seconds(3600)};
   scene.traffic.is_free = true;
@@ -50,12 +43,8 @@ Scene blind_scene() {
 
 const world::TrackMap& las_vegas() {
   static const world::TrackMap map = [] {
-    const std::string name = std::string(PITWALL_SOURCE_DIR) + "/vehicle/config/tracks/lvms.yaml";
-    const auto text = transport::read_file(name, kTrackBytes);
-    if (!text) throw std::runtime_error(to_string(text.error()));
-    const auto description = parameters::read_track(*text, name);
-    if (!description) throw std::runtime_error(to_string(description.error()));
-    auto built = world::TrackMap::build(*description);
+    auto built = track_file::read_track_map(std::string(PITWALL_SOURCE_DIR) +
+                                            "/vehicle/config/tracks/lvms.yaml");
     if (!built) throw std::runtime_error(to_string(built.error()));
     return *std::move(built);
   }();

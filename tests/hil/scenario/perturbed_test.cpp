@@ -224,5 +224,24 @@ TEST(Perturbed, EveryDelayShiftsItsActuatorAndNoOther) {
   }
 }
 
+TEST(Perturbed, DetectionsHaveTheMeasuredErrorsTimesTheNoise) {
+  scenario::Scenario run;
+  run.perturb.detection_noise = 2.0;
+  const auto modelled = detection_sensors_of(run);
+  run.lidar_errors = sensors::DetectorErrors{.rows = {{.from_m = 0.0,
+                                                       .to_m = 100.0,
+                                                       .found_share = 0.5,
+                                                       .position_rms_m = std::numbers::sqrt2,
+                                                       .yaw_rms_rad = 0.1}},
+                                             .false_per_sweep = 0.25};
+  const auto measured = detection_sensors_of(run);
+  ASSERT_EQ(measured[0].source, world::DetectionSource::kLidar);
+  EXPECT_EQ(modelled[0].lidar.position_sigma_m[0].value, 0.30) << "0.15 m in the model";
+  EXPECT_NEAR(measured[0].lidar.position_sigma_m[0].value, 2.0, 1e-12);
+  EXPECT_EQ(measured[0].hit_rate[0].value, 0.5);
+  EXPECT_EQ(measured[0].false_per_frame, 0.25);
+  EXPECT_EQ(measured[1].hit_rate[0].value, modelled[1].hit_rate[0].value);
+}
+
 }  // namespace
 }  // namespace pitwall::plant

@@ -267,6 +267,9 @@ TEST(Scenario, TheReceiversAreThoseOfTheCarUnlessTheyAreNamed) {
 TEST(Scenario, TheLidarsAreModelledUnlessTheyShootRays) {
   EXPECT_EQ(read_scenario(kGood, "good.yaml")->lidars, LidarKind::kModel);
   EXPECT_EQ(read_scenario(kGood + "lidars: rays\n", "good.yaml")->lidars, LidarKind::kRays);
+  EXPECT_EQ(read_scenario(kGood + "lidars: measured\n", "good.yaml")->lidars, LidarKind::kMeasured);
+  EXPECT_EQ(read_scenario(kGood + "lidars: rays_clusters\n", "good.yaml")->lidars,
+            LidarKind::kRaysClusters);
   const auto wrong = read_scenario(kGood + "lidars: lasers\n", "l.yaml");
   ASSERT_FALSE(wrong);
   EXPECT_EQ(to_string(wrong.error()).rfind("l.yaml:", 0), 0u) << to_string(wrong.error());

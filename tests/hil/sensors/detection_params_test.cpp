@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include <set>
 #include <utility>
 
@@ -44,6 +46,38 @@ TEST(DetectionParams, WithoutAKindTheOthersAreLeft) {
     EXPECT_LT(kept.size(), all.size());
     for (const DetectionSensor& sensor : kept) EXPECT_NE(sensor.source, source);
     EXPECT_EQ(without(kept, source).size(), kept.size());
+  }
+}
+
+TEST(DetectionParams, TheLidarsDetectorHasTheErrorsThatWereMeasured) {
+  const DetectorErrors errors{.rows = {{.from_m = 0.0,
+                                        .to_m = 40.0,
+                                        .found_share = 0.99,
+                                        .position_rms_m = 0.2,
+                                        .yaw_rms_rad = 0.03},
+                                       {.from_m = 40.0,
+                                        .to_m = 100.0,
+                                        .found_share = 0.9,
+                                        .position_rms_m = 0.4,
+                                        .yaw_rms_rad = 0.01}},
+                              .false_per_sweep = 0.07};
+  const DetectionSensors plain = av21_detection_sensors();
+  const DetectionSensors measured = with_detector_errors(plain, errors);
+  ASSERT_EQ(measured.size(), plain.size());
+  for (std::size_t i = 0; i < measured.size(); ++i) {
+    const DetectionSensor& s = measured[i];
+    if (s.source != DetectionSource::kLidar) {
+      EXPECT_EQ(s.hit_rate[0].value, plain[i].hit_rate[0].value);
+      EXPECT_EQ(s.false_per_frame, plain[i].false_per_frame);
+      continue;
+    }
+    ASSERT_EQ(s.hit_rate.size(), 2U);
+    EXPECT_EQ(s.hit_rate[1].range_m, 70.0);
+    EXPECT_EQ(s.hit_rate[1].value, 0.9);
+    // Of two axes, so that the distance is 0.2 m rms.
+    EXPECT_NEAR(s.lidar.position_sigma_m[0].value, 0.2 / std::sqrt(2.0), 1e-12);
+    EXPECT_NEAR(s.lidar.yaw_sigma_rad, std::sqrt(0.0005), 1e-12);
+    EXPECT_EQ(s.false_per_frame, 0.07);
   }
 }
 

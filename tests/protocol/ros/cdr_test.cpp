@@ -5,7 +5,9 @@
 
 #include <algorithm>
 
+#include "protocol/ros/messages/sensor.hpp"
 #include "tests/protocol/ros/sample_messages.hpp"
+#include "tests/support/allocation_guard.hpp"
 
 namespace pitwall::ros {
 namespace {
@@ -94,6 +96,23 @@ TEST(Cdr, EveryMessageComesBackAsItWas) {
       EXPECT_EQ(encoded(*back), bytes);
     }
   });
+}
+
+TEST(Cdr, IntoAMessageWithRoomItIsReadWithoutAllocation) {
+  PointCloud2 cloud;
+  cloud.header.frame_id = "a frame with a name that is longer than a small string";
+  cloud.fields = {{"x", 0, 7, 1}, {"intensity_of_a_long_name", 4, 7, 1}};
+  cloud.data.resize(10'000, 7);
+  std::vector<std::uint8_t> cdr;
+  encode(cloud, cdr);
+  PointCloud2 message;
+  ASSERT_FALSE(decode_into(cdr, message));
+  EXPECT_EQ(message.data, cloud.data);
+  EXPECT_EQ(message.header.frame_id, cloud.header.frame_id);
+  if (!pitwall::testing::kAllocationsCounted) GTEST_SKIP() << "the sanitizer has its own heap";
+  EXPECT_EQ(pitwall::testing::allocations_of([&] { (void)decode_into(cdr, message); }), 0U);
+  message = PointCloud2{};
+  EXPECT_GT(pitwall::testing::allocations_of([&] { (void)decode_into(cdr, message); }), 0U);
 }
 
 // Up to three bytes are the padding of RTPS, and whatever they hold says nothing.

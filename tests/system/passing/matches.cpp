@@ -30,6 +30,10 @@ std::vector<AttemptCase> cases_of(Seeds seeds, const std::string& commit, std::s
   return cases;
 }
 
+void see_as_measured(std::vector<AttemptCase>& cases) {
+  for (AttemptCase& attempt : cases) attempt.lidars = scenario::LidarKind::kMeasured;
+}
+
 std::vector<AttemptCase> cases_by_rays(std::size_t attempts) {
   std::vector<AttemptCase> cases;
   for (const BracketGate& bracket : kByRays)
@@ -80,8 +84,10 @@ int main(int argc, char** argv) {
   app.add_option("--attempts", attempts,
                  "of each driver at each speed, for each kind of seeds; 20, by rays 5")
       ->check(CLI::Range(1, 1'000));
-  app.add_option("--lidars", lidars, "model; rays: ours alone at 100, 125 and 150 mph")
-      ->check(CLI::IsMember({"model", "rays"}));
+  app.add_option(
+         "--lidars", lidars,
+         "model; measured: its errors are the network's; rays: ours alone at 100, 125, 150 mph")
+      ->check(CLI::IsMember({"model", "measured", "rays"}));
   app.add_option("--commit", commit, "its name gives the second kind of seeds; without: none");
   app.add_option("--processes", processes, "at once")->check(CLI::Range(1, 256));
   app.add_option("--lost", lost_folder, "scenarios of attempts that ours did not make go here");
@@ -98,10 +104,11 @@ int main(int argc, char** argv) {
     announce(cases.size(), kByRays_s);
     return run_all(cases, kByRays, Seeds::kCommitted, processes, lost_folder) ? 0 : 1;
   }
-  const auto committed = cases_of(Seeds::kCommitted, commit, attempts);
-  announce((commit.empty() ? 1 : 2) * committed.size(), kAttempt_s);
+  auto committed = cases_of(Seeds::kCommitted, commit, attempts);
+  if (lidars == "measured") see_as_measured(committed);
+  announce((commit.empty() || lidars != "model" ? 1 : 2) * committed.size(), kAttempt_s);
   bool held = run_all(committed, kBrackets, Seeds::kCommitted, processes, lost_folder);
-  if (!commit.empty())
+  if (!commit.empty() && lidars == "model")
     held = run_all(cases_of(Seeds::kOfCommit, commit, attempts), kBrackets, Seeds::kOfCommit,
                    processes, lost_folder) &&
            held;

@@ -9,7 +9,7 @@
 #include <span>
 #include <string>
 
-#include "vehicle/autonomy/perception/lidar/cluster_detector.hpp"
+#include "vehicle/autonomy/perception/lidar/clusters/cluster_detector.hpp"
 
 namespace pitwall::io {
 

@@ -6,6 +6,16 @@
 
 namespace pitwall::io {
 
+void add_figure(json::Object& out, const char* name, double value) {
+  if (!std::isnan(value)) out.number(name, std::round(value * 1e3) * 1e-3);
+}
+
+void add_figures(json::Object& out, const ArrivalFigures& figures) {
+  add_figure(out, "rate_hz", figures.rate_hz);
+  add_figure(out, "gap_ms", figures.gap_ms);
+  add_figure(out, "latency_ms", figures.latency_ms);
+}
+
 void Arrivals::note(Instant at, std::optional<Duration> latency) {
   const Duration gap = noted_ == 0 ? Duration{} : at - ring_[(noted_ - 1) % kKept].at;
   ring_[noted_++ % kKept] = {at, gap, latency ? latency->milliseconds() : kUnset};

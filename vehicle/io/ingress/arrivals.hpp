@@ -16,6 +16,7 @@
 #include <cstdint>
 #include <optional>
 
+#include "protocol/json/json_text.hpp"
 #include "protocol/vocabulary/time.hpp"
 #include "protocol/vocabulary/units.hpp"
 
@@ -24,6 +25,10 @@ namespace pitwall::io {
 struct ArrivalFigures {
   double rate_hz = kUnset, gap_ms = kUnset, latency_ms = kUnset;
 };
+
+// Rounded to a thousandth; left out where it is not known.
+void add_figure(json::Object& out, const char* name, double value);
+void add_figures(json::Object& out, const ArrivalFigures& figures);
 
 class Arrivals {
  public:

@@ -24,6 +24,7 @@ constexpr double kHalfTurn_deg = 180.0;
 constexpr double kPixelsMax = 100'000.0;
 constexpr double kHeightMin_m = 0.3, kHeightMax_m = 5.0;
 constexpr double kAmplitudeMax_db = 300.0;
+constexpr double kMountMost_m = 10.0, kHorizonMost_ms = 200.0;
 
 DetectionRow read_detections(yaml::StrictMap& map, SensorType type) {
   DetectionRow row;
@@ -44,6 +45,21 @@ DetectionRow read_detections(yaml::StrictMap& map, SensorType type) {
   return row;
 }
 
+LidarRow read_lidar(yaml::StrictMap& map) {
+  const std::vector<double> at_m = map.numbers("at_m", 3, 3, -kMountMost_m, kMountMost_m);
+  const std::vector<double> turned_deg =
+      map.has("turned_deg") ? map.numbers("turned_deg", 3, 3, -kHalfTurn_deg, kHalfTurn_deg)
+                            : std::vector<double>(3, 0.0);
+  const double horizon_ms = map.number_or("horizon_ms", 0.0, 0.0, kHorizonMost_ms);
+  return {.mount = {.x_m = at_m[0],
+                    .y_m = at_m[1],
+                    .z_m = at_m[2],
+                    .roll_rad = from_deg(turned_deg[0]),
+                    .pitch_rad = from_deg(turned_deg[1]),
+                    .yaw_rad = from_deg(turned_deg[2])},
+          .horizon = microseconds(static_cast<std::int64_t>(1e3 * horizon_ms))};
+}
+
 SensorRow read_row(yaml::StrictMap& map) {
   SensorRow row{.name = map.text("name"), .topic = map.text("topic")};
   const auto name_is_plain = [](char c) {
@@ -58,6 +74,7 @@ SensorRow read_row(yaml::StrictMap& map) {
   row.type = static_cast<SensorType>(found - kTypes.begin());
   row.rate_hz = map.number("rate_hz", kRateMin_hz, kRateMax_hz);
   if (detects_cars(row.type)) row.detections = read_detections(map, row.type);
+  if (row.type == SensorType::kPointCloud2 && map.has("at_m")) row.lidar = read_lidar(map);
   return row;
 }
 
@@ -65,6 +82,7 @@ SensorFile read(yaml::StrictMap& map) {
   SensorFile file;
   file.domain.domain = static_cast<int>(map.integer_or("domain", 0, 0, dds::kDomainMax));
   file.domain.interface = map.text_or("interface", file.domain.interface);
+  file.network = map.text_or("network", {});
   if (map.has("peers")) file.domain.peers = map.texts("peers", 0, kSensorsMax);
   for (yaml::StrictMap& row : map.maps("sensors")) {
     const SensorRow sensor = read_row(row);
@@ -87,7 +105,10 @@ SensorFile read(yaml::StrictMap& map) {
 Result<SensorFile, Problem> read_sensor_file(const std::string& path) {
   const auto document = yaml::load_file(path);
   if (!document) return Unexpected{document.error()};
-  return yaml::read(*document, [](yaml::StrictMap& map) { return read(map); });
+  auto file = yaml::read(*document, [](yaml::StrictMap& map) { return read(map); });
+  if (file && !file->network.empty() && !file->network.starts_with('/'))
+    file->network = path.substr(0, path.rfind('/') + 1) + file->network;
+  return file;
 }
 
 }  // namespace pitwall::io

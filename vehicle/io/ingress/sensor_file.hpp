@@ -11,6 +11,13 @@
 //       - {name: echoes, topic: /perception/radar, type: RadarScan, rate_hz: 20,
 //          amplitude_db: [-10, 30]}
 //
+// A row of points whose LiDAR the car itself looks for cars in says where that is in base_link, and
+// when after the stamp its rays pass the horizon:
+//
+//       - {name: luminar_front, topic: /luminar_front/points, type: PointCloud2, rate_hz: 20,
+//          at_m: [1.0, 0.0, 0.55], turned_deg: [0, 0, 0], horizon_ms: 12.3}
+//     network: ../networks/lidar_pillars.onnx   # top level, beside this file; without: clusters
+//
 // A row of detections may have: unit (0; which one of its type), frame (base_link), and where it is
 // a camera or a radar facing_deg (0; counter-clockwise from ahead). detection_codec.hpp says what
 // the numbers mean.
@@ -22,12 +29,15 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "protocol/dds/domain.hpp"
 #include "protocol/vocabulary/result.hpp"
+#include "protocol/vocabulary/time.hpp"
 #include "protocol/vocabulary/units.hpp"
+#include "vehicle/autonomy/perception/lidar/motion.hpp"
 
 namespace pitwall::io {
 
@@ -51,11 +61,18 @@ struct DetectionRow {
   double amplitude_0_db = kUnset, amplitude_1_db = kUnset;  // radar: confidence 0 and 1
 };
 
+// A LiDAR whose points the car looks for cars in.
+struct LidarRow {
+  perception::SensorPose mount;
+  Duration horizon{};  // when its rays pass it, after the stamp
+};
+
 struct SensorRow {
   std::string name, topic;
   SensorType type = SensorType::kPointCloud2;
   double rate_hz = 0.0;  // expected rate
   DetectionRow detections{};
+  std::optional<LidarRow> lidar{};  // only of points
 };
 
 constexpr bool detects_cars(SensorType type) { return type >= SensorType::kDetection3DArray; }
@@ -63,6 +80,7 @@ constexpr bool detects_cars(SensorType type) { return type >= SensorType::kDetec
 struct SensorFile {
   dds::DomainConfig domain;
   std::vector<SensorRow> sensors;
+  std::string network{};  // file of the LiDARs' network; empty: clusters
 };
 
 inline constexpr std::size_t kSensorsMax = 16;

@@ -20,11 +20,6 @@ namespace {
 // As sensor drivers send: what is late is not worth sending again.
 constexpr dds::Quality kSensorData{.reliable = false, .latched = false, .depth = 5};
 
-// Left out where it is not known.
-void add_figure(json::Object& out, const char* name, double value) {
-  if (!std::isnan(value)) out.number(name, std::round(value * 1e3) * 1e-3);
-}
-
 void add_counts(json::Object& out, const DetectionCounts& c) {
   out.number("refused", c.refused)
       .number("in_future", c.in_future)
@@ -84,15 +79,14 @@ const char* contradiction_of(const ros::Imu& imu) {
 struct SensorIngress::Sensor {
   template <class M>
   void receive(Mailbox<M>& mailbox, dds::Bytes cdr) {
-    auto message = ros::decode<M>(cdr);
-    if (!message || contradiction_of(*message) != nullptr) {
+    M& message = mailbox.next();
+    if (ros::decode_into(cdr, message) || contradiction_of(message) != nullptr) {
       ++refused;
       return;
     }
-    const Duration age = age_of(message->header, transport::utc_now());
+    const Duration age = age_of(message.header, transport::utc_now());
     const bool ours = age <= kStampApart && -age <= kStampApart;
     if (!ours) ++bad_stamps;
-    mailbox.next() = *std::move(message);
     mailbox.put();
     arrivals.note(transport::monotonic_now(), ours ? std::optional{age} : std::nullopt);
   }
@@ -220,7 +214,7 @@ template const ros::Image* SensorIngress::take(std::size_t);
 template const ros::NavSatFix* SensorIngress::take(std::size_t);
 template const ros::Imu* SensorIngress::take(std::size_t);
 
-std::string SensorIngress::json(Instant now) const {
+std::string SensorIngress::json(Instant now, const std::string& more) const {
   json::Array out;
   for (std::size_t i = 0; i < sensors_.size(); ++i) {
     const ArrivalFigures f = figures(i, now);
@@ -228,9 +222,7 @@ std::string SensorIngress::json(Instant now) const {
     json::Object sensor;
     sensor.text("name", row(i).name);
     add_figure(sensor, "expected_hz", row(i).rate_hz);
-    add_figure(sensor, "rate_hz", f.rate_hz);
-    add_figure(sensor, "gap_ms", f.gap_ms);
-    add_figure(sensor, "latency_ms", f.latency_ms);
+    add_figures(sensor, f);
     sensor.number("samples", c.samples).number("foreign_types", c.foreign_types);
     if (detects_cars(row(i).type))
       add_counts(sensor, c.detections);
@@ -240,6 +232,7 @@ std::string SensorIngress::json(Instant now) const {
           .number("bad_stamps", c.bad_stamps);
     out.json(sensor.str());
   }
+  if (!more.empty()) out.json(more);
   return out.str();
 }
 

@@ -65,7 +65,8 @@ class SensorIngress {
   // All frames of detections since the last call, at most kFramesMost; what is left comes with the
   // next call. Valid until then. No allocation.
   std::span<const world::DetectionFrame> take_detections();
-  std::string json(Instant now) const;  // a list, for the summary of a run
+  // A list for the summary of a run; `more`: one more row of it.
+  std::string json(Instant now, const std::string& more = {}) const;
 
   struct Sensor;
 

@@ -167,9 +167,7 @@ std::string link_json(const world::LinkObservation& link) {
 
 std::string summary_json(const StepTally& tally, const FrameTotals& frames,
                          const world::BusHealth& bus, const LossTally& losses,
-                         const std::string& radio, const std::string& receivers,
-                         const std::string& recorder, const std::string& sensors,
-                         const std::string& tracking) {
+                         const PartTexts& parts) {
   json::Object out;
   out.number("ticks", tally.steps());
   out.number("missed_deadlines", tally.missed_deadlines());
@@ -192,11 +190,11 @@ std::string summary_json(const StepTally& tally, const FrameTotals& frames,
       .json("identity", identity_json(bus.identity))
       .json("messages", messages_json(bus))
       .json("losses", losses_json(losses.listed()))
-      .json("radio", radio)
-      .json("receivers", receivers)
-      .json("recorder", recorder)
-      .json("sensors", sensors)
-      .json("tracking", tracking)
+      .json("radio", parts.radio)
+      .json("receivers", parts.receivers)
+      .json("recorder", parts.recorder)
+      .json("sensors", parts.sensors)
+      .json("tracking", parts.tracking)
       .number("step_p50_us", tally.quantile_us(0.5))
       .number("step_p99_us", tally.quantile_us(0.99))
       .number("step_max_us", tally.max_us());

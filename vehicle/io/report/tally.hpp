@@ -64,13 +64,16 @@ struct FrameTotals {
   std::uint64_t missed_shifts = 0;  // asked for and not reported by the gearbox in time
 };
 
-// One JSON object. `bus` is that of the last tick; `radio`, `receivers`, `recorder`, `sensors` and
-// `tracking` are the texts of radio_json(), receivers_json(), BlackBox::json(),
-// SensorIngress::json() and tracking_json().
+// JSON of the parts: radio_json(), receivers_json(), BlackBox::json(), SensorIngress::json() and
+// tracking_json().
+struct PartTexts {
+  std::string radio = "{}", receivers = "[]", recorder = "{}", sensors = "[]";
+  std::string tracking = "{}";
+};
+
+// One JSON object. `bus` is that of the last tick.
 std::string summary_json(const StepTally& tally, const FrameTotals& frames,
                          const world::BusHealth& bus, const LossTally& losses,
-                         const std::string& radio = "{}", const std::string& receivers = "[]",
-                         const std::string& recorder = "{}", const std::string& sensors = "[]",
-                         const std::string& tracking = "{}");
+                         const PartTexts& parts = {});
 
 }  // namespace pitwall::io

@@ -99,7 +99,7 @@ std::string some_summary(const io::StepTally& tally) {
   io::LossTally losses;
   losses.add(some_health());
   return io::summary_json(tally, some_totals(), some_health(), losses,
-                          io::radio_json(some_report(), 2));
+                          {.radio = io::radio_json(some_report(), 2)});
 }
 
 TEST_F(CarSummaryFile, IsReadAsTheCarWroteIt) {
@@ -139,9 +139,9 @@ TEST_F(CarSummaryFile, ItsDetectionsAndTheCarsThatItTracksAreReadAsItHadThem) {
       {"name": "lidar", "samples": 1, "refused": 2, "in_future": 4, "too_old": 8,
        "foreign_frames": 16, "too_many": 32, "no_room": 64, "bad_detections": 128},
       {"name": "radar", "samples": 256, "bad_detections": 0}])";
-  const auto car = read_car_summary(
-      write(io::summary_json({}, some_totals(), some_health(), {}, "{}", "[]", "{}", sensors,
-                             io::tracking_json(counters, opponents))));
+  const auto car = read_car_summary(write(
+      io::summary_json({}, some_totals(), some_health(), {},
+                       {.sensors = sensors, .tracking = io::tracking_json(counters, opponents)})));
   ASSERT_TRUE(car) << to_string(car.error());
   EXPECT_EQ(car->tracking.size(), 14U);
   EXPECT_EQ(car->tracking[0], (std::pair<std::string, std::uint64_t>{"frames", 9}));
@@ -160,9 +160,11 @@ TEST_F(CarSummaryFile, ItsReceiversAreReadAsTheCarHadThem) {
     ports.push_back(*std::move(port));
   }
   const std::string text =
-      io::summary_json({}, some_totals(), some_health(), {}, "{}", io::receivers_json(ports),
-                       R"({"records": 5, "dropped": 2})",
-                       R"([{"name": "lidar_front", "expected_hz": 20.000, "samples": 7}])");
+      io::summary_json({}, some_totals(), some_health(), {},
+                       {.receivers = io::receivers_json(ports),
+                        .recorder = R"({"records": 5, "dropped": 2})",
+                        .sensors = R"([{"name": "lidar_front", "expected_hz": 20.000,
+                                        "samples": 7}])"});
   const auto car = read_car_summary(write(text));
   ASSERT_TRUE(car) << to_string(car.error()) << text;
   EXPECT_EQ(car->recorder, (CarSummary::Counts{{"records", 5}, {"dropped", 2}}));

@@ -63,11 +63,13 @@ TEST(CarBench, ACarIsToldOfItsNearestRival) {
 }
 
 // Both stand: the second one 25 m ahead, a lane to the left.
-TEST(CarBench, ACarIsFoundByRays) {
+class ByRays : public ::testing::TestWithParam<scenario::LidarKind> {};
+
+TEST_P(ByRays, ACarIsFound) {
   scenario::Scenario own = part_of_lap(2'250.0, 7), other = part_of_lap(2'275.0, 8);
   own.duration = other.duration = seconds(3);
   other.start.n_m = 4.0;
-  own.lidars = scenario::LidarKind::kRays;
+  own.lidars = GetParam();
   world::Opponents seen;
   std::array stacks{stack_of(own), stack_of(other, "other")};
   stacks[0].options.watch = [&](const pipeline::Outputs& out, const Rig&, Instant) {
@@ -84,6 +86,11 @@ TEST(CarBench, ACarIsFoundByRays) {
   });
   EXPECT_TRUE(is_there);
 }
+
+INSTANTIATE_TEST_SUITE_P(CarBench, ByRays,
+                         ::testing::Values(scenario::LidarKind::kRays,
+                                           scenario::LidarKind::kRaysClusters),
+                         [](const auto& kind) { return name_of(kind.param); });
 
 // A car that starts in another one touches it at once, and nobody moved.
 TEST(CarBench, AContactEndsTheRunAndIsAttributed) {

@@ -15,7 +15,7 @@ constexpr std::uint64_t kSeeds = 12;
 TEST(RandomScene, ReturnsOfACarLieAboutItsBox) {
   // A ray that is 38 ms from the reference time meets a car that goes 90 m/s 3.4 m from there, less
   // what our own car went: at most 15 m/s apart, and what the turn adds.
-  SceneMaker maker{traffic::oval(), av21_shape(), 0.0};
+  SceneMaker maker{traffic::oval(), {av21_shape()}, {.dust = 0.0}};
   std::size_t cars = 0;
   for (std::uint64_t seed = 0; seed < kSeeds; ++seed) {
     const LidarScene scene = maker.make(seed);
@@ -39,7 +39,7 @@ TEST(RandomScene, ReturnsOfACarLieAboutItsBox) {
 }
 
 TEST(RandomScene, NoTwoCarsAreInOnePlace) {
-  SceneMaker maker{traffic::oval(), sf23_shape()};
+  SceneMaker maker{traffic::oval(), {sf23_shape()}};
   for (std::uint64_t seed = 0; seed < kSeeds; ++seed) {
     std::vector<TrueBox> cars = maker.make(seed).cars;
     cars.push_back({.x_m = 0.0, .y_m = 0.0});
@@ -50,7 +50,7 @@ TEST(RandomScene, NoTwoCarsAreInOnePlace) {
 }
 
 TEST(RandomScene, TheSameSeedGivesTheSameScene) {
-  SceneMaker maker{traffic::oval(), av21_shape()};
+  SceneMaker maker{traffic::oval(), {av21_shape()}};
   const LidarScene first = maker.make(5), between = maker.make(6), again = maker.make(5);
   ASSERT_EQ(first.sweeps.size(), 3U);
   EXPECT_EQ(first.x_m, again.x_m);
@@ -63,7 +63,8 @@ TEST(RandomScene, TheSameSeedGivesTheSameScene) {
 }
 
 TEST(RandomScene, DustIsOnlyThereWhereItIsAskedFor) {
-  SceneMaker clear{traffic::oval(), av21_shape(), 0.0}, dusty{traffic::oval(), av21_shape(), 3.0};
+  SceneMaker clear{traffic::oval(), {av21_shape()}, {.dust = 0.0}},
+      dusty{traffic::oval(), {av21_shape()}, {.dust = 3.0}};
   std::size_t differing = 0;
   for (std::uint64_t seed = 0; seed < kSeeds; ++seed) {
     const LidarScene without = clear.make(seed), with = dusty.make(seed);

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 
@@ -41,6 +42,19 @@ sensors:
   EXPECT_EQ(file->sensors[0].topic, "/luminar_front/points");
   EXPECT_EQ(file->sensors[1].type, SensorType::kImage);
   EXPECT_EQ(file->sensors[1].rate_hz, 37.5);
+}
+
+TEST(SensorFile, ThoseThatAreShippedAreRead) {
+  const std::string folder = std::string(PITWALL_SOURCE_DIR) + "/vehicle/config/sensors/";
+  const auto detections = read_sensor_file(folder + "av21.yaml");
+  ASSERT_TRUE(detections) << to_string(detections.error());
+  EXPECT_TRUE(detections->network.empty());
+  const auto lidars = read_sensor_file(folder + "av21_lidars.yaml");
+  ASSERT_TRUE(lidars) << to_string(lidars.error());
+  EXPECT_EQ(std::ranges::count_if(lidars->sensors,
+                                  [](const SensorRow& row) { return row.lidar.has_value(); }),
+            3);
+  EXPECT_TRUE(std::filesystem::exists(lidars->network)) << lidars->network;
 }
 
 TEST(SensorFile, IsOnLoopbackWhereItDoesNotSayOtherwise) {
@@ -116,6 +130,37 @@ TEST(SensorFile, AMistakeInASensorThatDetectsCarsIsNamed) {
   EXPECT_NE(says(row("a", "Detection2DArray", camera + ", facing_deg: 181")), "taken");
   EXPECT_NE(says(row("a", "Detection3DArray", ", unit: 16")), "taken");
   EXPECT_NE(says(row("a", "Imu", ", unit: 1")), "taken") << "it detects no cars";
+}
+
+TEST(SensorFile, ALidarThatTheCarLooksAtSaysWhereItIs) {
+  const std::string rows =
+      "network: nets/lidar.onnx\nsensors:\n"
+      "  - {name: a, topic: /a, type: PointCloud2, rate_hz: 20, at_m: [1.0, -0.2, 0.55],\n"
+      "     turned_deg: [0, 2, 90], horizon_ms: 12.3}\n"
+      "  - {name: b, topic: /b, type: PointCloud2, rate_hz: 20}\n";
+  const auto file = read(rows);
+  ASSERT_TRUE(file) << to_string(file.error());
+  EXPECT_TRUE(file->network.ends_with("/nets/lidar.onnx")) << "beside the file: " << file->network;
+  ASSERT_TRUE(file->sensors[0].lidar);
+  const LidarRow& lidar = *file->sensors[0].lidar;
+  EXPECT_EQ(lidar.mount.x_m, 1.0);
+  EXPECT_EQ(lidar.mount.y_m, -0.2);
+  EXPECT_EQ(lidar.mount.z_m, 0.55);
+  EXPECT_EQ(lidar.mount.pitch_rad, from_deg(2.0));
+  EXPECT_EQ(lidar.mount.yaw_rad, from_deg(90.0));
+  EXPECT_EQ(lidar.horizon, microseconds(12'300));
+  EXPECT_FALSE(file->sensors[1].lidar);
+
+  const auto says = [](const std::string& more) {
+    return why("sensors:\n  - {name: a, topic: /a, rate_hz: 20, " + more + "}\n");
+  };
+  EXPECT_EQ(says("type: PointCloud2, at_m: [0, 0, 1]"), "taken");
+  EXPECT_NE(says("type: PointCloud2, at_m: [0, 0]"), "taken");
+  EXPECT_NE(says("type: PointCloud2, at_m: [0, 0, 11]"), "taken");
+  EXPECT_NE(says("type: PointCloud2, at_m: [0, 0, 1], turned_deg: [0, 0, 181]"), "taken");
+  EXPECT_NE(says("type: PointCloud2, at_m: [0, 0, 1], horizon_ms: -1"), "taken");
+  EXPECT_NE(says("type: Image, at_m: [0, 0, 1]"), "taken") << "it has no points";
+  EXPECT_NE(says("type: PointCloud2, horizon_ms: 12"), "taken") << "where is it?";
 }
 
 }  // namespace

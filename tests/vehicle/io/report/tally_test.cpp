@@ -172,10 +172,12 @@ TEST(Summary, IsReadBackWithEveryKey) {
   for (std::size_t i = 0; i < safety::kVerdicts; ++i) frames.gate_verdicts[i] = 1000 + i;
   const auto losses = std::make_unique<LossTally>();
   losses->add(some_health());
-  const std::string text =
-      summary_json(*tally, frames, some_health(), *losses, R"({"sessions": 51})",
-                   R"([{"bytes": 61}, {"bytes": 62}])", R"({"records": 71})",
-                   R"([{"samples": 81}])", R"({"frames": 91})");
+  const std::string text = summary_json(*tally, frames, some_health(), *losses,
+                                        {.radio = R"({"sessions": 51})",
+                                         .receivers = R"([{"bytes": 61}, {"bytes": 62}])",
+                                         .recorder = R"({"records": 71})",
+                                         .sensors = R"([{"samples": 81}])",
+                                         .tracking = R"({"frames": 91})"});
   const auto document = yaml::load_text(text, "summary.json");  // JSON is YAML
   ASSERT_TRUE(document) << to_string(document.error()) << text;
   const auto all = yaml::read(*document, [](yaml::StrictMap& map) {

@@ -13,7 +13,7 @@ constexpr std::uint32_t kNoSample = std::numeric_limits<std::uint32_t>::max();
 
 }  // namespace
 
-TrackGrid::TrackGrid(const world::TrackMap& track) : length_m_(track.length_m()) {
+TrackGrid::TrackGrid(const world::TrackMap& track) : track_(&track) {
   const auto steps = static_cast<std::size_t>(std::ceil(track.length_m() / kGridStep_m));
   double to_x_m = -std::numeric_limits<double>::infinity(), to_y_m = to_x_m;
   from_x_m_ = from_y_m_ = -to_x_m;

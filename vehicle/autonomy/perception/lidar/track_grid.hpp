@@ -24,10 +24,11 @@ struct TrackPlace {
 
 class TrackGrid {
  public:
+  // `track` outlives the grid.
   explicit TrackGrid(const world::TrackMap& track);
   // Unset beyond the walls.
   std::optional<TrackPlace> at(double x_m, double y_m) const;
-  double length_m() const { return length_m_; }
+  const world::TrackMap& track() const { return *track_; }
 
  private:
   struct Sample {
@@ -36,7 +37,8 @@ class TrackGrid {
   };
   std::size_t cell_of(double x_m, double y_m) const;  // beside the grid: cells_.size()
 
-  double length_m_ = 0.0, from_x_m_ = 0.0, from_y_m_ = 0.0;
+  const world::TrackMap* track_;
+  double from_x_m_ = 0.0, from_y_m_ = 0.0;
   std::size_t columns_ = 0, rows_ = 0;
   std::vector<Sample> samples_;
   std::vector<std::uint32_t> cells_;  // sample whose cross-section passes closest to the middle

@@ -66,7 +66,7 @@ std::optional<TrackGround::Point> TrackGround::at(const LidarPoint& p) const {
 }
 
 double TrackGround::ahead_m(const TrackPlace& place) const {
-  return std::remainder(place.s_m - s_m_, grid_->length_m());
+  return std::remainder(place.s_m - s_m_, grid_->track().length_m());
 }
 
 double TrackGround::height_m(double x_m, double y_m) const {
@@ -79,6 +79,22 @@ double TrackGround::height_m(double x_m, double y_m) const {
     p.z_m -= static_cast<float>(at->over_m);
   }
   return p.z_m;
+}
+
+TrackGround::RoadInBody TrackGround::in_body(double ahead_m, double n_m) const {
+  const world::TrackPoint road = grid_->track().offset(s_m_ + ahead_m, n_m);
+  const double height_m = grid_->track().road(road.s_m, n_m).height_m;
+  RoadInBody in_body{.x_m = 0.0, .y_m = 0.0, .z_m = 0.0, .yaw_rad = road.yaw_rad - yaw_rad_};
+  // How far the plane lifts the road there depends on the place: a second step is exact to 0.1 mm.
+  for (int step = 0; step < 2; ++step) {
+    const Vector apart{road.x_m - origin_[0], road.y_m - origin_[1],
+                       height_m + lifted_m(in_body.x_m, in_body.y_m) - origin_[2]};
+    const auto along = [&](std::size_t axis) {
+      return turn_[0][axis] * apart[0] + turn_[1][axis] * apart[1] + turn_[2][axis] * apart[2];
+    };
+    in_body.x_m = along(0), in_body.y_m = along(1), in_body.z_m = along(2);
+  }
+  return in_body;
 }
 
 }  // namespace pitwall::perception

@@ -39,6 +39,11 @@ class TrackGround {
   double ahead_m(const TrackPlace& place) const;       // along the track, from our car
   // Of the road below a place in Body, in Body.
   double height_m(double x_m, double y_m) const;
+  // The road at a station ahead of our car and an offset, and its direction there, in Body.
+  struct RoadInBody {
+    double x_m, y_m, z_m, yaw_rad;
+  };
+  RoadInBody in_body(double ahead_m, double n_m) const;
   double yaw_rad(const TrackPlace& place) const { return place.yaw_rad - yaw_rad_; }
   std::size_t points() const { return points_; }
 

@@ -95,6 +95,26 @@ TEST(TrackGround, HeightIsTheInverse) {
   EXPECT_TRUE(std::isnan(ground->height_m(0.0, 50.0))) << "beyond the walls";
 }
 
+TEST(TrackGround, APlaceOfTheRoadInBodyIsTheInverseToo) {
+  const TrackGrid grid{traffic::oval()};
+  for (const double s_m : {100.0, 480.0}) {  // on a straight, in a banked turn
+    const OnRoad car = on_road(s_m, 1.0, 0.01, -0.008, 0.02);
+    const auto ground = TrackGround::fit(grid, car.pose, car.points);
+    ASSERT_TRUE(ground);
+    for (const double ahead_m : {-90.0, -3.0, 0.0, 40.0, 110.0})
+      for (const double n_m : {-4.0, 0.0, 3.5}) {
+        const TrackGround::RoadInBody road = ground->in_body(ahead_m, n_m);
+        const auto at = ground->at({static_cast<float>(road.x_m), static_cast<float>(road.y_m),
+                                    static_cast<float>(road.z_m)});
+        ASSERT_TRUE(at);
+        EXPECT_NEAR(ground->ahead_m(at->place), ahead_m, 0.03) << s_m;
+        EXPECT_NEAR(at->place.n_m, n_m, 0.03) << s_m;
+        EXPECT_NEAR(at->over_m, 0.0, 0.03) << s_m;
+        EXPECT_NEAR(road.yaw_rad, ground->yaw_rad(at->place), 0.01) << s_m;
+      }
+  }
+}
+
 TEST(TrackGround, WithoutPointsIsTheMapAsItStands) {
   const TrackGrid grid{traffic::oval()};
   const OnRoad car = on_road(600.0, 0.0, 0.0, 0.0, 0.0);

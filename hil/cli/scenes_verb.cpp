@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "hil/cli/scenes_verb.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <optional>
+#include <string_view>
+#include <thread>
+#include <utility>
+
+#include "hil/cli/command_line.hpp"
+#include "hil/cli/exit_code.hpp"
+#include "hil/scenes/scene_set.hpp"
+#include "hil/track_file/track_map_file.hpp"
+
+namespace pitwall::cli {
+namespace {
+
+using scenes::Bodies;
+
+constexpr std::array<std::pair<std::string_view, Bodies>, 3> kBodies{
+    {{"av21", Bodies::kAv21}, {"sf23", Bodies::kSf23}, {"drawn", Bodies::kDrawn}}};
+
+std::optional<Bodies> bodies_named(std::string_view name) {
+  const auto* const found = std::ranges::find(kBodies, name, &decltype(kBodies)::value_type::first);
+  if (found == kBodies.end()) return std::nullopt;
+  return found->second;
+}
+
+}  // namespace
+
+int scenes_verb(std::span<const std::string> args) {
+  std::string folder, track, bodies = "drawn";
+  scenes::SceneSet set{.rules = {}, .scenes = 100, .seed = 1};
+  CommandLine app{"pitwall-hil scenes: drawn scenes for the training of the LiDAR's network"};
+  app.option("FOLDER", folder, "made, with the arrays of NumPy in it").required();
+  app.option("--track", track, "track file (YAML)").required();
+  app.option("--bodies", bodies, "of the other cars: av21, sf23 or drawn").shows_default();
+  app.option("--scenes", set.scenes, "how many").range(1, 100'000).shows_default();
+  app.option("--seed", set.seed, "of the first scene").range(0, 1'000'000'000).shows_default();
+  app.option("--dust", set.rules.dust, "density; 0: none").range(0.0, 10.0).shows_default();
+  app.option("--spun", set.rules.spun_share, "share of cars that have spun").range(0.0, 1.0);
+  if (const auto code = app.ended_by(args)) return *code;
+  const auto chosen = bodies_named(bodies);
+  if (!chosen) return refuse({"--bodies " + bodies, "expected av21, sf23 or drawn"});
+  set.bodies = *chosen;
+  const auto map = track_file::read_track_map(track);
+  if (!map) return refuse(map.error());
+  const auto made =
+      scenes::make_scenes(set, *map, std::max(1U, std::thread::hardware_concurrency()));
+  const auto written = scenes::write_scenes(made, folder);
+  if (!written) return refuse(written.error());
+  std::printf("%s: %zu simulated scenes of %s\n", folder.c_str(), made.size(), map->name().c_str());
+  return kExitPass;
+}
+
+}  // namespace pitwall::cli

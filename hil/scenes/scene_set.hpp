@@ -1,0 +1,37 @@
+// Many drawn scenes of a track, as the pillar network sees them.
+//   in     track; how the others look; rules, number of scenes, seed
+//   law    the same set is the same scenes, on any number of threads; two seeds share no scene if
+//          they are further apart than the number of scenes
+//   cost   0.2 s a scene and processor
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string_view>
+#include <vector>
+
+#include "hil/scenes/pillar_scenes.hpp"
+#include "hil/sensors/lidar/random_scene.hpp"
+#include "vehicle/world/track_map.hpp"
+
+namespace pitwall::scenes {
+
+enum class Bodies : std::uint8_t {
+  kAv21,
+  kSf23,
+  kDrawn,  // like the AV-21, others for each kScenesOfBodies scenes
+};
+inline constexpr std::size_t kScenesOfBodies = 50;
+
+struct SceneSet {
+  Bodies bodies = Bodies::kAv21;
+  sensors::SceneRules rules;
+  std::size_t scenes = 0;
+  std::uint64_t seed = 0;
+};
+
+std::vector<PillarScene> make_scenes(const SceneSet& set, const world::TrackMap& track,
+                                     unsigned at_a_time);
+
+}  // namespace pitwall::scenes

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "vehicle/autonomy/perception/lidar/clusters/clusters.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <random>
+#include <set>
+#include <vector>
+
+#include "tests/support/draw.hpp"
+
+namespace pitwall::perception {
+namespace {
+
+using Points = std::vector<PlanePoint>;
+
+bool touch(const PlanePoint& a, const PlanePoint& b, double cell_m) {
+  const auto cell = [&](double v) { return std::floor(v / cell_m); };
+  return std::abs(cell(a.x_m) - cell(b.x_m)) <= 1.0 && std::abs(cell(a.y_m) - cell(b.y_m)) <= 1.0;
+}
+
+// By its definition: all that can be reached from a point, cell by cell.
+std::set<Indices> by_definition(const Points& points, double cell_m, std::size_t least) {
+  std::set<Indices> found;
+  std::vector<bool> is_taken(points.size(), false);
+  for (std::size_t start = 0; start < points.size(); ++start) {
+    if (is_taken[start]) continue;
+    std::vector<std::size_t> open{start};
+    Indices cluster;
+    is_taken[start] = true;
+    while (!open.empty()) {
+      const std::size_t i = open.back();
+      open.pop_back();
+      cluster.push_back(static_cast<std::uint32_t>(i));
+      for (std::size_t j = 0; j < points.size(); ++j) {
+        if (is_taken[j] || !touch(points[i], points[j], cell_m)) continue;
+        is_taken[j] = true;
+        open.push_back(j);
+      }
+    }
+    std::ranges::sort(cluster);
+    if (cluster.size() >= least) found.insert(cluster);
+  }
+  return found;
+}
+
+TEST(Clusters, AreThoseOfTheDefinition) {
+  std::mt19937_64 random{7};
+  const auto anywhere = [&] { return testing::draw_uniform(random, -12.0, 12.0); };
+  for (const std::size_t count : {0U, 1U, 10U, 100U, 400U, 900U}) {
+    Points points;
+    for (std::size_t i = 0; i < count; ++i) points.push_back({anywhere(), anywhere()});
+    for (const double cell_m : {0.2, 0.5, 1.0}) {
+      const auto found = clusters_of(points, {cell_m, 3});
+      EXPECT_EQ(std::set<Indices>(found.begin(), found.end()), by_definition(points, cell_m, 3))
+          << count << " points, cells of " << cell_m;
+    }
+  }
+}
+
+TEST(Clusters, ComeByTheirFirstPoint) {
+  const Points points{{9.0, 9.0}, {1.0, 1.0}, {9.1, 9.1}, {1.1, 1.1}, {5.0, 5.0}};
+  EXPECT_EQ(clusters_of(points, {0.5, 1}), (std::vector<Indices>{{0, 2}, {1, 3}, {4}}));
+  EXPECT_EQ(clusters_of(points, {0.5, 2}), (std::vector<Indices>{{0, 2}, {1, 3}}));
+}
+
+TEST(Clusters, ThinCellsAreLeftOutAndJoinNothing) {
+  // Two full cells with a thin one between them.
+  const Points points{{0.1, 0.1}, {0.2, 0.2}, {0.7, 0.1}, {1.1, 0.1}, {1.2, 0.2}};
+  EXPECT_EQ(clusters_of(points, {0.5, 1}).size(), 1U);
+  EXPECT_EQ(clusters_of(points, {0.5, 1, 2.0}), (std::vector<Indices>{{0, 1}, {3, 4}}));
+  const std::vector<float> weights{1.0F, 1.0F, 2.0F, 0.9F, 1.0F};
+  EXPECT_EQ(clusters_of(points, {0.5, 1, 2.0}, weights), (std::vector<Indices>{{0, 1, 2}}));
+}
+
+}  // namespace
+}  // namespace pitwall::perception

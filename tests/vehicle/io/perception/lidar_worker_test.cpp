@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "vehicle/io/perception/lidar_worker.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <mutex>
+#include <optional>
+
+#include "protocol/transport/clock.hpp"
+#include "protocol/yaml/strict_map.hpp"
+#include "tests/hil/traffic/oval.hpp"
+#include "tests/vehicle/autonomy/perception/lidar/lidar_scene.hpp"
+#include "tests/vehicle/io/perception/cloud_message.hpp"
+
+namespace pitwall::io {
+namespace {
+
+constexpr double kSensor_m = 0.7;  // over Body, which is 0.3 m over the road
+
+// A LiDAR without a network between it and the worker.
+class Lidar {
+ public:
+  LidarSource source() {
+    return {{.mount = {.z_m = kSensor_m}, .horizon = milliseconds(10)}, [this] { return take(); }};
+  }
+  void send(ros::PointCloud2 message) {
+    const std::lock_guard lock{mutex_};
+    next_ = std::move(message);
+  }
+  void send(const perception::PointCloud& points, Duration ago = milliseconds(60)) {
+    send(cloud_message(points, UtcTime{transport::utc_now().ns - ago.ns}));
+  }
+  bool is_taken() {
+    const std::lock_guard lock{mutex_};
+    return !next_;
+  }
+
+ private:
+  const ros::PointCloud2* take() {
+    const std::lock_guard lock{mutex_};
+    if (!next_) return nullptr;
+    taken_ = *std::move(next_);
+    next_.reset();
+    return &taken_;
+  }
+
+  std::mutex mutex_;
+  std::optional<ros::PointCloud2> next_;
+  ros::PointCloud2 taken_;  // of the worker's thread
+};
+
+perception::PointCloud a_car(double x_m, double y_m) {
+  return perception::sweep_of(
+      {.sensor_m = kSensor_m + 0.3, .boxes = {{.x_m = x_m, .y_m = y_m, .yaw_rad = 0.0}}}, 1);
+}
+
+// Our car at rest on the straight, as it knows itself.
+world::EgoState at_rest() {
+  const world::TrackPoint road = traffic::oval().offset(150.0, 0.0);
+  return {.at = transport::monotonic_now(),
+          .validity = world::Validity::kGood,
+          .x_m = road.x_m,
+          .y_m = road.y_m,
+          .yaw_rad = road.yaw_rad,
+          .vx_mps = 0.0,
+          .vy_mps = 0.0,
+          .yaw_rate_rad_per_s = 0.0};
+}
+
+template <class Condition>
+bool comes(const Condition& condition) {
+  for (const Instant end = transport::monotonic_now() + seconds(20);
+       transport::monotonic_now() < end;) {
+    if (condition()) return true;
+    transport::sleep_until(transport::monotonic_now() + milliseconds(1));
+  }
+  return condition();
+}
+
+TEST(LidarWorker, MakesAFrameOfTheSweepsOfItsSensors) {
+  std::array<Lidar, 2> lidars;
+  const auto worker =
+      LidarWorker::start({lidars[0].source(), lidars[1].source()}, traffic::oval(), std::nullopt);
+  ASSERT_NE(worker, nullptr);
+  worker->report(at_rest());
+  const Instant before = transport::monotonic_now();
+  lidars[0].send(a_car(30.0, 2.0)), lidars[1].send(a_car(15.0, -3.0));
+  std::vector<world::Detection> found;
+  ASSERT_TRUE(comes([&] {
+    for (; worker->front() != nullptr; worker->pop()) {
+      const world::DetectionFrame& frame = *worker->front();
+      EXPECT_EQ(frame.source, world::DetectionSource::kLidar);
+      EXPECT_GE(frame.received, before);
+      EXPECT_NEAR((frame.at - before).seconds(), -0.05, 0.045) << "60 ms ago, and the horizon's 10";
+      for (const world::Detection& d : frame.detections) found.push_back(d);
+    }
+    return found.size() >= 2;
+  }));
+  ASSERT_EQ(found.size(), 2U);
+  double x_m = 0.0, y_m = 0.0;
+  for (const world::Detection& d : found) x_m += d.x_m, y_m += d.y_m;
+  EXPECT_NEAR(x_m, 45.0, 0.5);
+  EXPECT_NEAR(y_m, -1.0, 0.4);
+  EXPECT_EQ(worker->counts().sweeps, 2U);
+}
+
+TEST(LidarWorker, ADeadSensorDelaysNoOther) {
+  std::array<Lidar, 3> lidars;
+  const auto worker = LidarWorker::start(
+      {lidars[0].source(), lidars[1].source(), lidars[2].source()}, traffic::oval(), std::nullopt);
+  worker->report(at_rest());
+  const perception::PointCloud points = a_car(30.0, 2.0);
+  for (std::uint64_t sweep = 1; sweep <= 5; ++sweep) {
+    lidars[1].send(points);
+    ASSERT_TRUE(comes([&] { return worker->counts().frames == sweep; })) << sweep;
+  }
+  EXPECT_EQ(worker->counts().sweeps, 5U);
+}
+
+TEST(LidarWorker, WhatCannotBeUsedIsCounted) {
+  Lidar lidar;
+  const auto worker = LidarWorker::start({lidar.source()}, traffic::oval(), std::nullopt);
+  worker->report(at_rest());
+  const perception::PointCloud points = a_car(30.0, 2.0);
+  lidar.send(points, milliseconds(700));
+  ASSERT_TRUE(comes([&] { return worker->counts().bad_stamps == 1; }));
+  lidar.send(points, milliseconds(-200));
+  ASSERT_TRUE(comes([&] { return worker->counts().bad_stamps == 2; }));
+  ros::PointCloud2 flat = cloud_message(points, transport::utc_now());
+  flat.fields.resize(2);
+  lidar.send(flat);
+  ASSERT_TRUE(comes([&] { return worker->counts().unreadable == 1; }));
+  EXPECT_EQ(worker->counts().frames, 0U);
+  lidar.send(points);
+  ASSERT_TRUE(comes([&] { return worker->counts().frames == 1; })) << "it goes on";
+}
+
+TEST(LidarWorker, FramesThatNobodyTakesAreCounted) {
+  Lidar lidar;
+  const auto worker = LidarWorker::start({lidar.source()}, traffic::oval(), std::nullopt);
+  for (std::uint64_t sweep = 1; sweep <= FrameQueue::kRoom + 3; ++sweep) {
+    lidar.send(perception::PointCloud{});
+    ASSERT_TRUE(comes([&] { return worker->counts().frames == sweep; }));
+  }
+  EXPECT_EQ(worker->counts().no_room, 3U);
+  const auto row = yaml::load_text(worker->json(transport::monotonic_now()), "row.json");
+  ASSERT_TRUE(row) << "JSON is YAML";
+}
+
+TEST(LidarWorker, WithoutASourceThereIsNone) {
+  EXPECT_EQ(LidarWorker::start({}, traffic::oval(), std::nullopt), nullptr);
+}
+
+}  // namespace
+}  // namespace pitwall::io
