@@ -13,6 +13,8 @@
 namespace pitwall::perception {
 namespace {
 
+constexpr double kConfidenceOfRecipe = 0.5;  // training/decoding.py
+
 std::string refusal(const std::string& onnx) {
   const auto trunk = PillarTrunk::load(onnx, "net.onnx");
   EXPECT_FALSE(trunk);
@@ -53,7 +55,7 @@ TEST(PillarTrunk, FindsTheCarsThatTheTrainedNetworkFound) {
   std::size_t next = 0;
   for (std::size_t i = 0; i < stored->size(); ++i) {
     std::vector<float> planes = planes_of((*stored)[i].pillars);
-    for (const RoadBox& box : decode(trunk->run(planes), PillarDetector::kConfidenceLeast)) {
+    for (const RoadBox& box : decode(trunk->run(planes), kConfidenceOfRecipe)) {
       ASSERT_LT(next, boxes->size());
       const float* const expected = boxes->data() + next;
       ASSERT_EQ(expected[0], static_cast<float>(i));
