@@ -6,6 +6,7 @@ out  Scenes: planes (features x rows x columns, float32), cars (ahead_m, n_m, ya
 SPDX-License-Identifier: Apache-2.0
 """
 import pathlib
+import sys
 
 import numpy as np
 
@@ -15,10 +16,18 @@ FIRST_M = np.array([-102.4, -12.0])  # of the first row and column
 LEFT = 5  # feature: mean place in the cell, across
 
 
+def refuse(why):
+    print(f"error: {why}", file=sys.stderr)
+    sys.exit(2)
+
+
 class Scenes:
     def __init__(self, folders):
         def load(name):
-            return [np.load(pathlib.Path(folder) / f"{name}.npy") for folder in folders]
+            try:
+                return [np.load(pathlib.Path(folder) / f"{name}.npy") for folder in folders]
+            except (OSError, ValueError) as error:
+                refuse(error)
 
         counts = np.concatenate(load("counts")).astype(np.int64)
         self.cells = np.concatenate(load("cells")).astype(np.int64)
@@ -28,9 +37,9 @@ class Scenes:
         self.least, self.step = scales[0].T
         self.begin = np.concatenate([np.zeros((1, 2), np.int64), np.cumsum(counts, axis=0)])
         if tuple(self.begin[-1]) != (len(self.cells), len(self.true_cars)):
-            raise SystemExit(f"{folders}: counts.npy does not fit the other arrays")
+            refuse(f"{folders}: counts.npy does not fit the other arrays")
         if any((scale != scales[0]).any() for scale in scales):
-            raise SystemExit(f"{folders}: features of different scales")
+            refuse(f"{folders}: features of different scales")
 
     def __len__(self):
         return len(self.begin) - 1
