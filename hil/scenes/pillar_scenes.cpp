@@ -99,9 +99,9 @@ void append(const PillarScene& scene, Arrays& arrays) {
       arrays.cars.push_back(static_cast<float>(number));
 }
 
-// Takes the first `counts` of what is left in the arrays.
-PillarScene next_scene(const Arrays& arrays, std::size_t pillars, std::size_t cars,
-                       std::size_t first_pillar, std::size_t first_car) {
+// So many pillars and cars of the arrays, from these on.
+PillarScene scene_of(const Arrays& arrays, std::size_t pillars, std::size_t cars,
+                     std::size_t first_pillar, std::size_t first_car) {
   PillarScene scene;
   for (std::size_t i = first_pillar; i < first_pillar + pillars; ++i) {
     Pillar& pillar = scene.pillars.emplace_back(Pillar{.cell = arrays.cells[i]});
@@ -189,7 +189,7 @@ Result<std::vector<PillarScene>, Problem> read_scenes(const std::string& folder)
   std::vector<PillarScene> scenes;
   std::size_t pillar = 0, car = 0;
   for (std::size_t i = 0; i < arrays.counts.size(); i += 2) {
-    scenes.push_back(next_scene(arrays, arrays.counts[i], arrays.counts[i + 1], pillar, car));
+    scenes.push_back(scene_of(arrays, arrays.counts[i], arrays.counts[i + 1], pillar, car));
     pillar += arrays.counts[i], car += arrays.counts[i + 1];
   }
   return scenes;
