@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hil/scenes/pillar_scenes.hpp"
 
-#include <array>
 #include <cstdint>
 #include <filesystem>
-#include <numeric>
 
 #include "hil/scenes/npy.hpp"
 #include "hil/scenes/scene_cloud.hpp"

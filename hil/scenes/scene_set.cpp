@@ -5,7 +5,6 @@
 
 #include "hil/sensors/lidar/car_mesh.hpp"
 #include "hil/sweep/in_parallel.hpp"
-#include "protocol/vocabulary/check.hpp"
 
 namespace pitwall::scenes {
 namespace {

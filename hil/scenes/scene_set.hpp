@@ -2,13 +2,12 @@
 //   in     track; how the others look; rules, number of scenes, seed
 //   law    the same set is the same scenes, on any number of threads; two seeds share no scene if
 //          they are further apart than the number of scenes
-//   cost   0.2 s a scene and processor
+//   cost   0.05 s a scene and processor
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
-#include <string_view>
 #include <vector>
 
 #include "hil/scenes/pillar_scenes.hpp"

@@ -7,9 +7,8 @@
 
 #include "protocol/transport/clock.hpp"
 #include "protocol/transport/file.hpp"
-#include "tests/hil/traffic/oval.hpp"
 #include "tests/system/dds/cyclone_peer.hpp"
-#include "tests/vehicle/autonomy/perception/lidar/lidar_scene.hpp"
+#include "tests/vehicle/io/perception/car_cloud.hpp"
 #include "tests/vehicle/io/perception/cloud_message.hpp"
 #include "vehicle/io/perception/lidar_worker.hpp"
 
@@ -20,7 +19,6 @@ using pitwall::testing::comes;
 using pitwall::testing::CyclonePeer;
 
 constexpr int kLidarDomain = 68;
-constexpr double kSensor_m = 0.7;  // over Body, which is 0.3 m over the road
 constexpr pitwall::testing::Ask kCloudData{.reliable = false, .depth = 5};
 
 SensorRow lidar_row(const std::string& name) {
@@ -29,24 +27,6 @@ SensorRow lidar_row(const std::string& name) {
           .type = SensorType::kPointCloud2,
           .rate_hz = 20.0,
           .lidar = LidarRow{.mount = {.z_m = kSensor_m}}};
-}
-
-perception::PointCloud a_car(double x_m, double y_m) {
-  return perception::sweep_of(
-      {.sensor_m = kSensor_m + 0.3, .boxes = {{.x_m = x_m, .y_m = y_m, .yaw_rad = 0.0}}}, 1);
-}
-
-// At rest on the straight.
-world::EgoState at_rest() {
-  const world::TrackPoint road = traffic::oval().offset(150.0, 0.0);
-  return {.at = transport::monotonic_now(),
-          .validity = world::Validity::kGood,
-          .x_m = road.x_m,
-          .y_m = road.y_m,
-          .yaw_rad = road.yaw_rad,
-          .vx_mps = 0.0,
-          .vy_mps = 0.0,
-          .yaw_rate_rad_per_s = 0.0};
 }
 
 class CloudWriter {
@@ -96,10 +76,10 @@ TEST(LidarClouds, CarsInTheCloudsOfTwoLidarsAreInOneFrame) {
   ASSERT_NE(worker, nullptr);
   CyclonePeer peer{kLidarDomain};
   CloudWriter left{peer, "left"}, right{peer, "right"};
-  const perception::PointCloud near = a_car(15.0, -3.0), far = a_car(30.0, 2.0);
+  const perception::PointCloud near = car_cloud(15.0, -3.0), far = car_cloud(30.0, 2.0);
   bool found = false;
   EXPECT_TRUE(comes([&] {
-    worker->report(at_rest());
+    worker->report(ego_at_rest());
     left.write(near), right.write(far);
     for (; worker->front() != nullptr; worker->pop())
       found = found || has_both(*worker->front(), {15.0, 30.0});

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "tests/hil/traffic/oval.hpp"
+#include "tests/vehicle/autonomy/perception/lidar/ego_on_oval.hpp"
 #include "tests/vehicle/autonomy/perception/lidar/lidar_scene.hpp"
 
 namespace pitwall::perception {
@@ -17,15 +17,7 @@ constexpr double kSensor_m = 1.0;  // over the road, and Body with it
 
 // Our car on the straight at 60 m/s, as it knew itself `ago` before kAt.
 world::EgoState ego_before(Duration ago) {
-  const world::TrackPoint road = traffic::oval().offset(150.0 - 60.0 * ago.seconds(), 0.0);
-  return {.at = kAt - ago,
-          .validity = world::Validity::kGood,
-          .x_m = road.x_m,
-          .y_m = road.y_m,
-          .yaw_rad = road.yaw_rad,
-          .vx_mps = 60.0,
-          .vy_mps = 0.0,
-          .yaw_rate_rad_per_s = 0.0};
+  return ego_on_oval(150.0 - 60.0 * ago.seconds(), 60.0, kAt - ago);
 }
 
 PointCloud two_cars() {

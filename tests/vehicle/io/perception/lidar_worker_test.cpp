@@ -9,14 +9,11 @@
 
 #include "protocol/transport/clock.hpp"
 #include "protocol/yaml/strict_map.hpp"
-#include "tests/hil/traffic/oval.hpp"
-#include "tests/vehicle/autonomy/perception/lidar/lidar_scene.hpp"
+#include "tests/vehicle/io/perception/car_cloud.hpp"
 #include "tests/vehicle/io/perception/cloud_message.hpp"
 
 namespace pitwall::io {
 namespace {
-
-constexpr double kSensor_m = 0.7;  // over Body, which is 0.3 m over the road
 
 // A LiDAR without a network between it and the worker.
 class Lidar {
@@ -50,24 +47,6 @@ class Lidar {
   ros::PointCloud2 taken_;  // of the worker's thread
 };
 
-perception::PointCloud a_car(double x_m, double y_m) {
-  return perception::sweep_of(
-      {.sensor_m = kSensor_m + 0.3, .boxes = {{.x_m = x_m, .y_m = y_m, .yaw_rad = 0.0}}}, 1);
-}
-
-// Our car at rest on the straight, as it knows itself.
-world::EgoState at_rest() {
-  const world::TrackPoint road = traffic::oval().offset(150.0, 0.0);
-  return {.at = transport::monotonic_now(),
-          .validity = world::Validity::kGood,
-          .x_m = road.x_m,
-          .y_m = road.y_m,
-          .yaw_rad = road.yaw_rad,
-          .vx_mps = 0.0,
-          .vy_mps = 0.0,
-          .yaw_rate_rad_per_s = 0.0};
-}
-
 template <class Condition>
 bool comes(const Condition& condition) {
   for (const Instant end = transport::monotonic_now() + seconds(20);
@@ -83,9 +62,9 @@ TEST(LidarWorker, MakesAFrameOfTheSweepsOfItsSensors) {
   const auto worker =
       LidarWorker::start({lidars[0].source(), lidars[1].source()}, traffic::oval(), std::nullopt);
   ASSERT_NE(worker, nullptr);
-  worker->report(at_rest());
+  worker->report(ego_at_rest());
   const Instant before = transport::monotonic_now();
-  lidars[0].send(a_car(30.0, 2.0)), lidars[1].send(a_car(15.0, -3.0));
+  lidars[0].send(car_cloud(30.0, 2.0)), lidars[1].send(car_cloud(15.0, -3.0));
   std::vector<world::Detection> found;
   ASSERT_TRUE(comes([&] {
     for (; worker->front() != nullptr; worker->pop()) {
@@ -109,8 +88,8 @@ TEST(LidarWorker, ADeadSensorDelaysNoOther) {
   std::array<Lidar, 3> lidars;
   const auto worker = LidarWorker::start(
       {lidars[0].source(), lidars[1].source(), lidars[2].source()}, traffic::oval(), std::nullopt);
-  worker->report(at_rest());
-  const perception::PointCloud points = a_car(30.0, 2.0);
+  worker->report(ego_at_rest());
+  const perception::PointCloud points = car_cloud(30.0, 2.0);
   for (std::uint64_t sweep = 1; sweep <= 5; ++sweep) {
     lidars[1].send(points);
     ASSERT_TRUE(comes([&] { return worker->counts().frames == sweep; })) << sweep;
@@ -121,8 +100,8 @@ TEST(LidarWorker, ADeadSensorDelaysNoOther) {
 TEST(LidarWorker, WhatCannotBeUsedIsCounted) {
   Lidar lidar;
   const auto worker = LidarWorker::start({lidar.source()}, traffic::oval(), std::nullopt);
-  worker->report(at_rest());
-  const perception::PointCloud points = a_car(30.0, 2.0);
+  worker->report(ego_at_rest());
+  const perception::PointCloud points = car_cloud(30.0, 2.0);
   lidar.send(points, milliseconds(700));
   ASSERT_TRUE(comes([&] { return worker->counts().bad_stamps == 1; }));
   lidar.send(points, milliseconds(-200));
