@@ -4,6 +4,7 @@
 #include <cmath>
 #include <string>
 
+#include "hil/faults/perception_faults.hpp"
 #include "hil/faults/sensor_faults.hpp"
 #include "hil/faults/signal_change.hpp"
 #include "protocol/can/av21.hpp"
@@ -52,7 +53,9 @@ Unexpected<Problem> refuse_row(const scenario::Fault& row, const std::string& wh
 
 // A row says more than its kind can mean.
 const char* excess_of(const scenario::Fault& row, const faults::BenchFaultRow& kind) {
-  const std::size_t parts = is_byte_fault(kind.kind) ? world::kGnssUnits : parts_of(kind.kind);
+  const std::size_t parts = is_byte_fault(kind.kind)         ? world::kGnssUnits
+                            : is_perception_fault(kind.kind) ? perception_units_of(kind.kind)
+                                                             : parts_of(kind.kind);
   if (row.can_id != 0) return "this kind takes no can_id";
   if (row.unit != 0 && parts == 1) return "this kind has no units";
   if (row.unit >= parts) return "the car has no such unit";
@@ -63,6 +66,7 @@ const char* excess_of(const scenario::Fault& row, const faults::BenchFaultRow& k
 bool is_sensible(BenchFaultKind kind, double value) {
   if (!std::isfinite(value)) return false;
   if (is_sensor_fault(kind)) return is_sensor_value(kind, value);
+  if (is_perception_fault(kind)) return is_perception_value(kind, value);
   switch (kind) {
     case BenchFaultKind::kBrakeLeak:
       return value >= 0.0 && value <= 1.0;
@@ -99,7 +103,7 @@ Result<faults::BenchFault, Problem> bench_fault(const scenario::Fault& row, Benc
   const faults::BenchFaultRow& of_kind = faults::row_of(kind);
   if (!in_the_rig(kind) && !is_process_fault(kind) && !is_radio_fault(kind) &&
       !is_bus_fault(kind) && !is_byte_fault(kind) && !is_clock_fault(kind) &&
-      !is_module_fault(kind))
+      !is_module_fault(kind) && !is_perception_fault(kind))
     return refuse_row(row, "fault \"" + row.kind + "\" is in the catalogue but not in this bench");
   if (const char* excess = excess_of(row, of_kind)) return refuse_row(row, excess);
   if (!of_kind.value.empty() && !is_sensible(kind, row.value))
@@ -225,7 +229,8 @@ bool carried_out(BenchFaultKind kind, BenchMode mode) {
   if (is_bus_fault(kind) || is_clock_fault(kind) || is_module_fault(kind))
     return mode == BenchMode::kLockstep;
   if (!is_process_fault(kind))
-    return in_the_rig(kind) || is_radio_fault(kind) || is_byte_fault(kind);
+    return in_the_rig(kind) || is_radio_fault(kind) || is_byte_fault(kind) ||
+           is_perception_fault(kind);
   if (is_station_fault(kind)) return mode == BenchMode::kLockstep;
   return mode == BenchMode::kLive || in_lockstep(kind);
 }
@@ -260,13 +265,14 @@ Result<FaultPlan, Problem> plan_faults(const std::vector<scenario::Fault>& rows,
     if (!kind) return refuse_row(row, "unknown fault \"" + row.kind + "\"");
     auto fault = bench_fault(row, *kind, own_seed);
     if (!fault) return Unexpected{fault.error()};
-    (is_process_fault(*kind)  ? plan.processes
-     : is_radio_fault(*kind)  ? plan.radio
-     : is_bus_fault(*kind)    ? plan.bus
-     : is_clock_fault(*kind)  ? plan.clock
-     : is_byte_fault(*kind)   ? plan.bytes
-     : is_module_fault(*kind) ? plan.modules
-                              : plan.models)
+    (is_process_fault(*kind)      ? plan.processes
+     : is_radio_fault(*kind)      ? plan.radio
+     : is_bus_fault(*kind)        ? plan.bus
+     : is_clock_fault(*kind)      ? plan.clock
+     : is_byte_fault(*kind)       ? plan.bytes
+     : is_module_fault(*kind)     ? plan.modules
+     : is_perception_fault(*kind) ? plan.perception
+                                  : plan.models)
         .push_back(*fault);
   }
   return plan;

@@ -20,6 +20,7 @@ namespace pitwall::bench {
 struct FaultPlan {
   std::vector<faults::FrameFault> frames;
   std::vector<faults::BenchFault> models;
+  std::vector<faults::BenchFault> perception;
   std::vector<faults::BenchFault> radio;      // of the channel between car and base
   std::vector<faults::BenchFault> bytes;      // of the receivers, on their way to the car
   std::vector<faults::BenchFault> clock;      // of the car's clock relative to GPS time

@@ -17,10 +17,6 @@
 namespace pitwall::bench {
 namespace {
 
-std::string below(const std::string& folder, const std::string& path) {
-  return path.starts_with('/') || folder.empty() ? path : folder + "/" + path;
-}
-
 parameters::ReadFile file_reader() {
   return [](const std::string& path) { return transport::read_file(path); };
 }
@@ -116,6 +112,10 @@ Result<sensors::DetectorErrors, Problem> lidar_errors_in(const std::string& file
 
 }  // namespace
 
+std::string below(const std::string& folder, const std::string& path) {
+  return path.starts_with('/') || folder.empty() ? path : folder + "/" + path;
+}
+
 Result<Loaded, Problem> load(const std::string& scenario_file, const std::string& folder) {
   const auto text = transport::read_file(scenario_file);
   if (!text) return Unexpected{text.error()};
@@ -126,6 +126,7 @@ Result<Loaded, Problem> load(const std::string& scenario_file, const std::string
     if (!errors) return Unexpected{errors.error()};
     scenario->lidar_errors = *std::move(errors);
   }
+  scenario->folder = folder;
   const std::string track_file = below(folder, scenario->track_file);
   const auto track_text = transport::read_file(track_file);
   if (!track_text) return Unexpected{track_text.error()};

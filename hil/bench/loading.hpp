@@ -28,6 +28,9 @@ struct Loaded {
   std::vector<LoadedStack> stacks{};
 };
 
+// The path of what is named relative to `folder` unless it is absolute.
+std::string below(const std::string& folder, const std::string& path);
+
 // Track, car and plant files are named relative to `folder` unless they are absolute.
 Result<Loaded, Problem> load(const std::string& scenario_file, const std::string& folder);
 

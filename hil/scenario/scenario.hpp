@@ -110,7 +110,8 @@ struct Scenario {
   std::string name;
   std::uint64_t seed = 0;
   Duration duration{};
-  std::string track_file, car_file;  // as written: relative to the working folder
+  std::string track_file, car_file;  // as written: relative to `folder`
+  std::string folder{};              // of what it names; by who opens the files
   // Overrides the receivers of the car file; lockstep only.
   std::optional<std::array<world::ReceiverKind, world::kGnssUnits>> receivers;
   BusRevision bus = BusRevision::kV14;

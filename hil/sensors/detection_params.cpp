@@ -60,6 +60,13 @@ DetectionSensor radar(std::uint8_t unit, double facing_rad) {
 
 }  // namespace
 
+Sector lidar_sector(std::size_t unit) {
+  CHECK(unit < kLidarUnits);
+  constexpr double kWidth_rad = from_deg(120.0);
+  const double facing_rad = static_cast<double>(unit) * kWidth_rad;
+  return {wrap_pi(facing_rad - 0.5 * kWidth_rad), wrap_pi(facing_rad + 0.5 * kWidth_rad)};
+}
+
 DetectionSensors av21_detection_sensors() {
   DetectionSensors all;
   const double side_rad = from_deg(55.0), back_rad = from_deg(140.0), flank_rad = from_deg(70.0);

@@ -77,6 +77,11 @@ struct DetectionSensor {
 inline constexpr std::size_t kDetectionSensorsMax = 12;
 using DetectionSensors = FixedVector<DetectionSensor, kDetectionSensorsMax>;
 
+inline constexpr std::size_t kLidarUnits = 3, kCameraUnits = 5, kRadarUnits = 3;
+
+// What one of the three LiDARs looks at: ahead, to the left and to the right rear, 120 deg each.
+Sector lidar_sector(std::size_t unit);
+
 // The car's three LiDARs as one detector, its front and its four wide cameras, its three radars.
 DetectionSensors av21_detection_sensors();
 

@@ -41,10 +41,13 @@ bool is_between(double angle_rad, const Sector& sector) {
   return turn(angle_rad) <= turn(sector.to_rad);
 }
 
+bool is_in_any(std::span<const Sector> sectors, double bearing_rad) {
+  return std::ranges::any_of(sectors, [&](const Sector& s) { return is_between(bearing_rad, s); });
+}
+
 bool is_in_view(const View& view, double bearing_rad) {
   if (2.0 * std::abs(wrap_pi(bearing_rad - view.facing_rad)) > view.width_rad) return false;
-  return std::ranges::none_of(view.blind,
-                              [&](const Sector& s) { return is_between(bearing_rad, s); });
+  return !is_in_any(view.blind.span(), bearing_rad);
 }
 
 // Another car as our sensors have it.
@@ -223,11 +226,14 @@ DetectionFrame frame_of(const DetectionSensor& sensor, DetectionSensorState& sta
     const Seen& car = all[i];
     const bool missed = is_in_burst(sensor.miss, state.miss[i], now, noise);
     if (missed || !is_seen(sensor.view, all, car)) continue;
+    if (is_in_any(state.fault.blind.span(), car.bearing_rad)) continue;
     if (noise.uniform() >= at_range(sensor.hit_rate, car.range_m)) continue;
     const Detection d = measured(sensor, car, noise);
     add(frame, d, between(sensor.confidence_least, 1.0, noise), overflows);
   }
-  for (int n = poisson(sensor.false_per_frame, noise); n > 0; --n) {
+  const double false_ones =
+      sensor.false_per_frame + state.fault.false_per_s * sensor.cadence.period.seconds();
+  for (int n = poisson(false_ones, noise); n > 0; --n) {
     const Seen false_one = phantom(sensor, ours, noise);
     if (!is_within(sensor.view, false_one)) continue;
     const Detection d = measured(sensor, false_one, noise);
@@ -292,9 +298,9 @@ void step_detections(const DetectionSensors& sensors, DetectionState& state, con
     if (!due(now, sensors[i].cadence.period, s.next)) continue;
     if (all.empty()) all = surroundings(cars);
     DetectionFrame frame = frame_of(sensors[i], s, all, cars.ours, now, state.overflows);
-    frame.received = now + latency(sensors[i].cadence, s.noise);
+    frame.received = now + latency(sensors[i].cadence, s.noise) + s.fault.added_latency;
     const bool lost = s.noise.uniform() < sensors[i].frame_loss;
-    if (is_in_burst(sensors[i].outage, s.outage, now, s.noise) || lost) continue;
+    if (is_in_burst(sensors[i].outage, s.outage, now, s.noise) || lost || s.fault.outage) continue;
     if (!insert(s.queue, frame)) ++state.overflows;
   }
   while (DetectionSensorState* const s = next_arrival(state, now)) {

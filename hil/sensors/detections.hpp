@@ -39,11 +39,21 @@ struct BurstState {
 };
 
 inline constexpr std::size_t kFramesUnderWay = 8;
+inline constexpr Duration kDetectionLateMost = milliseconds(250);  // more frames are not under way
+
+// What ails a sensor for now: in addition to what its parameters say.
+struct DetectionFault {
+  bool outage = false;
+  Duration added_latency{};
+  double false_per_s = 0.0;
+  FixedVector<Sector, 16> blind{};
+};
 
 struct DetectionSensorState {
   Noise noise;
   Instant next{};
   BurstState outage;
+  DetectionFault fault;  // set by the caller
   std::array<BurstState, kTrueCarsMax> miss{};
   FixedVector<world::DetectionFrame, kFramesUnderWay> queue;  // next arrival last
 };

@@ -50,7 +50,8 @@ void encode(M message, UtcTime at, std::vector<std::uint8_t>& bytes) {
 }  // namespace
 
 Result<DetectionPublisher, Problem> DetectionPublisher::open(
-    const io::SensorFile& file, const sensors::DetectionSensors& simulated, std::uint64_t seed) {
+    const io::SensorFile& file, const sensors::DetectionSensors& simulated,
+    std::span<const faults::BenchFault> faults, std::uint64_t seed) {
   auto domain = dds::Domain::join(file.domain);
   if (!domain) return Unexpected{domain.error()};
   std::vector<Topic> topics;
@@ -63,19 +64,23 @@ Result<DetectionPublisher, Problem> DetectionPublisher::open(
     if (!writer) return Unexpected{writer.error()};
     topics.push_back({row, *writer});
   }
-  return DetectionPublisher{*std::move(domain), std::move(topics), simulated, seed};
+  return DetectionPublisher{*std::move(domain), std::move(topics), simulated, faults, seed};
 }
 
 DetectionPublisher::DetectionPublisher(std::unique_ptr<dds::Domain> domain,
                                        std::vector<Topic> topics,
-                                       const sensors::DetectionSensors& sensors, std::uint64_t seed)
+                                       const sensors::DetectionSensors& sensors,
+                                       std::span<const faults::BenchFault> faults,
+                                       std::uint64_t seed)
     : domain_(std::move(domain)),
       topics_(std::move(topics)),
       sensors_(sensors),
+      faults_(faults.begin(), faults.end()),
       state_(sensors::make_detections(sensors_, seed, Instant{})) {}
 
 void DetectionPublisher::step(const sensors::TrueCars& cars, Instant at, Instant started) {
   arrivals_.clear();
+  faults::apply_perception_faults(faults_, at, sensors_, state_);
   sensors::step_detections(sensors_, state_, cars, at, arrivals_);
   if (arrivals_.empty()) return;
   const Instant now = transport::monotonic_now();

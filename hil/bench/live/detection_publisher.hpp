@@ -11,9 +11,11 @@
 
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
+#include "hil/faults/perception_faults.hpp"
 #include "hil/sensors/detections.hpp"
 #include "protocol/dds/domain.hpp"
 #include "protocol/vocabulary/result.hpp"
@@ -27,6 +29,7 @@ class DetectionPublisher {
   // Sensors and `seed` are those of the scenario: the draws are those of lockstep.
   static Result<DetectionPublisher, Problem> open(const io::SensorFile& file,
                                                   const sensors::DetectionSensors& simulated,
+                                                  std::span<const faults::BenchFault> faults,
                                                   std::uint64_t seed);
 
   // `at` is scenario time, `started` the time of this process at its zero.
@@ -42,12 +45,14 @@ class DetectionPublisher {
     dds::Writer* writer;
   };
   DetectionPublisher(std::unique_ptr<dds::Domain> domain, std::vector<Topic> topics,
-                     const sensors::DetectionSensors& sensors, std::uint64_t seed);
+                     const sensors::DetectionSensors& sensors,
+                     std::span<const faults::BenchFault> faults, std::uint64_t seed);
   void publish(const Topic& topic, const world::DetectionFrame& frame, UtcTime at);
 
   std::unique_ptr<dds::Domain> domain_;
   std::vector<Topic> topics_;
   sensors::DetectionSensors sensors_;
+  std::vector<faults::BenchFault> faults_;
   sensors::DetectionState state_;
   sensors::Arrivals arrivals_;
   std::vector<std::uint8_t> bytes_;  // of a message; kept for its storage

@@ -21,14 +21,19 @@ namespace {
 constexpr Duration kStartLimit = seconds(60);  // a guest is slow
 constexpr std::size_t kReadBatch = 256;
 
-Result<std::optional<DetectionPublisher>, Problem> open_detections(const LivePlan& plan,
-                                                                   const scenario::Scenario& run) {
+Result<std::optional<DetectionPublisher>, Problem> open_detections(
+    const LivePlan& plan, const scenario::Scenario& run,
+    std::span<const faults::BenchFault> faults) {
   using Optional = std::optional<DetectionPublisher>;
+  if (plan.sensors.empty() && !faults.empty())
+    return Unexpected{Problem{"faults",
+                              "of sensors that see other cars: a live run has them with "
+                              "--sensors FILE"}};
   if (plan.sensors.empty()) return Optional{};
   auto file = io::read_sensor_file(plan.sensors);
   if (!file) return Unexpected{file.error()};
   file->domain.domain = plan.sensors_domain;
-  auto opened = DetectionPublisher::open(*file, plant::detection_sensors_of(run), run.seed);
+  auto opened = DetectionPublisher::open(*file, plant::detection_sensors_of(run), faults, run.seed);
   if (!opened) return Unexpected{opened.error()};
   return Optional{*std::move(opened)};
 }
@@ -73,7 +78,7 @@ Result<std::unique_ptr<LiveCar>, Problem> LiveCar::open(const scenario::Scenario
   auto receivers = ReceiverPort::open(plan.receiver_ports(),
                                       ReceiverEncoder{setup.params.receivers, faults->bytes});
   if (!receivers) return Unexpected{receivers.error()};
-  auto detections = open_detections(plan, scenario);
+  auto detections = open_detections(plan, scenario, faults->perception);
   if (!detections) return Unexpected{detections.error()};
   return std::unique_ptr<LiveCar>{
       new LiveCar(scenario, setup, plan, has_others,

@@ -7,6 +7,7 @@
 
 #include "basestation/inputs/text_command.hpp"
 #include "hil/bench/contact.hpp"
+#include "hil/bench/loading.hpp"
 #include "hil/bench/match_run.hpp"
 #include "hil/bench/signals.hpp"
 #include "hil/scenario/perturbed.hpp"
@@ -25,6 +26,14 @@ std::string mode_text(const safety::SupervisorOutput& chosen) {
   if (chosen.cause != safety::Cause::kNone)
     text += std::string{", "} + safety::text_of(chosen.cause);
   return text;
+}
+
+// Rays would need clouds of it, not a number of what is seen in it.
+std::optional<Problem> dust_among(const std::vector<scenario::Fault>& rows) {
+  for (const scenario::Fault& row : rows)
+    if (faults::bench_fault_kind(row.kind) == faults::BenchFaultKind::kDust)
+      return Problem{row.place, "dust needs modelled LiDARs: lidars: model or measured"};
+  return std::nullopt;
 }
 
 }  // namespace
@@ -47,9 +56,12 @@ Result<std::unique_ptr<CarBench>, Problem> CarBench::build(const scenario::Scena
   for (const scenario::OperatorText& word : scenario.operator_texts)
     if (const auto fit = inputs::parse_text_command(word.text); !fit)
       return Unexpected{fit.error()};
+  if (has_rays(scenario.lidars))
+    if (auto problem = dust_among(scenario.faults)) return Unexpected{*std::move(problem)};
   auto network = perception::PillarDetector::read(
-      has_others && scenario.lidars == scenario::LidarKind::kRays ? perception::kPillarNetworkFile
-                                                                  : "",
+      has_others && scenario.lidars == scenario::LidarKind::kRays
+          ? below(scenario.folder, perception::kPillarNetworkFile)
+          : "",
       [](const std::string& path) { return transport::read_file(path); });
   if (!network) return Unexpected{network.error()};
   GuardianNode guardian{setup.params, faults->processes, options.guardian};
@@ -71,6 +83,7 @@ CarBench::CarBench(const scenario::Scenario& scenario, const pipeline::Setup& se
       bus_faults_(faults.bus),
       clock_faults_(faults.clock),
       module_faults_(faults.modules),
+      perception_faults_(faults.perception),
       encoder_(setup.params.receivers, faults.bytes),
       decoder_(setup.params.receivers),
       guardian_decoder_(setup.params.receivers),
@@ -102,11 +115,13 @@ void CarBench::show_others(Field& field, std::size_t own, Instant at) {
   rig_.show_rival(field.rival_of(own));
   const std::span<const plant::CarPose> others = field.others_of(own);
   arrivals_.clear();
+  faults::apply_perception_faults(perception_faults_, at, detection_sensors_, detection_);
   sensors::step_detections(detection_sensors_, detection_,
                            {.ours = field.car(own).pose, .others = others}, at, arrivals_);
   if (has_rays(scenario_.lidars)) {
     if (!lidars_) lidars_.emplace(setup_.track, others.size(), scenario_.seed, std::move(network_));
-    lidars_->step(rig_.truth(), others, out_ ? out_->ego : world::EgoState{}, at, arrivals_);
+    lidars_->step(rig_.truth(), others, out_ ? out_->ego : world::EgoState{},
+                  faults::lidar_fault(perception_faults_, at), at, arrivals_);
   }
   for (const world::DetectionFrame& frame : arrivals_) {
     if (detections_.size() < kDetectionFrames)

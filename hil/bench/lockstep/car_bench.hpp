@@ -87,7 +87,7 @@ class CarBench {
   VirtualStation base_;
   BusFaults bus_faults_;
   ClockFaults clock_faults_;
-  std::vector<faults::BenchFault> module_faults_;
+  std::vector<faults::BenchFault> module_faults_, perception_faults_;
   ReceiverEncoder encoder_;
   ReceiverDecoder decoder_, guardian_decoder_;
   const LockstepOptions& options_;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hil/bench/lockstep/swept_lidars.hpp"
 
+#include <algorithm>
+#include <functional>
 #include <utility>
 
 #include "hil/sensors/lidar/car_mesh.hpp"
@@ -41,6 +43,7 @@ perception::PointCloud points_of(std::span<const sensors::LidarReturn> returns) 
 SweptLidars::SweptLidars(const world::TrackMap& track, std::size_t others, std::uint64_t seed,
                          std::optional<perception::PillarDetector> network)
     : track_(track),
+      latency_(network ? kByNetwork : kByClusters),
       rays_(sensors::track_meshes(track)),
       noise_(seed, kStream),
       detector_(track, {}, std::move(network)) {
@@ -49,10 +52,12 @@ SweptLidars::SweptLidars(const world::TrackMap& track, std::size_t others, std::
 }
 
 void SweptLidars::step(const plant::Truth& ours, std::span<const plant::CarPose> others,
-                       const world::EgoState& ego, Instant now, sensors::Arrivals& out) {
+                       const world::EgoState& ego, const faults::LidarFault& fault, Instant now,
+                       sensors::Arrivals& out) {
   if (now >= next_) {
     next_ = now + kPeriod;
-    under_way_.push_back(sweep(ours, others, ego, now));
+    if (!std::ranges::all_of(fault.outage, std::identity{}))
+      under_way_.push_back(sweep(ours, others, ego, fault, now));
   }
   while (!under_way_.empty() && under_way_.front().received <= now && out.push(under_way_.front()))
     under_way_.pop_front();
@@ -60,18 +65,20 @@ void SweptLidars::step(const plant::Truth& ours, std::span<const plant::CarPose>
 
 world::DetectionFrame SweptLidars::sweep(const plant::Truth& ours,
                                          std::span<const plant::CarPose> others,
-                                         const world::EgoState& ego, Instant now) {
+                                         const world::EgoState& ego,
+                                         const faults::LidarFault& fault, Instant now) {
   std::vector<sensors::Moving> cars;
   for (const plant::CarPose& car : others) cars.push_back(sensors::standing(track_, car));
   const sensors::Moving body = moving(ours);
-  std::vector<perception::PointCloud> clouds;
+  std::vector<perception::PointCloud> clouds(units_.size());
   std::vector<perception::LidarSweep> sweeps;
-  for (const sensors::LidarUnit& unit : units_)
-    clouds.push_back(points_of(sensors::lidar_sweep(unit, rays_, {body, cars, {}}, noise_)));
-  for (std::size_t k = 0; k < units_.size(); ++k)
+  for (std::size_t k = 0; k < units_.size(); ++k) {
+    if (fault.outage[k]) continue;
+    clouds[k] = points_of(sensors::lidar_sweep(units_[k], rays_, {body, cars, {}}, noise_));
     sweeps.push_back({pose_of(units_[k].mount), clouds[k], -sensors::kHorizon.seconds()});
+  }
   world::DetectionFrame frame = detector_.detect(sweeps, ego, now + sensors::kHorizon);
-  frame.received = now + kLatency;
+  frame.received = now + latency_ + fault.added_latency;
   return frame;
 }
 

@@ -3,8 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
-
 #include <set>
 #include <utility>
 
@@ -92,6 +92,14 @@ TEST(DetectionParams, EachSensorHasItsOwnNumberOfItsKind) {
     }
   }
   EXPECT_EQ(seen.size(), 9U);
+}
+
+TEST(DetectionParams, TheUnitsOfEachKindAreCounted) {
+  std::array<std::size_t, world::kDetectionSources> units{};
+  for (const DetectionSensor& sensor : av21_detection_sensors())
+    ++units[static_cast<std::size_t>(sensor.source)];
+  EXPECT_EQ(units[static_cast<std::size_t>(DetectionSource::kCamera)], kCameraUnits);
+  EXPECT_EQ(units[static_cast<std::size_t>(DetectionSource::kRadar)], kRadarUnits);
 }
 
 }  // namespace

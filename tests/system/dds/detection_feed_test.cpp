@@ -33,7 +33,7 @@ TEST(DetectionFeed, TheCarHasWhatWasMeasuredAndWhen) {
   constexpr std::size_t kEach = 20;
   auto ingress = io::SensorIngress::start(file_of(67));
   ASSERT_TRUE(ingress) << to_string(ingress.error());
-  auto publisher = DetectionPublisher::open(file_of(67), sensors::av21_detection_sensors(), 1);
+  auto publisher = DetectionPublisher::open(file_of(67), sensors::av21_detection_sensors(), {}, 1);
   ASSERT_TRUE(publisher) << to_string(publisher.error());
   const plant::CarPose ours{.x_m = 100.0,
                             .y_m = 200.0,

@@ -6,6 +6,7 @@
 
 #include "hil/bench/loading.hpp"
 #include "hil/bench/lockstep/lockstep.hpp"
+#include "hil/sensors/detection_params.hpp"
 #include "protocol/rules/attempt.hpp"
 #include "protocol/transport/file.hpp"
 #include "protocol/vocabulary/random.hpp"
@@ -78,9 +79,24 @@ const race::AttemptRecord* counted(const race::MatchSheet& sheet) {
   return at == sheet.attempts.end() ? nullptr : &*at;
 }
 
+std::string faults_of(SensorsOut out) {
+  if (out == SensorsOut::kNone) return {};
+  if (out == SensorsOut::kFrontLidar)
+    return "faults:\n  - {kind: lidar_outage, at_s: 0, unit: 0}\n";
+  std::string rows = "faults:\n";
+  for (std::size_t unit = 0; unit < sensors::kCameraUnits; ++unit)
+    rows += formatted("  - {kind: camera_outage, at_s: 0, unit: %zu}\n", unit);
+  return rows;
+}
+
 }  // namespace
 
 const char* text_of(Driver driver) { return driver == Driver::kOurs ? "ours" : "paper"; }
+
+const char* text_of(SensorsOut out) {
+  constexpr std::array kNames{"all sensors", "cameras out", "front LiDAR out"};
+  return kNames[static_cast<std::size_t>(out)];
+}
 
 const char* text_of(Verdict verdict) {
   constexpr std::array kNames{"passed", "declined", "lost", "contact"};
@@ -138,13 +154,13 @@ match:
   lanes: {inside_m: 0, outside_m: -5}
   attempts: [decline]
   defends: [hold]
-)",
+%s)",
                    attempt.round_mph, static_cast<unsigned long long>(attempt.seed),
                    text_of(attempt.driver), static_cast<unsigned long long>(attempt.seed),
                    car_of(attempt.driver), name_of(attempt.lidars), kOwnStart_m, draw.friction,
                    draw.detection_noise, kOwnStart_m - draw.start_gap_m, draw.lane_sigma_m,
                    draw.lane_correlation_s, draw.speed_sigma_mps, draw.speed_correlation_s,
-                   attempt.round_mph);
+                   attempt.round_mph, faults_of(attempt.out).c_str());
 }
 
 AttemptRun run_attempt(const AttemptCase& attempt) {

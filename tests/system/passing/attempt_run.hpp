@@ -27,11 +27,16 @@ enum class Driver : std::uint8_t { kOurs, kPaper };
 inline constexpr std::array kDrivers{Driver::kOurs, Driver::kPaper};
 const char* text_of(Driver driver);
 
+// What is out from the start on, of all sensors that see other cars.
+enum class SensorsOut : std::uint8_t { kNone, kCameras, kFrontLidar };
+const char* text_of(SensorsOut out);
+
 struct AttemptCase {
   std::uint64_t seed = 0;
   double round_mph = kUnset;
   Driver driver = Driver::kOurs;
   scenario::LidarKind lidars = scenario::LidarKind::kModel;
+  SensorsOut out = SensorsOut::kNone;
 };
 
 struct AttemptDraw {

@@ -1,5 +1,6 @@
 // Attempts to pass in every bracket, ours and the published planner's: `./pitwall long matches`.
-// With `--lidars rays` ours alone, at three speeds, by LiDARs that shoot their rays.
+// With `--lidars rays` ours alone, at three speeds, by LiDARs that shoot their rays; at one of them
+// again without cameras and without the LiDAR that looks ahead.
 // Exit: 0 the gates hold, 1 one does not, 2 the command line is wrong.
 // SPDX-License-Identifier: Apache-2.0
 #include <CLI/CLI.hpp>
@@ -34,20 +35,26 @@ void see_as_measured(std::vector<AttemptCase>& cases) {
   for (AttemptCase& attempt : cases) attempt.lidars = scenario::LidarKind::kMeasured;
 }
 
-std::vector<AttemptCase> cases_by_rays(std::size_t attempts) {
+std::vector<AttemptCase> cases_by_rays(std::span<const BracketGate> brackets, SensorsOut out,
+                                       std::size_t attempts) {
   std::vector<AttemptCase> cases;
-  for (const BracketGate& bracket : kByRays)
+  for (const BracketGate& bracket : brackets)
     for (std::size_t i = 0; i < attempts; ++i) {
       cases.push_back(case_of(Seeds::kCommitted, "", i, bracket.round_mph, Driver::kOurs));
       cases.back().lidars = scenario::LidarKind::kRays;
+      cases.back().out = out;
     }
   return cases;
 }
 
 // The file shows the attempt again: pitwall-hil run FILE.
 void keep(const AttemptRun& run, const std::string& folder) {
-  const std::string file = folder + "/lost_" + std::to_string(static_cast<int>(run.of.round_mph)) +
-                           "_" + std::to_string(run.of.seed) + ".yaml";
+  const std::string file =
+      folder + "/lost_" + std::to_string(static_cast<int>(run.of.round_mph)) + "_" +
+      std::to_string(run.of.seed) +
+      (run.of.out == SensorsOut::kNone ? ""
+                                       : "_out_" + std::to_string(static_cast<int>(run.of.out))) +
+      ".yaml";
   if (transport::write_file(file, scenario_text(run.of)))
     std::printf("  written: %s\n", file.c_str());
 }
@@ -70,6 +77,19 @@ bool run_all(const std::vector<AttemptCase>& cases, std::span<const BracketGate>
   for (const std::string& why : missed) std::printf("MISSED %s\n", why.c_str());
   if (missed.empty()) std::printf("all gates hold\n");
   return missed.empty();
+}
+
+bool run_by_rays(std::size_t attempts, unsigned processes, const std::string& lost_folder) {
+  bool held = true;
+  for (const SensorsOut out : {SensorsOut::kNone, SensorsOut::kCameras, SensorsOut::kFrontLidar}) {
+    const std::span<const BracketGate> brackets =
+        out == SensorsOut::kNone ? std::span{kByRays} : std::span{kByRays}.subspan(1, 1);
+    std::printf("%s%s:\n", out == SensorsOut::kNone ? "" : "\n", text_of(out));
+    held = run_all(cases_by_rays(brackets, out, attempts), brackets, Seeds::kCommitted, processes,
+                   lost_folder) &&
+           held;
+  }
+  return held;
 }
 
 }  // namespace
@@ -100,9 +120,8 @@ int main(int argc, char** argv) {
     std::fflush(stdout);
   };
   if (by_rays) {
-    const auto cases = cases_by_rays(attempts);
-    announce(cases.size(), kByRays_s);
-    return run_all(cases, kByRays, Seeds::kCommitted, processes, lost_folder) ? 0 : 1;
+    announce((kByRays.size() + 2) * attempts, kByRays_s);
+    return run_by_rays(attempts, processes, lost_folder) ? 0 : 1;
   }
   auto committed = cases_of(Seeds::kCommitted, commit, attempts);
   if (lidars == "measured") see_as_measured(committed);

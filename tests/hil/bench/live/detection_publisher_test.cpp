@@ -18,13 +18,14 @@ io::SensorFile lidar_of_unit(std::uint8_t unit) {
 
 TEST(DetectionPublisher, ARowWithoutASimulatedSensorIsRefused) {
   const auto opened =
-      DetectionPublisher::open(lidar_of_unit(7), sensors::av21_detection_sensors(), 1);
+      DetectionPublisher::open(lidar_of_unit(7), sensors::av21_detection_sensors(), {}, 1);
   ASSERT_FALSE(opened);
   EXPECT_EQ(opened.error().place, "lidar");
 }
 
 TEST(DetectionPublisher, WhereNobodyListensNothingIsSentAndNothingIsLost) {
-  auto publisher = DetectionPublisher::open(lidar_of_unit(0), sensors::av21_detection_sensors(), 1);
+  auto publisher =
+      DetectionPublisher::open(lidar_of_unit(0), sensors::av21_detection_sensors(), {}, 1);
   ASSERT_TRUE(publisher) << to_string(publisher.error());
   const plant::CarPose ours{.x_m = 0.0,
                             .y_m = 0.0,

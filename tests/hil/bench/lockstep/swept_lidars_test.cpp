@@ -51,7 +51,7 @@ world::EgoState ego_of(const plant::Truth& truth, Instant at) {
 
 // All cars at the same speed, for `span`, in steps of a millisecond.
 std::vector<world::DetectionFrame> frames_of(const std::vector<plant::CarPose>& others,
-                                             Duration span) {
+                                             Duration span, const faults::LidarFault& fault = {}) {
   SweptLidars lidars{traffic::oval(), others.size(), 7};
   std::vector<world::DetectionFrame> frames;
   for (Instant now{}; now - Instant{} < span; now += milliseconds(1)) {
@@ -60,7 +60,7 @@ std::vector<world::DetectionFrame> frames_of(const std::vector<plant::CarPose>& 
     for (const plant::CarPose& car : others) moved.push_back(pose_at(car.s_m + went_m, car.n_m));
     const plant::Truth ours = truth_at(kOurs_m + went_m);
     sensors::Arrivals arrivals;
-    lidars.step(ours, moved, ego_of(ours, now), now, arrivals);
+    lidars.step(ours, moved, ego_of(ours, now), fault, now, arrivals);
     for (const world::DetectionFrame& frame : arrivals) {
       EXPECT_EQ(frame.received, now);
       frames.push_back(frame);
@@ -75,7 +75,7 @@ TEST(SweptLidars, SendAFrameForEachSweepWhenItsCarsAreFound) {
   ASSERT_EQ(frames.size(), 5U);
   for (std::size_t i = 0; i < frames.size(); ++i) {
     const Instant begun = Instant{} + static_cast<std::int64_t>(i) * SweptLidars::kPeriod;
-    EXPECT_EQ(frames[i].received, begun + SweptLidars::kLatency);
+    EXPECT_EQ(frames[i].received, begun + SweptLidars::kByClusters);
     EXPECT_EQ(frames[i].at, begun + microseconds(12'300));
     EXPECT_TRUE(frames[i].detections.empty()) << "an empty track with its walls and its fence";
   }
@@ -98,6 +98,28 @@ TEST(SweptLidars, SeeTheOthersWhereTheyAre) {
     }
   }
   EXPECT_GE(found, 18U) << "of 21";
+}
+
+TEST(SweptLidars, OneThatIsOutLeavesTheOthersTheirPart) {
+  const std::vector<plant::CarPose> others{pose_at(kOurs_m + 30.0, -4.0),
+                                           pose_at(kOurs_m - 25.0, 4.0)};
+  const auto frames = frames_of(others, milliseconds(400), {.outage = {true, false, false}});
+  ASSERT_EQ(frames.size(), 7U);
+  std::size_t behind = 0;
+  for (const world::DetectionFrame& frame : frames)
+    for (const world::Detection& seen : frame.detections) {
+      EXPECT_LT(seen.x_m, 0.0) << "the one that looks ahead is out";
+      ++behind;
+    }
+  EXPECT_GE(behind, 6U);
+  EXPECT_TRUE(frames_of(others, milliseconds(400), {.outage = {true, true, true}}).empty());
+}
+
+TEST(SweptLidars, LateFramesKeepTheTimeOfTheirMeasurement) {
+  const auto frames = frames_of({}, milliseconds(300), {.added_latency = milliseconds(100)});
+  ASSERT_EQ(frames.size(), 3U);
+  EXPECT_EQ(frames[0].at, Instant{} + microseconds(12'300));
+  EXPECT_EQ(frames[0].received, Instant{} + SweptLidars::kByClusters + milliseconds(100));
 }
 
 TEST(SweptLidars, TheSameSeedGivesTheSameFrames) {

@@ -5,6 +5,9 @@
 
 #include <cmath>
 #include <set>
+#include <vector>
+
+#include "hil/sensors/detection_params.hpp"
 
 namespace pitwall::sensors {
 namespace {
@@ -141,6 +144,17 @@ TEST(Lidar, ThreeOfTheAv21LookAllAround) {
   double covered_rad = 0.0;
   for (const LidarUnit& unit : units) covered_rad += 2.0 * unit.pattern.half_width_rad;
   EXPECT_NEAR(covered_rad, 2.0 * std::numbers::pi, 1e-9);
+}
+
+TEST(Lidar, TheThreeLookWhereTheModelOfTheDetectorHasThem) {
+  const std::vector<LidarUnit> units = av21_lidars();
+  ASSERT_EQ(units.size(), kLidarUnits);
+  for (std::size_t unit = 0; unit < units.size(); ++unit) {
+    const double facing_rad = units[unit].mount.attitude.yaw_rad;
+    const double half_rad = units[unit].pattern.half_width_rad;
+    EXPECT_NEAR(wrap_pi(lidar_sector(unit).from_rad - (facing_rad - half_rad)), 0.0, 1e-12);
+    EXPECT_NEAR(wrap_pi(lidar_sector(unit).to_rad - (facing_rad + half_rad)), 0.0, 1e-12);
+  }
 }
 
 }  // namespace
