@@ -111,6 +111,7 @@ class Drive {
 
  private:
   void tick(const transport::Tick& tick) {
+    const Instant begun = transport::monotonic_now();
     const io::CarIo::Received incoming = parts_.car_io.read(parts_.box);
     if (parts_.radio) parts_.radio->receive(parts_.box);
     const Instant now = transport::monotonic_now();
@@ -133,7 +134,7 @@ class Drive {
     if (parts_.lidars) parts_.lidars->report(out.ego);
     parts_.box.tick(in, out.passed.frames.span());
     if (out.bus_guard.restart_now) parts_.car_io.restart_bus();
-    tally_.add(transport::monotonic_now() - now, tick.missed);
+    tally_.add(transport::monotonic_now() - now, begun - tick.deadline, tick.missed);
     last_ = now;
     log_->note(in, out, setup_.track.length_m());
     note(out);
@@ -190,8 +191,10 @@ class Drive {
     const auto received = parts_.sensors->take_detections();
     if (!parts_.lidars) return received;
     detections_.assign(received.begin(), received.end());
-    for (; parts_.lidars->front() != nullptr; parts_.lidars->pop())
-      detections_.push_back(*parts_.lidars->front());
+    while (const world::DetectionFrame* const frame = parts_.lidars->front()) {
+      detections_.push_back(*frame);
+      parts_.lidars->pop(transport::monotonic_now());
+    }
     return detections_;
   }
 
@@ -297,7 +300,9 @@ Result<Sensors, Problem> open_sensors(const io::Arguments& args, const world::Tr
   if (!network) return Unexpected{network.error()};
   auto ingress = io::SensorIngress::start(*file);
   if (!ingress) return Unexpected{ingress.error()};
-  auto lidars = io::LidarWorker::start(io::lidars_of(**ingress), track, *std::move(network));
+  auto lidars =
+      io::LidarWorker::start(io::lidars_of(**ingress), track, *std::move(network),
+                             file->waits_for_all ? io::Gathering::kAll : io::Gathering::kPunctual);
   return Sensors{*std::move(ingress), std::move(lidars)};
 }
 

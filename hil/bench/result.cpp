@@ -42,6 +42,26 @@ std::string lap_errors_json(const std::vector<grading::ErrorStatistics>& laps) {
   return out.str();
 }
 
+std::string clouds_json(const CloudFeed& feed) {
+  return json::Object{}
+      .number("sent", feed.sent)
+      .number("refused", feed.refused)
+      .number("skipped", feed.skipped)
+      .number("late_p50_ms", feed.late_p50_ms)
+      .number("late_p99_ms", feed.late_p99_ms)
+      .number("late_max_ms", feed.late_max_ms)
+      .str();
+}
+
+std::string clouds_text(const CloudFeed& feed) {
+  return formatted(
+      "clouds of LiDARs: %llu sent, %llu refused, %llu sweeps skipped; late p50 %.1f ms, "
+      "p99 %.1f ms, at most %.1f ms\n",
+      static_cast<unsigned long long>(feed.sent), static_cast<unsigned long long>(feed.refused),
+      static_cast<unsigned long long>(feed.skipped), feed.late_p50_ms, feed.late_p99_ms,
+      feed.late_max_ms);
+}
+
 std::string laps_json(const decltype(RunResult::laps)& laps) {
   return json::Object{}
       .number("finished", laps.finished)
@@ -166,6 +186,7 @@ std::string drive_text(const RunResult& r) {
     out += formatted("LiDARs, ray by ray: %llu sweeps on the ground of the map, %llu without\n",
                      static_cast<unsigned long long>(r.sweeps_on_map),
                      static_cast<unsigned long long>(r.sweeps_by_cloth));
+  if (r.clouds) out += clouds_text(*r.clouds);
   if (!r.refused_to_arm.empty()) out += "car refused to arm: " + r.refused_to_arm + "\n";
   for (const CompletedAction& done : r.done)
     out += formatted("at %.3f s: ", done.at.seconds()) + done.what + "\n";
@@ -337,6 +358,7 @@ std::string to_json(const RunResult& r) {
       .number("detections_lost", r.detections_lost)
       .number("sweeps_on_map", r.sweeps_on_map)
       .number("sweeps_by_cloth", r.sweeps_by_cloth);
+  if (r.clouds) out.json("clouds", clouds_json(*r.clouds));
   if (r.real_time) out.json("real_time", real_time_json(*r.real_time));
   if (!r.others.empty()) out.json("others", others_json(r.others));
   return out.json("done", done_json(r.done))

@@ -165,9 +165,10 @@ std::optional<Problem> unjudged_by(BenchMode mode, const scenario::Scenario& sce
   for (const scenario::Expectation& row : scenario.expect)
     if (row.signal.starts_with(kSeen))
       return Problem{row.place, "signals seen.* exist in lockstep only: run without --live"};
-  if (has_rays(scenario.lidars))
-    return Problem{scenario.name, std::string("\"lidars: ") + name_of(scenario.lidars) +
-                                      "\" is for lockstep only: run without --live"};
+  if (scenario.lidars == scenario::LidarKind::kRaysClusters)
+    return Problem{scenario.name,
+                   "\"lidars: rays_clusters\" is for lockstep only: live the sensor "
+                   "file of the car says what looks in its clouds"};
   return std::nullopt;
 }
 

@@ -2,6 +2,7 @@
 #include "protocol/dds/domain.hpp"
 
 #include <fastdds/rtps/transport/UDPv4TransportDescriptor.h>
+#include <fastdds/rtps/transport/shared_mem/SharedMemTransportDescriptor.h>
 #include <fastrtps/utils/IPLocator.h>
 
 #include <algorithm>
@@ -29,8 +30,9 @@ namespace {
 namespace fast = eprosima::fastdds::dds;
 namespace rtps = eprosima::fastrtps::rtps;
 
-constexpr int kBlocking_ns = 10'000'000;      // that a write may wait for a lock of Fast DDS
-constexpr std::uint32_t kUsualBytes = 1'024;  // more is allocated where a sample is larger
+constexpr int kBlocking_ns = 10'000'000;        // that a write may wait for a lock of Fast DDS
+constexpr std::uint32_t kUsualBytes = 1'024;    // more is allocated where a sample is larger
+constexpr std::uint32_t kMessagesUnderWay = 8;  // of the largest size, in shared memory
 
 std::atomic<std::uint64_t> malformed_of_all{0}, reported_of_all{0};
 
@@ -230,6 +232,12 @@ class DomainOfFast : public Domain, private fast::DomainParticipantListener {
     transport->interfaceWhiteList.push_back(config.interface);
     qos.transport().use_builtin_transports = false;
     qos.transport().user_transports.push_back(std::move(transport));
+    if (config.shared_memory_bytes > 0) {
+      auto memory = std::make_shared<eprosima::fastdds::rtps::SharedMemTransportDescriptor>();
+      memory->segment_size(config.shared_memory_bytes);
+      memory->max_message_size(config.shared_memory_bytes / kMessagesUnderWay);
+      qos.transport().user_transports.push_back(std::move(memory));
+    }
     auto& peers = qos.wire_protocol().builtin.initialPeersList;
     for (const std::string& peer : config.peers) {
       rtps::Locator_t locator;

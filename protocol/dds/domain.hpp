@@ -3,7 +3,7 @@
 //   in     topics and types by their DDS names, CDR bytes with their header of four bytes
 //   out    samples to all readers; samples from all writers, on a thread of Fast DDS
 //   invariants
-//          UDPv4 only: no shared memory, no data sharing, no type object, XCDR1
+//          UDPv4, and shared memory where it is asked for: no data sharing, no type object, XCDR1
 //          only on the named interface, which is loopback by default
 //          a writer never waits for a reader: it keeps its newest `depth` samples
 //          a participant has its own sockets and threads: use one Domain for each stream that must
@@ -33,6 +33,8 @@ struct DomainConfig {
   int domain = 0;
   std::string interface = "127.0.0.1";  // address of this machine
   std::vector<std::string> peers{};     // addresses to contact where multicast does not reach
+  // Of what is on its way from here to others of this machine; 0: none, all goes over UDP.
+  std::uint32_t shared_memory_bytes = 0;
 };
 
 struct TopicType {
@@ -46,6 +48,9 @@ struct Quality {
   bool latched = false;  // transient local: a late reader gets the newest samples
   int depth = 10;        // samples kept for slow readers
 };
+
+// As sensor drivers send: what is late is not worth sending again.
+inline constexpr Quality kSensorData{.reliable = false, .latched = false, .depth = 5};
 
 using Guid = std::array<std::uint8_t, 16>;
 using Bytes = std::span<const std::uint8_t>;

@@ -160,6 +160,8 @@ Result<CarSummary, Problem> read_car_summary(const std::string& path) {
     car.step_p50_us = map.number("step_p50_us", 0.0, 1e9);
     car.step_p99_us = map.number("step_p99_us", 0.0, 1e9);
     car.step_max_us = map.number("step_max_us", 0.0, 1e9);
+    car.tick_late_p50_us = map.number("tick_late_p50_us", 0.0, 1e9);
+    car.tick_late_p99_us = map.number("tick_late_p99_us", 0.0, 1e9);
     return car;
   });
 }

@@ -64,6 +64,7 @@ struct CarSummary {
   std::vector<CarMessage> messages;
   std::vector<world::LossReport> losses;  // the first of loss_reports
   double step_p50_us = kUnset, step_p99_us = kUnset, step_max_us = kUnset;
+  double tick_late_p50_us = kUnset, tick_late_p99_us = kUnset;
 };
 
 Result<CarSummary, Problem> read_car_summary(const std::string& path);

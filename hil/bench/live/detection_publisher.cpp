@@ -17,7 +17,7 @@ namespace {
 using io::SensorType;
 using world::DetectionSource;
 
-constexpr dds::Quality kSensorData{.reliable = false, .latched = false, .depth = 16};
+constexpr dds::Quality kDetectionFrames{.reliable = false, .latched = false, .depth = 16};
 
 DetectionSource source_of(SensorType type) {
   if (type == SensorType::kDetection2DArray) return DetectionSource::kCamera;
@@ -60,7 +60,7 @@ Result<DetectionPublisher, Problem> DetectionPublisher::open(
     if (std::ranges::none_of(simulated,
                              [&](const auto& s) { return serves(row, s.source, s.unit); }))
       return Unexpected{Problem{row.name, "the bench simulates no sensor of this type and unit"}};
-    auto writer = (*domain)->write_to(topic_of(row), kSensorData);
+    auto writer = (*domain)->write_to(topic_of(row), kDetectionFrames);
     if (!writer) return Unexpected{writer.error()};
     topics.push_back({row, *writer});
   }

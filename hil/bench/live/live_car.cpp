@@ -38,11 +38,33 @@ Result<std::optional<DetectionPublisher>, Problem> open_detections(
   return Optional{*std::move(opened)};
 }
 
+Result<std::unique_ptr<CloudPublisher>, Problem> open_clouds(
+    const LivePlan& plan, const scenario::Scenario& run, const pipeline::Setup& setup,
+    std::size_t others, std::span<const faults::BenchFault> faults) {
+  if (run.lidars != scenario::LidarKind::kRays) return std::unique_ptr<CloudPublisher>{};
+  io::SensorFile file;
+  if (!plan.sensors.empty()) {
+    auto read = io::read_sensor_file(plan.sensors);
+    if (!read) return Unexpected{read.error()};
+    file = *std::move(read);
+  }
+  file.domain.domain = plan.sensors_domain;
+  auto clouds = CloudPublisher::open(
+      file, setup.track,
+      [&setup](double s_m) { return line_offset_m(setup, {.s_m = s_m, .n_m = 0.0}); }, others,
+      run.seed, faults);
+  if (clouds && !*clouds)
+    return Unexpected{Problem{run.name,
+                              "\"lidars: rays\": a live run needs --sensors FILE with "
+                              "LiDARs whose mounts it knows"}};
+  return clouds;
+}
+
 }  // namespace
 
 Result<std::unique_ptr<LiveCar>, Problem> LiveCar::open(const scenario::Scenario& scenario,
                                                         const pipeline::Setup& setup,
-                                                        const LivePlan& plan, bool has_others) {
+                                                        const LivePlan& plan, std::size_t others) {
   if (auto problem = refused_by(BenchMode::kLive, scenario.faults))
     return Unexpected{*std::move(problem)};
   if (scenario.receivers)
@@ -80,13 +102,15 @@ Result<std::unique_ptr<LiveCar>, Problem> LiveCar::open(const scenario::Scenario
   if (!receivers) return Unexpected{receivers.error()};
   auto detections = open_detections(plan, scenario, faults->perception);
   if (!detections) return Unexpected{detections.error()};
+  auto clouds = open_clouds(plan, scenario, setup, others, faults->perception);
+  if (!clouds) return Unexpected{clouds.error()};
   return std::unique_ptr<LiveCar>{
-      new LiveCar(scenario, setup, plan, has_others,
+      new LiveCar(scenario, setup, plan, others > 0,
                   {*std::move(rig), *std::move(grader), *std::move(bus), *std::move(radio),
                    *std::move(monitor), *std::move(receivers), *std::move(machine),
                    ProcessSupervisor{members_of(plan),
                                      script_of(faults->processes, Instant{} + scenario.duration)},
-                   *std::move(detections)})};
+                   *std::move(detections), *std::move(clouds)})};
 }
 
 LiveCar::LiveCar(const scenario::Scenario& scenario, const pipeline::Setup& setup,
@@ -230,6 +254,9 @@ void LiveCar::show_others(Field& field, std::size_t own, Instant at) {
   parts_.rig.show_rival(field.rival_of(own));
   if (parts_.detections)
     parts_.detections->step({field.car(own).pose, field.others_of(own)}, at, started_);
+  if (parts_.clouds)
+    parts_.clouds->show(parts_.rig.truth(), parts_.rig.road().s_m, field.others_of(own), at,
+                        started_);
   const bool tick = (at - Instant{}).ns % setup_.params.rates.tick.ns == 0;
   if (record_ && tick) record_->others(field, own, at);
 }
@@ -297,6 +324,7 @@ void LiveCar::fill() {
   result_.traffic.from_car = result_.traffic.bench_received;
   result_.traffic.lost = lost_here();
   if (parts_.detections) result_.detections_lost = parts_.detections->lost();
+  if (parts_.clouds) result_.clouds = parts_.clouds->counts();
   const CarReport& last = parts_.monitor.report();
   if (std::isfinite(last.gate_refusals))
     result_.gate_refusals = static_cast<std::uint64_t>(last.gate_refusals);

@@ -17,6 +17,7 @@
 
 #include "hil/bench/live/car_monitor.hpp"
 #include "hil/bench/live/car_summary.hpp"
+#include "hil/bench/live/cloud_publisher.hpp"
 #include "hil/bench/live/detection_publisher.hpp"
 #include "hil/bench/live/live.hpp"
 #include "hil/bench/live/machine.hpp"
@@ -39,7 +40,7 @@ class LiveCar {
   // Keeps references to its arguments.
   static Result<std::unique_ptr<LiveCar>, Problem> open(const scenario::Scenario& scenario,
                                                         const pipeline::Setup& setup,
-                                                        const LivePlan& plan, bool has_others);
+                                                        const LivePlan& plan, std::size_t others);
   LiveCar(const LiveCar&) = delete;
   LiveCar& operator=(const LiveCar&) = delete;
 
@@ -80,6 +81,7 @@ class LiveCar {
     Machine machine;
     ProcessSupervisor processes;
     std::optional<DetectionPublisher> detections;  // none: the car has no such sensors
+    std::unique_ptr<CloudPublisher> clouds;        // none: its LiDARs shoot no rays
   };
 
   LiveCar(const scenario::Scenario& scenario, const pipeline::Setup& setup, const LivePlan& plan,

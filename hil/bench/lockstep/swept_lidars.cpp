@@ -14,13 +14,6 @@ namespace {
 
 constexpr std::uint64_t kStream = 0x11DA5;
 
-sensors::Moving moving(const plant::Truth& t) {
-  return {.at_m = {t.x_m, t.y_m, t.z_m},
-          .attitude = {t.roll_rad, t.pitch_rad, t.yaw_rad},
-          .velocity_mps = {t.map_vx_mps, t.map_vy_mps, t.map_vz_mps},
-          .yaw_rate_rad_per_s = t.heading_rate_rad_per_s};
-}
-
 }  // namespace
 
 perception::SensorPose pose_of(const sensors::LidarMount& mount) {
@@ -69,7 +62,7 @@ world::DetectionFrame SweptLidars::sweep(const plant::Truth& ours,
                                          const faults::LidarFault& fault, Instant now) {
   std::vector<sensors::Moving> cars;
   for (const plant::CarPose& car : others) cars.push_back(sensors::standing(track_, car));
-  const sensors::Moving body = moving(ours);
+  const sensors::Moving body = sensors::moving(ours);
   std::vector<perception::PointCloud> clouds(units_.size());
   std::vector<perception::LidarSweep> sweeps;
   for (std::size_t k = 0; k < units_.size(); ++k) {

@@ -42,18 +42,10 @@ class Sweep {
       : unit_(unit), scene_(scene), world_(world), noise_(noise) {}
 
   void scan(int ring, double time_s, std::vector<LidarReturn>& out) {
-    const Moving body = after(world_.ours, time_s);
-    const Rotation axes = rotation(body.attitude);
-    const Vector3 from = plus(body.at_m, turned(axes, unit_.mount.at_m));
-    const Rotation mount = rotation(unit_.mount.attitude);
-    const Rotation sensor{turned(axes, mount[0]), turned(axes, mount[1]), turned(axes, mount[2])};
-    const LidarPattern& pattern = unit_.pattern;
-    const double up_rad = pattern.top_rad - ring * pattern.ring_step_rad;
-    const double cos_up = std::cos(up_rad), sin_up = std::sin(up_rad);
-    for (double az_rad = -pattern.half_width_rad; az_rad < pattern.half_width_rad;
-         az_rad += pattern.ray_step_rad) {
-      const Vector3 ray{cos_up * std::cos(az_rad), cos_up * std::sin(az_rad), sin_up};
-      shoot(from, turned(sensor, ray), ray, time_s, out);
+    const LidarPose pose = pose_of(unit_, after(world_.ours, time_s));
+    for (int column = 0; column < columns_of(unit_.pattern); ++column) {
+      const Vector3 ray = ray_of(unit_.pattern, ring, column);
+      shoot(pose.at_m, turned(pose.axes, ray), ray, time_s, out);
     }
   }
 
@@ -61,19 +53,12 @@ class Sweep {
   void shoot(const Vector3& from, const Vector3& along, const Vector3& ray, double time_s,
              std::vector<LidarReturn>& out) {
     constexpr double kDustReflectance = 0.05;
-    const LidarErrors& errors = unit_.errors;
-    std::optional<Meeting> met = scene_.first(from, along, errors.most_m);
+    std::optional<Meeting> met = scene_.first(from, along, unit_.errors.most_m);
     if (const auto dust_m = met_dust(world_.dust, from, along, noise_);
         dust_m && (!met || *dust_m < met->range_m))
       met = Meeting{.range_m = *dust_m, .cos_incidence = 1.0, .reflectance = kDustReflectance};
-    if (!met || met->range_m < errors.least_m) return;
-    const double signal = met->reflectance * met->cos_incidence;
-    if (!is_received(signal, met->range_m, errors, noise_)) return;
-    const double range_m = met->range_m + errors.range_sigma_m * noise_.normal();
-    out.push_back({static_cast<float>(range_m * ray[0]), static_cast<float>(range_m * ray[1]),
-                   static_cast<float>(range_m * ray[2]), static_cast<float>(signal),
-                   static_cast<float>(time_s),
-                   static_cast<std::int16_t>(met->car ? static_cast<int>(*met->car) : -1)});
+    if (!met) return;
+    if (const auto back = received(*met, ray, time_s, unit_.errors, noise_)) out.push_back(*back);
   }
 
   const LidarUnit& unit_;
@@ -98,6 +83,37 @@ std::vector<LidarUnit> av21_lidars() {
     return unit;
   };
   return {facing(1.0, 0.0, 0.0), facing(-0.4, 0.35, 120.0), facing(-0.4, -0.35, -120.0)};
+}
+
+LidarPose pose_of(const LidarUnit& unit, const Moving& body) {
+  const Rotation axes = rotation(body.attitude), mount = rotation(unit.mount.attitude);
+  return {plus(body.at_m, turned(axes, unit.mount.at_m)),
+          {turned(axes, mount[0]), turned(axes, mount[1]), turned(axes, mount[2])}};
+}
+
+int columns_of(const LidarPattern& pattern) {
+  return static_cast<int>(std::ceil(2.0 * pattern.half_width_rad / pattern.ray_step_rad));
+}
+
+Vector3 ray_of(const LidarPattern& pattern, int ring, int column) {
+  const double up_rad = pattern.top_rad - ring * pattern.ring_step_rad;
+  const double left_rad = column * pattern.ray_step_rad - pattern.half_width_rad;
+  return {std::cos(up_rad) * std::cos(left_rad), std::cos(up_rad) * std::sin(left_rad),
+          std::sin(up_rad)};
+}
+
+std::optional<LidarReturn> received(const Meeting& met, const Vector3& ray, double after_s,
+                                    const LidarErrors& errors, Noise& noise) {
+  const double signal = met.reflectance * met.cos_incidence;
+  if (met.range_m < errors.least_m || !is_received(signal, met.range_m, errors, noise))
+    return std::nullopt;
+  const double range_m = met.range_m + errors.range_sigma_m * noise.normal();
+  return LidarReturn{static_cast<float>(range_m * ray[0]),
+                     static_cast<float>(range_m * ray[1]),
+                     static_cast<float>(range_m * ray[2]),
+                     static_cast<float>(signal),
+                     static_cast<float>(after_s),
+                     static_cast<std::int16_t>(met.car ? static_cast<int>(*met.car) : -1)};
 }
 
 std::vector<LidarReturn> lidar_sweep(const LidarUnit& unit, RayScene& scene,

@@ -89,6 +89,21 @@ struct LidarWorld {
   std::span<const DustCloud> dust;
 };
 
+// Where a LiDAR is and how its frame lies.
+struct LidarPose {
+  Vector3 at_m{};  // Map
+  Rotation axes = rotation({});
+};
+LidarPose pose_of(const LidarUnit& unit, const Moving& body);
+
+// Rays of a pattern, row by row from its top, from its right to its left.
+int columns_of(const LidarPattern& pattern);
+Vector3 ray_of(const LidarPattern& pattern, int ring, int column);  // in the sensor's frame
+
+// What the sensor makes of it, if anything.
+std::optional<LidarReturn> received(const Meeting& met, const Vector3& ray, double after_s,
+                                    const LidarErrors& errors, Noise& noise);
+
 std::vector<LidarReturn> lidar_sweep(const LidarUnit& unit, RayScene& scene,
                                      const LidarWorld& world, Noise& noise);
 

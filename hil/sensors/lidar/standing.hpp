@@ -1,4 +1,5 @@
-// A car of the bench as a body on the banked road, for rays.
+// Cars of the bench as bodies, for rays: of the true state of one, or of another one's rectangle on
+// the banked road.
 //   frames the car's rectangle in Map; out: Vehicle (mesh.hpp), or another origin above it
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
@@ -20,6 +21,14 @@ inline Moving standing(const world::TrackMap& track, const plant::CarPose& car,
   body.velocity_mps = plus(times(car.vx_mps, axes[0]), times(car.vy_mps, axes[1]));
   body.yaw_rate_rad_per_s = car.yaw_rate_rad_per_s;
   return body;
+}
+
+// Body, as it is.
+inline Moving moving(const plant::Truth& t) {
+  return {.at_m = {t.x_m, t.y_m, t.z_m},
+          .attitude = {t.roll_rad, t.pitch_rad, t.yaw_rad},
+          .velocity_mps = {t.map_vx_mps, t.map_vy_mps, t.map_vz_mps},
+          .yaw_rate_rad_per_s = t.heading_rate_rad_per_s};
 }
 
 }  // namespace pitwall::sensors

@@ -100,11 +100,13 @@ TEST(Signals, TheLiveBenchRefusesWhatOnlyLockstepCanJudge) {
   EXPECT_EQ(expectations->back().limit, seconds(1));
 }
 
-TEST(Signals, LidarsShootNoRaysLive) {
+TEST(Signals, LiveTheCarsOwnFileSaysWhatLooksInItsClouds) {
   scenario::Scenario s;
   s.name = "by_rays";
   EXPECT_FALSE(unjudged_by(BenchMode::kLive, s));
   s.lidars = scenario::LidarKind::kRays;
+  EXPECT_FALSE(unjudged_by(BenchMode::kLive, s));
+  s.lidars = scenario::LidarKind::kRaysClusters;
   EXPECT_FALSE(unjudged_by(BenchMode::kLockstep, s));
   const auto problem = unjudged_by(BenchMode::kLive, s);
   ASSERT_TRUE(problem);

@@ -81,7 +81,7 @@ TEST(LidarClouds, CarsInTheCloudsOfTwoLidarsAreInOneFrame) {
   EXPECT_TRUE(comes([&] {
     worker->report(ego_at_rest());
     left.write(near), right.write(far);
-    for (; worker->front() != nullptr; worker->pop())
+    for (; worker->front() != nullptr; worker->pop(transport::monotonic_now()))
       found = found || has_both(*worker->front(), {15.0, 30.0});
     return found;
   })) << worker->json(transport::monotonic_now())

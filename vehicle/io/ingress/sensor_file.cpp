@@ -24,6 +24,7 @@ constexpr double kHalfTurn_deg = 180.0;
 constexpr double kPixelsMax = 100'000.0;
 constexpr double kHeightMin_m = 0.3, kHeightMax_m = 5.0;
 constexpr double kAmplitudeMax_db = 300.0;
+constexpr std::uint32_t kSharedMemory_bytes = 4U << 20U;  // a reader sends little
 constexpr double kMountMost_m = 10.0, kHorizonMost_ms = 200.0;
 
 DetectionRow read_detections(yaml::StrictMap& map, SensorType type) {
@@ -82,7 +83,9 @@ SensorFile read(yaml::StrictMap& map) {
   SensorFile file;
   file.domain.domain = static_cast<int>(map.integer_or("domain", 0, 0, dds::kDomainMax));
   file.domain.interface = map.text_or("interface", file.domain.interface);
+  if (map.flag_or("shared_memory", false)) file.domain.shared_memory_bytes = kSharedMemory_bytes;
   file.network = map.text_or("network", {});
+  file.waits_for_all = map.flag_or("wait_for_all", false);
   if (map.has("peers")) file.domain.peers = map.texts("peers", 0, kSensorsMax);
   for (yaml::StrictMap& row : map.maps("sensors")) {
     const SensorRow sensor = read_row(row);

@@ -3,6 +3,7 @@
 //     domain: 0                       # ROS_DOMAIN_ID
 //     interface: 192.168.10.5         # of this machine; default 127.0.0.1
 //     peers: [192.168.10.7]           # optional; hosts that multicast does not reach
+//     shared_memory: true             # optional; with drivers on this computer, beside UDP
 //     sensors:
 //       - {name: lidar, topic: /luminar_front/points, type: PointCloud2, rate_hz: 20}
 //       - {name: boxes, topic: /perception/lidar, type: Detection3DArray, rate_hz: 20}
@@ -17,6 +18,8 @@
 //       - {name: luminar_front, topic: /luminar_front/points, type: PointCloud2, rate_hz: 20,
 //          at_m: [1.0, 0.0, 0.55], turned_deg: [0, 0, 0], horizon_ms: 12.3}
 //     network: ../networks/lidar_pillars.onnx   # top level, beside this file; without: clusters
+//     wait_for_all: true                        # top level; the published way, to compare with: no
+//                                               # frame without a sweep of every LiDAR
 //
 // A row of detections may have: unit (0; which one of its type), frame (base_link), and where it is
 // a camera or a radar facing_deg (0; counter-clockwise from ahead). detection_codec.hpp says what
@@ -81,6 +84,7 @@ struct SensorFile {
   dds::DomainConfig domain;
   std::vector<SensorRow> sensors;
   std::string network{};  // file of the LiDARs' network; empty: clusters
+  bool waits_for_all = false;
 };
 
 inline constexpr std::size_t kSensorsMax = 16;

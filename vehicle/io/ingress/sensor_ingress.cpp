@@ -17,9 +17,6 @@
 namespace pitwall::io {
 namespace {
 
-// As sensor drivers send: what is late is not worth sending again.
-constexpr dds::Quality kSensorData{.reliable = false, .latched = false, .depth = 5};
-
 void add_counts(json::Object& out, const DetectionCounts& c) {
   out.number("refused", c.refused)
       .number("in_future", c.in_future)
@@ -100,7 +97,7 @@ struct SensorIngress::Sensor {
   Result<bool, Problem> open(Place& place) {
     const dds::TopicType topic{*ros::dds_topic(row.topic), ros::dds_type(M::kType),
                                ros::type_hash(ros::describe<M>())};
-    return domain->read_from(topic, kSensorData,
+    return domain->read_from(topic, dds::kSensorData,
                              [this, &place](dds::Bytes cdr) { receive(place, cdr); });
   }
   template <class M>

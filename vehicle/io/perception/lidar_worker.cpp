@@ -27,18 +27,22 @@ std::vector<LidarSource> lidars_of(SensorIngress& ingress) {
 
 std::unique_ptr<LidarWorker> LidarWorker::start(std::vector<LidarSource> sources,
                                                 const world::TrackMap& track,
-                                                std::optional<perception::PillarDetector> network) {
+                                                std::optional<perception::PillarDetector> network,
+                                                Gathering gathering) {
   if (sources.empty()) return nullptr;
   std::unique_ptr<LidarWorker> worker{
-      new LidarWorker(std::move(sources), track, std::move(network))};
+      new LidarWorker(std::move(sources), track, std::move(network), gathering)};
   worker->thread_ = std::thread([&own = *worker] { own.serve(); });
   return worker;
 }
 
 LidarWorker::LidarWorker(std::vector<LidarSource> sources, const world::TrackMap& track,
-                         std::optional<perception::PillarDetector> network)
-    : gatherer_(sources.size()), detector_(track, {}, std::move(network)) {
-  for (LidarSource& source : sources) units_.push_back({.source = std::move(source)});
+                         std::optional<perception::PillarDetector> network, Gathering gathering)
+    : gatherer_(sources.size(), gathering), detector_(track, {}, std::move(network)) {
+  for (LidarSource& source : sources) {
+    horizon_most_ = std::max(horizon_most_, source.row.horizon);
+    units_.push_back({.source = std::move(source)});
+  }
 }
 
 LidarWorker::~LidarWorker() {
@@ -49,6 +53,12 @@ LidarWorker::~LidarWorker() {
 void LidarWorker::report(const world::EgoState& ego) {
   ego_.next() = ego;
   ego_.put();
+}
+
+void LidarWorker::pop(Instant now) {
+  const Duration age = now - queue_.front()->at + horizon_most_;
+  to_loop_.add(static_cast<double>(age / kAgeCell));
+  queue_.pop();
 }
 
 void LidarWorker::serve() {
@@ -68,7 +78,7 @@ bool LidarWorker::take_clouds() {
     const ros::PointCloud2* const cloud = units_[k].source.take();
     if (cloud == nullptr) continue;
     has_taken = true;
-    if (gatherer_.has(k)) make_frame();
+    if (gatherer_.must_take_before(k)) make_frame();
     take(k, *cloud);
   }
   return has_taken;
@@ -122,6 +132,8 @@ std::string LidarWorker::json(Instant now) const {
   row.text("name", "lidars");
   add_figures(row, figures(now));
   add_figure(row, "largest_gap_ms", c.largest_gap_ms);
+  add_figure(row, "to_loop_p50_ms", to_loop_.quantile(0.5) * kAgeCell.milliseconds());
+  add_figure(row, "to_loop_p99_ms", to_loop_.quantile(0.99) * kAgeCell.milliseconds());
   return row.number("frames", c.frames)
       .number("sweeps", c.sweeps)
       .number("unreadable", c.unreadable)

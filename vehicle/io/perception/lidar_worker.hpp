@@ -6,7 +6,8 @@
 //   law    no sensor is waited for that is late; the loop never waits for this thread
 //   errors a cloud that cannot be read, or is older than kOldest or from the future, is counted and
 //          left out
-//   cost   report(), front(), pop(): wait-free, no allocation. The thread: that of the detector
+//   cost   report(), front(), pop(): wait-free, no allocation, of the loop's thread alone. The
+//          thread: that of the detector
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -19,6 +20,7 @@
 #include <thread>
 #include <vector>
 
+#include "protocol/vocabulary/quantile.hpp"
 #include "vehicle/autonomy/perception/lidar_detector.hpp"
 #include "vehicle/io/ingress/arrivals.hpp"
 #include "vehicle/io/ingress/frame_queue.hpp"
@@ -51,27 +53,29 @@ class LidarWorker {
   // `track` outlives it. Without sources there is nothing to do: nullptr.
   static std::unique_ptr<LidarWorker> start(std::vector<LidarSource> sources,
                                             const world::TrackMap& track,
-                                            std::optional<perception::PillarDetector> network);
+                                            std::optional<perception::PillarDetector> network,
+                                            Gathering gathering = Gathering::kPunctual);
   ~LidarWorker();
   LidarWorker(const LidarWorker&) = delete;
   LidarWorker& operator=(const LidarWorker&) = delete;
 
   void report(const world::EgoState& ego);
   const world::DetectionFrame* front() const { return queue_.front(); }
-  void pop() { queue_.pop(); }
+  void pop(Instant now);  // only after front() has returned one
 
   ArrivalFigures figures(Instant now) const { return arrivals_.newest(now); }
   Counts counts() const;
   std::string json(Instant now) const;  // a row of SensorIngress::json()
 
  private:
+  static constexpr Duration kAgeCell = microseconds(100);
   struct Unit {
     LidarSource source;
     perception::PointCloud points{};
   };
 
   LidarWorker(std::vector<LidarSource> sources, const world::TrackMap& track,
-              std::optional<perception::PillarDetector> network);
+              std::optional<perception::PillarDetector> network, Gathering gathering);
   void serve();
   bool take_clouds();
   void take(std::size_t unit, const ros::PointCloud2& cloud);
@@ -87,6 +91,8 @@ class LidarWorker {
   std::atomic<std::uint64_t> frames_{0}, sweeps_{0}, unreadable_{0}, bad_stamps_{0}, no_room_{0};
   std::atomic<double> largest_gap_ms_{0.0};
   std::optional<Instant> last_frame_;  // of the thread
+  Duration horizon_most_{};
+  Histogram to_loop_{10'000};  // ages of the oldest points when the loop took them, in kAgeCell
   std::atomic<bool> end_{false};
   std::thread thread_;  // last: it uses all of the above
 };

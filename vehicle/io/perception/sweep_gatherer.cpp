@@ -2,13 +2,14 @@
 #include "vehicle/io/perception/sweep_gatherer.hpp"
 
 #include <algorithm>
+#include <ranges>
 
 #include "protocol/vocabulary/check.hpp"
 
 namespace pitwall::io {
 
 void SweepGatherer::arrived(std::size_t sensor, Instant begun, Instant now) {
-  CHECK(!has(sensor));
+  CHECK(!must_take_before(sensor));
   sensors_[sensor].begun = begun;
   sensors_[sensor].received_at = now;
   if (!first_) first_ = now;
@@ -16,9 +17,19 @@ void SweepGatherer::arrived(std::size_t sensor, Instant begun, Instant now) {
 
 bool SweepGatherer::is_due(Instant now) const {
   if (!first_) return false;
+  if (gathering_ == Gathering::kAll) return is_whole();
   return now - *first_ >= kWait || std::ranges::all_of(sensors_, [&](const Sensor& sensor) {
            return sensor.begun || !is_alive(sensor, now);
          });
+}
+
+bool SweepGatherer::is_whole() const {
+  const auto begun = [](const Sensor& sensor) { return sensor.begun; };
+  if (!std::ranges::all_of(sensors_, [&](const auto& s) { return begun(s).has_value(); }))
+    return false;
+  const auto [oldest, newest] = std::ranges::minmax(
+      sensors_ | std::views::transform([](const Sensor& sensor) { return *sensor.begun; }));
+  return newest - oldest <= kTogether;
 }
 
 std::optional<SweepGatherer::Frame> SweepGatherer::take() {

@@ -4,12 +4,15 @@
 //   law    a frame is due when each sensor that is alive has its sweep in it, or kWait after its
 //          first; a sensor is alive for kAlive after its newest sweep. A sweep is in one frame at
 //          most, and no two of one sensor are in one frame
-//   errors none: the caller makes a frame that is begun before a sensor's second sweep arrives
-//          (has())
+//          The published way, for comparison: a frame has a sweep of every sensor, those within
+//          kTogether of each other; a sweep that waits until its sensor's next one is in no frame
+//   errors none: the caller asks must_take_before() first when a sweep arrives
+//   source message_filters: a synchronizer of exact or approximate time
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <vector>
 
@@ -17,16 +20,24 @@
 
 namespace pitwall::io {
 
+enum class Gathering : std::uint8_t { kPunctual, kAll };
+
 class SweepGatherer {
  public:
   // LiDARs that turn together send within a few ms.
   static constexpr Duration kWait = milliseconds(12);
   static constexpr Duration kAlive = milliseconds(175);  // three sweeps at 20 Hz were missed
 
-  explicit SweepGatherer(std::size_t sensors) : sensors_(sensors) {}
+  static constexpr Duration kTogether = milliseconds(25);
+
+  explicit SweepGatherer(std::size_t sensors, Gathering gathering = Gathering::kPunctual)
+      : sensors_(sensors), gathering_(gathering) {}
 
   void arrived(std::size_t sensor, Instant begun, Instant now);
-  bool has(std::size_t sensor) const { return sensors_[sensor].begun.has_value(); }
+  // Whether the frame is to be taken before a sweep of this sensor can arrive: it has one of it.
+  bool must_take_before(std::size_t sensor) const {
+    return gathering_ == Gathering::kPunctual && sensors_[sensor].begun.has_value();
+  }
   bool is_due(Instant now) const;
 
   struct Frame {
@@ -47,7 +58,10 @@ class SweepGatherer {
     return sensor.received_at && now - *sensor.received_at <= kAlive;
   }
 
+  bool is_whole() const;
+
   std::vector<Sensor> sensors_;
+  Gathering gathering_;
   std::optional<Instant> first_;  // arrival of the frame's first sweep
 };
 

@@ -10,7 +10,8 @@
 
 namespace pitwall::io {
 
-void StepTally::add(Duration step, std::uint64_t missed_deadlines) {
+void StepTally::add(Duration step, Duration late, std::uint64_t missed_deadlines) {
+  late_us_.add(static_cast<double>(late.ns) * 1e-3);
   const double us = static_cast<double>(step.ns) * 1e-3;
   bins_us_.add(us);
   recent_us_[steps_ % kRecent] = static_cast<float>(us);
@@ -197,7 +198,9 @@ std::string summary_json(const StepTally& tally, const FrameTotals& frames,
       .json("tracking", parts.tracking)
       .number("step_p50_us", tally.quantile_us(0.5))
       .number("step_p99_us", tally.quantile_us(0.99))
-      .number("step_max_us", tally.max_us());
+      .number("step_max_us", tally.max_us())
+      .number("tick_late_p50_us", tally.late_quantile_us(0.5))
+      .number("tick_late_p99_us", tally.late_quantile_us(0.99));
   return out.str() + "\n";
 }
 

@@ -20,7 +20,8 @@ namespace pitwall::io {
 
 class StepTally {
  public:
-  void add(Duration step, std::uint64_t missed_deadlines);
+  // Of a tick that began `late` after its deadline.
+  void add(Duration step, Duration late, std::uint64_t missed_deadlines);
   // Largest step time since the last call; for telemetry.
   double take_recent_max_us();
   // Median of the last kRecent steps; unset before the first.
@@ -30,10 +31,11 @@ class StepTally {
   std::uint64_t missed_deadlines() const { return missed_; }
   double quantile_us(double q) const { return bins_us_.quantile(q); }
   double max_us() const { return max_us_; }
+  double late_quantile_us(double q) const { return late_us_.quantile(q); }
 
  private:
   static constexpr std::size_t kBins = 4'000, kRecent = 100;
-  Histogram bins_us_{kBins};
+  Histogram bins_us_{kBins}, late_us_{kBins};
   std::array<float, kRecent> recent_us_{};  // ring buffer
   std::uint64_t steps_ = 0, missed_ = 0;
   double max_us_ = 0.0, recent_max_us_ = 0.0;

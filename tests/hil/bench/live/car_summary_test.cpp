@@ -104,9 +104,9 @@ std::string some_summary(const io::StepTally& tally) {
 
 TEST_F(CarSummaryFile, IsReadAsTheCarWroteIt) {
   io::StepTally tally;
-  for (int i = 0; i < 98; ++i) tally.add(microseconds(20), 0);
-  tally.add(microseconds(60), 2);
-  tally.add(microseconds(90), 1);
+  for (int i = 0; i < 98; ++i) tally.add(microseconds(20), microseconds(7), 0);
+  tally.add(microseconds(60), microseconds(300), 2);
+  tally.add(microseconds(90), microseconds(300), 1);
   const auto car = read_car_summary(write(some_summary(tally)));
   ASSERT_TRUE(car) << to_string(car.error());
   EXPECT_EQ(car->ticks, 100u);
@@ -121,6 +121,8 @@ TEST_F(CarSummaryFile, IsReadAsTheCarWroteIt) {
   EXPECT_EQ(car->step_p50_us, tally.quantile_us(0.5));
   EXPECT_EQ(car->step_p99_us, tally.quantile_us(0.99));
   EXPECT_EQ(car->step_max_us, tally.max_us());
+  EXPECT_EQ(car->tick_late_p50_us, 8.0);
+  EXPECT_EQ(car->tick_late_p99_us, 301.0);
 
   ASSERT_EQ(car->refused_by_kind.size(), 9u);
   EXPECT_EQ(car->refused_by_kind[0], (std::pair<std::string, std::uint64_t>{"unknown_id", 1}));

@@ -6,47 +6,17 @@
 #include <cmath>
 #include <vector>
 
-#include "tests/hil/traffic/oval.hpp"
+#include "tests/hil/traffic/oval_cars.hpp"
+#include "tests/vehicle/autonomy/perception/lidar/ego_on_oval.hpp"
 
 namespace pitwall::bench {
 namespace {
 
-constexpr double kSpeed_mps = 60.0, kOrigin_m = 0.28;
+constexpr double kSpeed_mps = 60.0;
 constexpr double kOurs_m = 100.0;  // on the straight, at time 0
 
 plant::CarPose pose_at(double s_m, double n_m) {
-  const world::TrackPoint at = traffic::oval().offset(s_m, n_m);
-  return {.x_m = at.x_m,
-          .y_m = at.y_m,
-          .yaw_rad = at.yaw_rad,
-          .vx_mps = kSpeed_mps,
-          .vy_mps = 0.0,
-          .yaw_rate_rad_per_s = 0.0,
-          .s_m = s_m,
-          .n_m = n_m,
-          .length_m = 4.92,
-          .width_m = 1.89};
-}
-
-plant::Truth truth_at(double s_m) {
-  const world::TrackPoint at = traffic::oval().offset(s_m, 0.0);
-  plant::Truth truth;
-  truth.x_m = at.x_m, truth.y_m = at.y_m, truth.yaw_rad = at.yaw_rad, truth.z_m = kOrigin_m;
-  truth.roll_rad = -at.bank_rad, truth.pitch_rad = 0.0, truth.heading_rate_rad_per_s = 0.0;
-  truth.map_vx_mps = kSpeed_mps * std::cos(at.yaw_rad);
-  truth.map_vy_mps = kSpeed_mps * std::sin(at.yaw_rad), truth.map_vz_mps = 0.0;
-  return truth;
-}
-
-world::EgoState ego_of(const plant::Truth& truth, Instant at) {
-  return {.at = at,
-          .validity = world::Validity::kGood,
-          .x_m = truth.x_m,
-          .y_m = truth.y_m,
-          .yaw_rad = truth.yaw_rad,
-          .vx_mps = kSpeed_mps,
-          .vy_mps = 0.0,
-          .yaw_rate_rad_per_s = 0.0};
+  return traffic::pose_on_oval(s_m, n_m, kSpeed_mps);
 }
 
 // All cars at the same speed, for `span`, in steps of a millisecond.
@@ -58,9 +28,10 @@ std::vector<world::DetectionFrame> frames_of(const std::vector<plant::CarPose>& 
     const double went_m = kSpeed_mps * now.seconds();
     std::vector<plant::CarPose> moved;
     for (const plant::CarPose& car : others) moved.push_back(pose_at(car.s_m + went_m, car.n_m));
-    const plant::Truth ours = truth_at(kOurs_m + went_m);
+    const plant::Truth ours = traffic::truth_on_oval(kOurs_m + went_m, kSpeed_mps);
     sensors::Arrivals arrivals;
-    lidars.step(ours, moved, ego_of(ours, now), fault, now, arrivals);
+    lidars.step(ours, moved, perception::ego_on_oval(kOurs_m + went_m, kSpeed_mps, now), fault, now,
+                arrivals);
     for (const world::DetectionFrame& frame : arrivals) {
       EXPECT_EQ(frame.received, now);
       frames.push_back(frame);

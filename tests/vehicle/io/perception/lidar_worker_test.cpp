@@ -67,7 +67,7 @@ TEST(LidarWorker, MakesAFrameOfTheSweepsOfItsSensors) {
   lidars[0].send(car_cloud(30.0, 2.0)), lidars[1].send(car_cloud(15.0, -3.0));
   std::vector<world::Detection> found;
   ASSERT_TRUE(comes([&] {
-    for (; worker->front() != nullptr; worker->pop()) {
+    for (; worker->front() != nullptr; worker->pop(transport::monotonic_now())) {
       const world::DetectionFrame& frame = *worker->front();
       EXPECT_EQ(frame.source, world::DetectionSource::kLidar);
       EXPECT_GE(frame.received, before);

@@ -42,7 +42,7 @@ TEST(SweepGatherer, ALateSensorIsNotWaitedFor) {
   EXPECT_TRUE(gatherer.is_due(ms(12)));
   EXPECT_EQ(gatherer.take()->sensors, (std::vector<std::size_t>{0}));
   gatherer.arrived(1, ms(-60), ms(20));
-  EXPECT_TRUE(gatherer.has(1));
+  EXPECT_TRUE(gatherer.must_take_before(1));
   gatherer.arrived(0, ms(-10), ms(50));
   EXPECT_TRUE(gatherer.is_due(ms(50)));
 }
@@ -64,6 +64,20 @@ TEST(SweepGatherer, WithoutASweepThereIsNoFrame) {
   EXPECT_FALSE(gatherer.take());
   gatherer.arrived(2, ms(-60), ms(0));
   EXPECT_TRUE(gatherer.is_due(ms(0))) << "the others were never alive";
+}
+
+TEST(SweepGatherer, InThePublishedWayAllAreWaitedForTogether) {
+  SweepGatherer gatherer{2, Gathering::kAll};
+  gatherer.arrived(0, ms(-60), ms(0));
+  EXPECT_FALSE(gatherer.is_due(ms(1'000))) << "however long that takes";
+  EXPECT_FALSE(gatherer.must_take_before(0));
+  gatherer.arrived(0, ms(-10), ms(50));
+  gatherer.arrived(1, ms(-60), ms(52));
+  EXPECT_FALSE(gatherer.is_due(ms(52))) << "they are of two sweeps";
+  gatherer.arrived(1, ms(-12), ms(55));
+  EXPECT_TRUE(gatherer.is_due(ms(55)));
+  EXPECT_EQ(gatherer.take()->begun, ms(-12));
+  EXPECT_FALSE(gatherer.is_due(ms(1'000)));
 }
 
 }  // namespace

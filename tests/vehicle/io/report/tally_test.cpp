@@ -20,10 +20,10 @@ namespace {
 TEST(StepTally, TheRecentMedianIsOfTheLastHundredSteps) {
   const auto tally = std::make_unique<StepTally>();
   EXPECT_TRUE(std::isnan(tally->recent_median_us()));
-  tally->add(microseconds(7), 0);
+  tally->add(microseconds(7), {}, 0);
   EXPECT_DOUBLE_EQ(tally->recent_median_us(), 7.0);
-  for (int i = 0; i < 500; ++i) tally->add(microseconds(3'000), 0);
-  for (int i = 0; i < 100; ++i) tally->add(microseconds(i), 0);
+  for (int i = 0; i < 500; ++i) tally->add(microseconds(3'000), {}, 0);
+  for (int i = 0; i < 100; ++i) tally->add(microseconds(i), {}, 0);
   EXPECT_DOUBLE_EQ(tally->recent_median_us(), 50.0);
 }
 
@@ -37,7 +37,7 @@ TEST(StepTally, QuantilesAreThoseOfTheSortedListToOneMicrosecond) {
     std::vector<double> sorted_us;
     for (std::size_t i = 0; i < count; ++i) {
       const auto ns = static_cast<std::int64_t>(random.next() % span_ns);
-      tally->add(nanoseconds(ns), 0);
+      tally->add(nanoseconds(ns), nanoseconds(static_cast<std::int64_t>(span_ns) - ns), 0);
       sorted_us.push_back(static_cast<double>(ns) * 1e-3);
     }
     std::sort(sorted_us.begin(), sorted_us.end());
@@ -47,6 +47,11 @@ TEST(StepTally, QuantilesAreThoseOfTheSortedListToOneMicrosecond) {
       const double exact_us = sorted_us[rank - 1];
       EXPECT_GE(tally->quantile_us(q), exact_us) << "seed " << seed << " q " << q;
       EXPECT_LE(tally->quantile_us(q), exact_us + 1.0) << "seed " << seed << " q " << q;
+    }
+    const double middle_us = sorted_us[(count - 1) / 2];  // of what is left of the span: mirrored
+    if (count % 2 == 1) {
+      EXPECT_NEAR(tally->late_quantile_us(0.5), static_cast<double>(span_ns) * 1e-3 - middle_us,
+                  1.001);
     }
     EXPECT_EQ(tally->max_us(), sorted_us.back());
     EXPECT_EQ(tally->steps(), count);
@@ -63,8 +68,8 @@ TEST(StepTally, NothingCountedIsZero) {
 
 TEST(StepTally, StepsBeyondTheHistogramCountAsItsEndAndKeepTheirMaximum) {
   const auto tally = std::make_unique<StepTally>();
-  tally->add(seconds(3), 299);
-  tally->add(milliseconds(-5), 0);  // a clock that went back
+  tally->add(seconds(3), {}, 299);
+  tally->add(milliseconds(-5), {}, 0);  // a clock that went back
   EXPECT_EQ(tally->quantile_us(1.0), 4000.0);
   EXPECT_EQ(tally->quantile_us(0.5), 1.0);
   EXPECT_EQ(tally->max_us(), 3e6);
@@ -73,11 +78,11 @@ TEST(StepTally, StepsBeyondTheHistogramCountAsItsEndAndKeepTheirMaximum) {
 
 TEST(StepTally, TheRecentMaximumIsTakenOnce) {
   const auto tally = std::make_unique<StepTally>();
-  tally->add(microseconds(70), 1);
-  tally->add(microseconds(30), 2);
+  tally->add(microseconds(70), {}, 1);
+  tally->add(microseconds(30), {}, 2);
   EXPECT_EQ(tally->take_recent_max_us(), 70.0);
   EXPECT_EQ(tally->take_recent_max_us(), 0.0);
-  tally->add(microseconds(20), 0);
+  tally->add(microseconds(20), {}, 0);
   EXPECT_EQ(tally->take_recent_max_us(), 20.0);
   EXPECT_EQ(tally->max_us(), 70.0);
   EXPECT_EQ(tally->missed_deadlines(), 3u);
@@ -164,7 +169,7 @@ void expect_bus(yaml::StrictMap& map) {
 
 TEST(Summary, IsReadBackWithEveryKey) {
   const auto tally = std::make_unique<StepTally>();
-  for (int i = 1; i <= 100; ++i) tally->add(microseconds(i), i == 50 ? 6 : 0);
+  for (int i = 1; i <= 100; ++i) tally->add(microseconds(i), {}, i == 50 ? 6 : 0);
   FrameTotals frames;
   frames.received = 11, frames.sent = 12, frames.tx_drops = 13, frames.rx_dropped = 14;
   frames.gate_refusals = 15;
@@ -212,6 +217,8 @@ TEST(Summary, IsReadBackWithEveryKey) {
     EXPECT_NEAR(map.number("step_p50_us", 0, 1e9), 51.0, 1.0);
     EXPECT_NEAR(map.number("step_p99_us", 0, 1e9), 100.0, 1.0);
     EXPECT_EQ(map.number("step_max_us", 0, 1e9), 100.0);
+    EXPECT_EQ(map.number("tick_late_p50_us", 0, 1e9), 1.0);
+    EXPECT_EQ(map.number("tick_late_p99_us", 0, 1e9), 1.0);
     return true;
   });  // and no key beyond these
   EXPECT_TRUE(all) << (all ? "" : to_string(all.error()));
