@@ -33,13 +33,6 @@ std::vector<sensors::LidarUnit> units_of(const std::vector<io::SensorRow>& rows)
   return units;
 }
 
-sensors::RayScene cars_alone(std::size_t count) {
-  sensors::RayScene scene{{}};
-  const std::vector<sensors::Mesh> body = sensors::car_meshes(sensors::av21_shape());
-  for (std::size_t i = 0; i < count; ++i) scene.add_car(body);
-  return scene;
-}
-
 }  // namespace
 
 ros::PointCloud2 cloud_of(std::span<const sensors::LidarReturn> returns) {
@@ -67,7 +60,7 @@ ros::PointCloud2 cloud_of(std::span<const sensors::LidarReturn> returns) {
 
 Result<std::unique_ptr<CloudPublisher>, Problem> CloudPublisher::open(
     const io::SensorFile& file, const world::TrackMap& track,
-    const std::function<double(double)>& offset_m, std::size_t others, std::uint64_t seed,
+    const std::function<double(double)>& offset_m, std::uint64_t seed,
     std::span<const faults::BenchFault> faults) {
   std::vector<io::SensorRow> rows;
   for (const io::SensorRow& row : file.sensors)
@@ -78,8 +71,10 @@ Result<std::unique_ptr<CloudPublisher>, Problem> CloudPublisher::open(
   auto domain = dds::Domain::join(config);
   if (!domain) return Unexpected{domain.error()};
   std::unique_ptr<CloudPublisher> publisher{new CloudPublisher(
-      track, sensors::SweptTrack::make(track, units_of(rows), {.offset_m = offset_m, .seed = seed}),
-      others, seed, faults)};
+      track,
+      sensors::SweptTrack::make(track, units_of(rows), sensors::car_meshes(sensors::av21_shape()),
+                                {.offset_m = offset_m, .seed = seed}),
+      seed, faults)};
   for (const io::SensorRow& row : rows) {
     auto writer =
         (*domain)->write_to({*ros::dds_topic(row.topic), ros::dds_type(ros::PointCloud2::kType),
@@ -94,12 +89,10 @@ Result<std::unique_ptr<CloudPublisher>, Problem> CloudPublisher::open(
 }
 
 CloudPublisher::CloudPublisher(const world::TrackMap& track, sensors::SweptTrack swept,
-                               std::size_t others, std::uint64_t seed,
-                               std::span<const faults::BenchFault> faults)
+                               std::uint64_t seed, std::span<const faults::BenchFault> faults)
     : track_(track),
       swept_(std::move(swept)),
       faults_(faults.begin(), faults.end()),
-      cars_(cars_alone(others)),
       noise_(seed, kStream) {}
 
 CloudPublisher::~CloudPublisher() {
@@ -155,7 +148,7 @@ void CloudPublisher::sweep(const Moment& moment) {
   for (std::size_t unit = 0; unit < writers_.size(); ++unit) {
     if (unit < moment.fault.outage.size() && moment.fault.outage[unit]) continue;
     ros::PointCloud2 cloud =
-        cloud_of(swept_.sweep(unit, moment.ours, moment.s_m, cars_, moment.others, noise_));
+        cloud_of(swept_.sweep(unit, moment.ours, moment.s_m, moment.others, noise_));
     cloud.header.frame_id = "lidar_" + std::to_string(unit);
     cloud.header.stamp = {static_cast<std::int32_t>(stamp_ns / kNanosecondsPerSecond),
                           static_cast<std::uint32_t>(stamp_ns % kNanosecondsPerSecond)};

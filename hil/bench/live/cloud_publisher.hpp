@@ -6,7 +6,7 @@
 //          the end of the sweep. What moves goes on as at the sweep's begin, until its end
 //   errors open(): Problem of DDS. Later: counts. A sweep that is due while the one before is still
 //          made is skipped and counted
-//   cost   open(): 0.03 s and 0.5 MB for each 5 m of track. show(): a copy. The thread: 20 ms a
+//   cost   open(): 0.03 s and 0.5 MB for each 5 m of track. show(): a copy. The thread: 10 ms a
 //          sweep of three
 //   limit  lidar::SweptTrack; own pattern, not that of the row's LiDAR
 // SPDX-License-Identifier: Apache-2.0
@@ -47,7 +47,7 @@ class CloudPublisher {
   // where the file has no such rows.
   static Result<std::unique_ptr<CloudPublisher>, Problem> open(
       const io::SensorFile& file, const world::TrackMap& track,
-      const std::function<double(double s_m)>& offset_m, std::size_t others, std::uint64_t seed,
+      const std::function<double(double s_m)>& offset_m, std::uint64_t seed,
       std::span<const faults::BenchFault> faults);
   ~CloudPublisher();
   CloudPublisher(const CloudPublisher&) = delete;
@@ -73,8 +73,8 @@ class CloudPublisher {
     std::vector<std::uint8_t> bytes{};
   };
 
-  CloudPublisher(const world::TrackMap& track, sensors::SweptTrack swept, std::size_t others,
-                 std::uint64_t seed, std::span<const faults::BenchFault> faults);
+  CloudPublisher(const world::TrackMap& track, sensors::SweptTrack swept, std::uint64_t seed,
+                 std::span<const faults::BenchFault> faults);
   void serve();
   void sweep(const Moment& moment);
   void send_due();
@@ -87,7 +87,6 @@ class CloudPublisher {
   Instant next_{};                     // scenario time, of the caller
 
   // Of the thread.
-  sensors::RayScene cars_;
   sensors::Noise noise_;
   std::deque<Cloud> waiting_;
 

@@ -116,7 +116,7 @@ class Live {
 Result<std::vector<LiveResult>, Problem> run_live(std::span<const LiveStack> stacks,
                                                   std::span<const FieldGhost> ghosts) {
   CHECK(!stacks.empty());
-  const std::size_t others = stacks.size() + ghosts.size() - 1;
+  const bool has_others = stacks.size() + ghosts.size() > 1;
   Cars cars;
   std::vector<Runner> runners;
   for (const LiveStack& stack : stacks) {
@@ -125,7 +125,7 @@ Result<std::vector<LiveResult>, Problem> run_live(std::span<const LiveStack> sta
       return Unexpected{*std::move(other)};
   }
   for (const LiveStack& stack : stacks) {
-    auto car = LiveCar::open(stack.scenario, stack.setup, stack.plan, others);
+    auto car = LiveCar::open(stack.scenario, stack.setup, stack.plan, has_others);
     if (!car) return Unexpected{car.error()};
     cars.push_back(*std::move(car));
   }

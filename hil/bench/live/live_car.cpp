@@ -40,7 +40,7 @@ Result<std::optional<DetectionPublisher>, Problem> open_detections(
 
 Result<std::unique_ptr<CloudPublisher>, Problem> open_clouds(
     const LivePlan& plan, const scenario::Scenario& run, const pipeline::Setup& setup,
-    std::size_t others, std::span<const faults::BenchFault> faults) {
+    std::span<const faults::BenchFault> faults) {
   if (run.lidars != scenario::LidarKind::kRays) return std::unique_ptr<CloudPublisher>{};
   io::SensorFile file;
   if (!plan.sensors.empty()) {
@@ -51,8 +51,8 @@ Result<std::unique_ptr<CloudPublisher>, Problem> open_clouds(
   file.domain.domain = plan.sensors_domain;
   auto clouds = CloudPublisher::open(
       file, setup.track,
-      [&setup](double s_m) { return line_offset_m(setup, {.s_m = s_m, .n_m = 0.0}); }, others,
-      run.seed, faults);
+      [&setup](double s_m) { return line_offset_m(setup, {.s_m = s_m, .n_m = 0.0}); }, run.seed,
+      faults);
   if (clouds && !*clouds)
     return Unexpected{Problem{run.name,
                               "\"lidars: rays\": a live run needs --sensors FILE with "
@@ -64,7 +64,7 @@ Result<std::unique_ptr<CloudPublisher>, Problem> open_clouds(
 
 Result<std::unique_ptr<LiveCar>, Problem> LiveCar::open(const scenario::Scenario& scenario,
                                                         const pipeline::Setup& setup,
-                                                        const LivePlan& plan, std::size_t others) {
+                                                        const LivePlan& plan, bool has_others) {
   if (auto problem = refused_by(BenchMode::kLive, scenario.faults))
     return Unexpected{*std::move(problem)};
   if (scenario.receivers)
@@ -102,10 +102,10 @@ Result<std::unique_ptr<LiveCar>, Problem> LiveCar::open(const scenario::Scenario
   if (!receivers) return Unexpected{receivers.error()};
   auto detections = open_detections(plan, scenario, faults->perception);
   if (!detections) return Unexpected{detections.error()};
-  auto clouds = open_clouds(plan, scenario, setup, others, faults->perception);
+  auto clouds = open_clouds(plan, scenario, setup, faults->perception);
   if (!clouds) return Unexpected{clouds.error()};
   return std::unique_ptr<LiveCar>{
-      new LiveCar(scenario, setup, plan, others > 0,
+      new LiveCar(scenario, setup, plan, has_others,
                   {*std::move(rig), *std::move(grader), *std::move(bus), *std::move(radio),
                    *std::move(monitor), *std::move(receivers), *std::move(machine),
                    ProcessSupervisor{members_of(plan),

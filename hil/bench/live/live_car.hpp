@@ -40,7 +40,7 @@ class LiveCar {
   // Keeps references to its arguments.
   static Result<std::unique_ptr<LiveCar>, Problem> open(const scenario::Scenario& scenario,
                                                         const pipeline::Setup& setup,
-                                                        const LivePlan& plan, std::size_t others);
+                                                        const LivePlan& plan, bool has_others);
   LiveCar(const LiveCar&) = delete;
   LiveCar& operator=(const LiveCar&) = delete;
 

@@ -11,7 +11,6 @@
 namespace pitwall::sensors {
 namespace {
 
-constexpr double kRange_m = 0.004, kSignal = 1.0 / 255.0;
 constexpr double kCarRadius_m = 3.0, kCarHeight_m = 1.5;  // about a body, generously
 
 std::vector<Vector3> rays_of(const LidarPattern& pattern) {
@@ -63,45 +62,56 @@ class Carried {
   Rotation axes_;
 };
 
-// Which rays of a ring cars stand in, and what comes back of them.
+// What the rays of a ring meet of cars.
 class CarsInRing {
  public:
-  CarsInRing(const LidarUnit& unit, std::span<const Vector3> rays, const RayScene& cars)
-      : unit_(unit), rays_(rays), cars_(cars), met_(rays.size()) {}
+  CarsInRing(const LidarUnit& unit, const RayScene& body)
+      : unit_(unit), body_(body), met_(static_cast<std::size_t>(columns_of(unit.pattern))) {}
 
-  void look(int ring, const LidarPose& pose, std::span<const Moving> others) {
-    std::ranges::fill(met_, std::nullopt);
+  void look(std::span<const Vector3> rays, int ring, const LidarPose& pose,
+            std::span<const Moving> others) {
+    std::fill(met_.begin() + looked_at_.from, met_.begin() + looked_at_.until, std::nullopt);
+    looked_at_ = {};
     const double up_rad = unit_.pattern.top_rad - ring * unit_.pattern.ring_step_rad;
-    for (const Moving& car : others) {
-      const Vector3 at = within(pose.axes, plus(car.at_m, times(-1.0, pose.at_m)));
-      const Columns columns = columns_to(at, unit_.pattern, up_rad);
+    for (std::size_t number = 0; number < others.size(); ++number) {
+      const Moving& car = others[number];
+      const Vector3 to = plus(car.at_m, times(-1.0, pose.at_m));
+      const Columns columns = columns_to(within(pose.axes, to), unit_.pattern, up_rad);
+      if (columns.from == columns.until) continue;
+      looked_at_ = looked_at_.from == looked_at_.until
+                       ? columns
+                       : Columns{std::min(looked_at_.from, columns.from),
+                                 std::max(looked_at_.until, columns.until)};
+      const Rotation axes = rotation(car.attitude);
+      const Vector3 from = within(axes, times(-1.0, to));
       for (int column = columns.from; column < columns.until; ++column) {
         const auto i = static_cast<std::size_t>(column);
-        if (!met_[i])
-          met_[i] = cars_.first(pose.at_m, turned(pose.axes, rays_[i]), unit_.errors.most_m);
+        auto met = body_.first(from, within(axes, turned(pose.axes, rays[i])), unit_.errors.most_m);
+        if (!met || (met_[i] && met_[i]->range_m <= met->range_m)) continue;
+        met->car = number;
+        met_[i] = met;
       }
     }
   }
   const std::optional<Meeting>& at(std::size_t column) const { return met_[column]; }
-  void take_ring(std::span<const Vector3> rays) { rays_ = rays; }
 
  private:
   const LidarUnit& unit_;
-  std::span<const Vector3> rays_;
-  const RayScene& cars_;
+  const RayScene& body_;
   std::vector<std::optional<Meeting>> met_;
+  Columns looked_at_;
 };
 
 }  // namespace
 
-SweptTrack::SweptTrack(double length_m, std::vector<LidarUnit> units)
-    : length_m_(length_m), units_(std::move(units)) {
+SweptTrack::SweptTrack(double length_m, std::vector<LidarUnit> units, std::span<const Mesh> body)
+    : length_m_(length_m), units_(std::move(units)), body_(body) {
   for (const LidarUnit& unit : units_) rays_.push_back(rays_of(unit.pattern));
 }
 
 SweptTrack SweptTrack::make(const world::TrackMap& track, std::vector<LidarUnit> units,
-                            const Options& options) {
-  SweptTrack swept{track.length_m(), std::move(units)};
+                            std::span<const Mesh> body, const Options& options) {
+  SweptTrack swept{track.length_m(), std::move(units), body};
   const auto count = static_cast<std::size_t>(std::ceil(track.length_m() / options.step_m));
   RayScene scene{track_meshes(track)};
   Noise noise{options.seed, 0};
@@ -120,24 +130,27 @@ SweptTrack SweptTrack::make(const world::TrackMap& track, std::vector<LidarUnit>
                           .s_m = s_m,
                           .n_m = n_m},
                          options.origin_m);
-    for (std::size_t unit = 0; unit < swept.units_.size(); ++unit) {
-      const LidarUnit& lidar = swept.units_[unit];
-      const LidarPose pose = pose_of(lidar, made.body);
-      auto& ranges = made.ranges.emplace_back();
-      auto& signals = made.signals.emplace_back();
-      for (const Vector3& ray : swept.rays_[unit]) {
-        std::optional<LidarReturn> back;
-        if (const auto met = scene.first(pose.at_m, turned(pose.axes, ray), lidar.errors.most_m))
-          back = received(*met, ray, 0.0, lidar.errors, noise);
-        const double range_m = back ? std::hypot(back->x_m, back->y_m, back->z_m) : 0.0;
-        ranges.push_back(static_cast<std::uint16_t>(std::lround(range_m / kRange_m)));
-        signals.push_back(static_cast<std::uint8_t>(
-            back ? std::lround(std::clamp(static_cast<double>(back->intensity), 0.0, 1.0) / kSignal)
-                 : 0));
-      }
-    }
+    for (std::size_t unit = 0; unit < swept.units_.size(); ++unit)
+      made.shots.push_back(shot(swept.units_[unit], made.body, swept.rays_[unit], scene, noise));
   }
   return swept;
+}
+
+SweptTrack::Shot SweptTrack::shot(const LidarUnit& lidar, const Moving& body,
+                                  std::span<const Vector3> rays, const RayScene& scene,
+                                  Noise& noise) {
+  const LidarPose pose = pose_of(lidar, body);
+  Shot made;
+  for (const Vector3& ray : rays) {
+    std::optional<LidarReturn> back;
+    if (const auto met = scene.first(pose.at_m, turned(pose.axes, ray), lidar.errors.most_m))
+      back = received(*met, ray, 0.0, lidar.errors, noise);
+    const double range_m = back ? std::hypot(back->x_m, back->y_m, back->z_m) : 0.0;
+    const double signal = back ? std::clamp(static_cast<double>(back->intensity), 0.0, 1.0) : 0.0;
+    made.ranges.push_back(static_cast<std::uint16_t>(std::lround(range_m / kRange_m)));
+    made.signals.push_back(static_cast<std::uint8_t>(std::lround(signal / kSignal)));
+  }
+  return made;
 }
 
 const SweptTrack::Place& SweptTrack::nearest(double s_m) const {
@@ -147,31 +160,26 @@ const SweptTrack::Place& SweptTrack::nearest(double s_m) const {
 }
 
 std::vector<LidarReturn> SweptTrack::sweep(std::size_t unit, const Moving& ours, double s_m,
-                                           RayScene& cars, std::span<const Moving> others,
-                                           Noise& noise) const {
+                                           std::span<const Moving> others, Noise& noise) const {
   const LidarUnit& lidar = units_[unit];
   const auto columns = static_cast<std::size_t>(columns_of(lidar.pattern));
   const double forward_mps = std::hypot(ours.velocity_mps[0], ours.velocity_mps[1]);
   std::vector<LidarReturn> returns;
   returns.reserve(rays_[unit].size());
   std::vector<Moving> moved(others.begin(), others.end());
-  CarsInRing in_ring{lidar, std::span{rays_[unit]}.first(columns), cars};
+  CarsInRing in_ring{lidar, body_};
   for (int ring = 0; ring < lidar.pattern.rings; ++ring) {
     const double time_s = ring * lidar.pattern.ring_period_s;
     const LidarPose pose = pose_of(lidar, after(ours, time_s));
     const Place& place = nearest(s_m + forward_mps * time_s);
+    const Shot& still = place.shots[unit];
     const Carried carried{pose_of(lidar, place.body), pose};
-    for (std::size_t car = 0; car < others.size(); ++car) {
-      moved[car] = after(others[car], time_s);
-      cars.place(car, rotation(moved[car].attitude), moved[car].at_m);
-    }
-    if (!others.empty()) cars.commit();
+    for (std::size_t car = 0; car < others.size(); ++car) moved[car] = after(others[car], time_s);
     const std::size_t first = static_cast<std::size_t>(ring) * columns;
-    in_ring.take_ring(std::span{rays_[unit]}.subspan(first, columns));
-    in_ring.look(ring, pose, moved);
+    in_ring.look(std::span{rays_[unit]}.subspan(first, columns), ring, pose, moved);
     for (std::size_t column = 0; column < columns; ++column) {
       const std::size_t i = first + column;
-      const double range_m = place.ranges[unit][i] * kRange_m;
+      const double range_m = still.ranges[i] * kRange_m;
       const auto& met = in_ring.at(column);
       if (met && (range_m == 0.0 || met->range_m < range_m)) {
         if (const auto back = received(*met, rays_[unit][i], time_s, lidar.errors, noise))
@@ -180,7 +188,7 @@ std::vector<LidarReturn> SweptTrack::sweep(std::size_t unit, const Moving& ours,
         const Vector3 at = carried(times(range_m, rays_[unit][i]));
         returns.push_back(
             {static_cast<float>(at[0]), static_cast<float>(at[1]), static_cast<float>(at[2]),
-             static_cast<float>(place.signals[unit][i] * kSignal), static_cast<float>(time_s), -1});
+             static_cast<float>(still.signals[i] * kSignal), static_cast<float>(time_s), -1});
       }
     }
   }

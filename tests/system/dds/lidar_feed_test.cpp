@@ -40,7 +40,7 @@ Seen seen_in(int domain, Duration span, std::size_t frames,
   const auto worker =
       io::LidarWorker::start(io::lidars_of(**ingress), traffic::oval(), std::nullopt);
   auto publisher = CloudPublisher::open(
-      file, traffic::oval(), [](double) { return 0.0; }, 1, 7, faults);
+      file, traffic::oval(), [](double) { return 0.0; }, 7, faults);
   if (!publisher) return ADD_FAILURE() << to_string(publisher.error()), Seen{};
   const plant::Truth ours = traffic::truth_on_oval(kOurs_m, 0.0);
   const plant::CarPose other = traffic::pose_on_oval(kOurs_m + kAhead_m, kLeft_m, 0.0);

@@ -35,7 +35,7 @@ TEST(CloudPublisher, WithoutAMountThereIsNone) {
       .domain = {.domain = 69},
       .sensors = {{"points", "/points", io::SensorType::kPointCloud2, 20.0, {}}}};
   const auto opened =
-      CloudPublisher::open(file, traffic::oval(), [](double) { return 0.0; }, 0, 1, {});
+      CloudPublisher::open(file, traffic::oval(), [](double) { return 0.0; }, 1, {});
   ASSERT_TRUE(opened) << to_string(opened.error());
   EXPECT_EQ(*opened, nullptr);
 }

@@ -26,8 +26,9 @@ LidarUnit coarse() {
 }
 
 const SweptTrack& swept() {
-  static const SweptTrack made = SweptTrack::make(
-      traffic::oval(), {coarse()}, {.step_m = 25.0, .offset_m = [](double) { return 1.0; }});
+  static const SweptTrack made =
+      SweptTrack::make(traffic::oval(), {coarse()}, car_meshes(av21_shape()),
+                       {.step_m = 25.0, .offset_m = [](double) { return 1.0; }});
   return made;
 }
 
@@ -37,17 +38,10 @@ Moving body_at(double s_m, double n_m, double origin_m, double turned_rad = 0.0)
   return standing(traffic::oval(), pose, origin_m);
 }
 
-RayScene cars_alone(std::size_t count) {
-  RayScene scene{{}};
-  for (std::size_t i = 0; i < count; ++i) scene.add_car(car_meshes(av21_shape()));
-  return scene;
-}
-
 std::vector<LidarReturn> sweep_at(double s_m, double n_m, double turned_rad,
                                   const std::vector<Moving>& others) {
-  RayScene cars = cars_alone(others.size());
   Noise noise{3, 0};
-  return swept().sweep(0, body_at(s_m, n_m, kOrigin_m, turned_rad), s_m, cars, others, noise);
+  return swept().sweep(0, body_at(s_m, n_m, kOrigin_m, turned_rad), s_m, others, noise);
 }
 
 // Between two of the places, in another lane, at an angle to the road and at speed.

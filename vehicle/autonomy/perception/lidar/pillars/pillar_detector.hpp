@@ -2,7 +2,9 @@
 //   in     cloud in Body at the reference time; the map's ground under it
 //   out    boxes, the surest first
 //   errors read(): Problem with the file: it cannot be read, or as PillarTrunk
-//   cost   35 ms of one processor; allocates
+//   law    where nothing stands over the road the network does not look, with the same result
+//   cost   10 ms of one processor, and 7 ms for each 25 m of road on which something stands, at
+//          most 35 ms. Allocates
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -15,7 +17,9 @@
 
 #include "protocol/vocabulary/result.hpp"
 #include "vehicle/autonomy/perception/lidar/car_box.hpp"
+#include "vehicle/autonomy/perception/lidar/pillars/pillar_decoder.hpp"
 #include "vehicle/autonomy/perception/lidar/pillars/pillar_trunk.hpp"
+#include "vehicle/autonomy/perception/lidar/pillars/pillar_windows.hpp"
 #include "vehicle/autonomy/perception/lidar/point_cloud.hpp"
 #include "vehicle/autonomy/perception/lidar/track_ground.hpp"
 
@@ -36,11 +40,20 @@ class PillarDetector {
                                                              const ReadFile& read_file);
   std::vector<CarBox> detect(std::span<const LidarPoint> cloud, const TrackGround& ground,
                              double others_mps);
-  std::vector<float> run(std::vector<float>& planes) { return trunk_.run(planes); }
+  std::vector<RoadBox> boxes_in(std::span<const Pillar> pillars, double confidence_least);
+  // Of the whole grid.
+  std::vector<float> run(std::vector<float>& planes) { return whole_.run(planes); }
 
  private:
-  explicit PillarDetector(PillarTrunk trunk) : trunk_(std::move(trunk)) {}
-  PillarTrunk trunk_;
+  // More are dearer than the whole grid.
+  static constexpr std::size_t kWindowsMost = 3;
+
+  PillarDetector(PillarTrunk whole, PillarTrunk window)
+      : whole_(std::move(whole)), window_(std::move(window)) {}
+  std::vector<float> look_in(std::span<const PillarWindow> windows,
+                             std::span<const Pillar> pillars);
+
+  PillarTrunk whole_, window_;
 };
 
 }  // namespace pitwall::perception

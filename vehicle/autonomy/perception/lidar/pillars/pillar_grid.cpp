@@ -93,11 +93,15 @@ std::vector<Pillar> pillars_of(std::span<const LidarPoint> cloud, const TrackGro
   return pillars;
 }
 
-std::vector<float> planes_of(std::span<const Pillar> pillars) {
-  std::vector<float> planes(kPillarFeatures * PillarGrid::kCells, 0.0F);
-  for (const Pillar& pillar : pillars)
+std::vector<float> planes_of(std::span<const Pillar> pillars, std::size_t first_row,
+                             std::size_t rows) {
+  const std::size_t first = first_row * PillarGrid::kColumns, cells = rows * PillarGrid::kColumns;
+  std::vector<float> planes(kPillarFeatures * cells, 0.0F);
+  for (const Pillar& pillar : pillars) {
+    if (pillar.cell < first || pillar.cell >= first + cells) continue;
     for (std::size_t f = 0; f < kPillarFeatures; ++f)
-      planes[f * PillarGrid::kCells + pillar.cell] = pillar.features[f];
+      planes[f * cells + (pillar.cell - first)] = pillar.features[f];
+  }
   return planes;
 }
 

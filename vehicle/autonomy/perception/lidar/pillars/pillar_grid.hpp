@@ -51,7 +51,9 @@ struct Pillar {
 std::vector<Pillar> pillars_of(std::span<const LidarPoint> cloud, const TrackGround& ground,
                                double others_mps);
 
-// The network's input: kPillarFeatures planes of kRows x kColumns; 0 where there is no point.
-std::vector<float> planes_of(std::span<const Pillar> pillars);
+// The network's input: kPillarFeatures planes of `rows` x kColumns, from `first_row` on; 0 where
+// there is no point.
+std::vector<float> planes_of(std::span<const Pillar> pillars, std::size_t first_row = 0,
+                             std::size_t rows = PillarGrid::kRows);
 
 }  // namespace pitwall::perception

@@ -1,8 +1,8 @@
 // Convolutional trunk of the pillar network, run by OpenCV's DNN module.
-//   in     the network as the bytes of an ONNX file; planes_of() a sweep
-//   out    kPillarOutputs planes of kOutRows x kOutColumns, see PillarOutput
+//   in     the network as the bytes of an ONNX file; planes_of() a sweep or some of its rows
+//   out    kPillarOutputs planes of rows / kStride x kOutColumns, see PillarOutput
 //   errors load(): no ONNX, or its input or output has another shape
-//   cost   run(): 25 ms of one processor. Allocates inside OpenCV
+//   cost   run(): 25 ms of one processor for all rows. Allocates inside OpenCV
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -39,13 +39,14 @@ class PillarTrunk {
   static constexpr std::size_t kOutColumns = PillarGrid::kColumns / kStride;
   static constexpr std::size_t kOutCells = kOutRows * kOutColumns;
 
-  // `name`: of the file, for the error.
-  static Result<PillarTrunk, Problem> load(std::string_view onnx, const std::string& name);
+  // `name`: of the file, for the error. `rows`: of each input.
+  static Result<PillarTrunk, Problem> load(std::string_view onnx, const std::string& name,
+                                           std::size_t rows = PillarGrid::kRows);
   ~PillarTrunk();
   PillarTrunk(PillarTrunk&&) noexcept;
   PillarTrunk& operator=(PillarTrunk&&) noexcept;
 
-  // `planes`: kPillarFeatures x PillarGrid::kCells.
+  // `planes`: kPillarFeatures x rows x PillarGrid::kColumns.
   std::vector<float> run(std::vector<float>& planes);
 
  private:

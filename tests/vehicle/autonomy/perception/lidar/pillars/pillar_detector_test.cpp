@@ -7,6 +7,7 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "hil/scenes/pillar_scenes.hpp"
 #include "hil/scenes/scene_cloud.hpp"
 #include "hil/sensors/lidar/car_mesh.hpp"
 #include "protocol/transport/file.hpp"
@@ -53,6 +54,31 @@ TEST(PillarDetector, FindsTheCarsOfDrawnScenesWhereTheyAre) {
   EXPECT_GE(cars, 10U) << "or the test has seen next to nothing";
   EXPECT_GE(found + 1, cars);
   EXPECT_LE(others, 1U);
+}
+
+// Of the stored scenes, in which many a car is far away and seen by a few rays.
+TEST(PillarDetector, WhereItDoesNotLookThereIsNoCar) {
+  PillarDetector network = shipped_network();
+  const auto stored = scenes::read_scenes(
+      std::string(PITWALL_SOURCE_DIR) + "/tests/vehicle/autonomy/perception/lidar/pillars/scenes");
+  ASSERT_TRUE(stored) << to_string(stored.error());
+  std::size_t cars = 0, in_windows = 0;
+  for (const auto& scene : *stored) {
+    std::vector<float> planes = planes_of(scene.pillars);
+    const auto whole = decode(network.run(planes), PillarDetector::kConfidenceLeast);
+    const auto boxes = network.boxes_in(scene.pillars, PillarDetector::kConfidenceLeast);
+    ASSERT_EQ(boxes.size(), whole.size());
+    for (std::size_t i = 0; i < boxes.size(); ++i) {
+      EXPECT_NEAR(boxes[i].ahead_m, whole[i].ahead_m, 1e-3);
+      EXPECT_NEAR(boxes[i].n_m, whole[i].n_m, 1e-3);
+      EXPECT_NEAR(boxes[i].yaw_rad, whole[i].yaw_rad, 1e-3);
+      EXPECT_NEAR(boxes[i].confidence, whole[i].confidence, 1e-3);
+    }
+    cars += whole.size();
+    in_windows += windows_of(scene.pillars).size() <= 3;
+  }
+  EXPECT_GE(cars, 50U);
+  EXPECT_GE(2 * in_windows, stored->size()) << "or it looks everywhere most of the time";
 }
 
 TEST(PillarDetector, AFileThatCannotBeReadIsNamed) {
