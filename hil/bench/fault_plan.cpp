@@ -247,6 +247,14 @@ std::optional<Problem> refused_by(BenchMode mode, const std::vector<scenario::Fa
   return std::nullopt;
 }
 
+std::optional<Problem> dust_in_rays(const scenario::Scenario& scenario) {
+  if (!has_rays(scenario.lidars)) return std::nullopt;
+  for (const scenario::Fault& row : scenario.faults)
+    if (faults::bench_fault_kind(row.kind) == BenchFaultKind::kDust)
+      return Problem{row.place, "dust needs modelled LiDARs: lidars: model or measured"};
+  return std::nullopt;
+}
+
 Result<FaultPlan, Problem> plan_faults(const std::vector<scenario::Fault>& rows,
                                        std::uint64_t seed) {
   FaultPlan plan;

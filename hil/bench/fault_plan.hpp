@@ -49,4 +49,8 @@ Result<FaultPlan, Problem> plan_faults(const std::vector<scenario::Fault>& rows,
 // Problem with the first row that this kind of bench cannot carry out; nullopt if there is none.
 std::optional<Problem> refused_by(BenchMode mode, const std::vector<scenario::Fault>& rows);
 
+// Problem with dust where LiDARs shoot their rays: those would need clouds of it, not the number of
+// what is falsely seen in it.
+std::optional<Problem> dust_in_rays(const scenario::Scenario& scenario);
+
 }  // namespace pitwall::bench

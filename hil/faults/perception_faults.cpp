@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hil/faults/perception_faults.hpp"
 
+#include <algorithm>
+
 #include "protocol/vocabulary/check.hpp"
 
 namespace pitwall::faults {
@@ -23,7 +25,8 @@ bool is_about(BenchFaultKind kind, DetectionSource source) {
 void spoil(const BenchFault& fault, std::uint8_t unit, sensors::DetectionFault& f) {
   switch (fault.kind) {
     case kLidarOutage:
-      CHECK(f.blind.push(sensors::lidar_sector(fault.unit)));
+      if (std::ranges::count(f.blind, sensors::lidar_sector(fault.unit)) == 0)
+        CHECK(f.blind.push(sensors::lidar_sector(fault.unit)));
       return;
     case kLidarLate:
       f.added_latency = f.added_latency + from_seconds(fault.value);

@@ -24,6 +24,8 @@ using RangeTable = std::vector<RangeRow>;  // by increasing range, at least one
 
 struct Sector {
   double from_rad = 0.0, to_rad = 0.0;  // counter-clockwise from `from` to `to`
+
+  bool operator==(const Sector&) const = default;
 };
 
 // Times of exponential length at exponential distances.

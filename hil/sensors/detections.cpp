@@ -216,6 +216,17 @@ void add(DetectionFrame& frame, Detection d, double confidence, std::uint32_t& o
   if (!frame.detections.push(d)) ++overflows;
 }
 
+void add_false(DetectionFrame& frame, const DetectionSensor& sensor, const CarPose& ours,
+               double mean, Noise& noise, std::uint32_t& overflows) {
+  for (int n = poisson(mean, noise); n > 0; --n) {
+    const Seen false_one = phantom(sensor, ours, noise);
+    if (!is_within(sensor.view, false_one)) continue;
+    const Detection d = measured(sensor, false_one, noise);
+    const double most = sensor.confidence_false;
+    add(frame, d, between(0.5 * most, most, noise), overflows);
+  }
+}
+
 DetectionFrame frame_of(const DetectionSensor& sensor, DetectionSensorState& state,
                         const Surroundings& all, const CarPose& ours, Instant now,
                         std::uint32_t& overflows) {
@@ -226,20 +237,14 @@ DetectionFrame frame_of(const DetectionSensor& sensor, DetectionSensorState& sta
     const Seen& car = all[i];
     const bool missed = is_in_burst(sensor.miss, state.miss[i], now, noise);
     if (missed || !is_seen(sensor.view, all, car)) continue;
-    if (is_in_any(state.fault.blind.span(), car.bearing_rad)) continue;
     if (noise.uniform() >= at_range(sensor.hit_rate, car.range_m)) continue;
     const Detection d = measured(sensor, car, noise);
-    add(frame, d, between(sensor.confidence_least, 1.0, noise), overflows);
+    const double confidence = between(sensor.confidence_least, 1.0, noise);
+    if (!is_in_any(state.fault.blind.span(), car.bearing_rad)) add(frame, d, confidence, overflows);
   }
-  const double false_ones =
-      sensor.false_per_frame + state.fault.false_per_s * sensor.cadence.period.seconds();
-  for (int n = poisson(false_ones, noise); n > 0; --n) {
-    const Seen false_one = phantom(sensor, ours, noise);
-    if (!is_within(sensor.view, false_one)) continue;
-    const Detection d = measured(sensor, false_one, noise);
-    const double most = sensor.confidence_false;
-    add(frame, d, between(0.5 * most, most, noise), overflows);
-  }
+  add_false(frame, sensor, ours, sensor.false_per_frame, noise, overflows);
+  const double added = state.fault.false_per_s * sensor.cadence.period.seconds();
+  if (added > 0.0) add_false(frame, sensor, ours, added, state.fault_noise, overflows);
   return frame;
 }
 
@@ -276,6 +281,7 @@ DetectionState make_detections(const DetectionSensors& sensors, std::uint64_t se
   for (std::size_t i = 0; i < sensors.size(); ++i) {
     DetectionSensorState s;
     s.noise = Noise(seed, kDetectionStream + i);
+    s.fault_noise = Noise(seed, kDetectionFaultStream + i);
     s.next = start + sensors[i].phase;
     s.outage.until = start;
     for (BurstState& miss : s.miss) miss.until = start;

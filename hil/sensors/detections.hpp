@@ -46,11 +46,12 @@ struct DetectionFault {
   bool outage = false;
   Duration added_latency{};
   double false_per_s = 0.0;
-  FixedVector<Sector, 16> blind{};
+  FixedVector<Sector, kLidarUnits> blind{};
 };
 
 struct DetectionSensorState {
   Noise noise;
+  Noise fault_noise;  // of what a fault adds: it changes no other draw
   Instant next{};
   BurstState outage;
   DetectionFault fault;  // set by the caller

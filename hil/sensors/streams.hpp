@@ -26,6 +26,7 @@ constexpr std::uint64_t stream_of(std::size_t unit, UnitStream stream) {
 // Streams that belong to no unit.
 inline constexpr std::uint64_t kSkyStream = 1000;  // GNSS errors common to both units
 inline constexpr std::uint64_t kWheelStream = 1001;
-inline constexpr std::uint64_t kDetectionStream = 1100;  // and the place of the sensor
+inline constexpr std::uint64_t kDetectionStream = 1100;       // and the place of the sensor
+inline constexpr std::uint64_t kDetectionFaultStream = 1200;  // and the place of the sensor
 
 }  // namespace pitwall::sensors

@@ -312,7 +312,9 @@ Result<std::unique_ptr<Domain>, Problem> Domain::join(const DomainConfig& config
   count_instead_of_printing();
   auto domain = std::make_unique<DomainOfFast>();
   if (!domain->open(config))
-    return Unexpected{Problem{place, "Fast DDS opens no socket at " + config.interface}};
+    return Unexpected{
+        Problem{place, "Fast DDS opens no socket at " + config.interface +
+                           (config.shared_memory_bytes > 0 ? ", or gets no shared memory" : "")}};
   return std::unique_ptr<Domain>{std::move(domain)};
 }
 

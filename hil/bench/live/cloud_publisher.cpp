@@ -18,8 +18,8 @@ namespace pitwall::bench {
 namespace {
 
 constexpr std::uint64_t kStream = 0xC10D5;
-constexpr std::uint32_t kSharedMemory_bytes = 64U << 20U;
-constexpr std::chrono::milliseconds kDuePeriod{1};  // of what is due
+constexpr std::uint32_t kSharedMemory_bytes = 16U << 20U;  // five sweeps of three
+constexpr std::chrono::milliseconds kDuePeriod{1};         // of what is due
 
 std::vector<sensors::LidarUnit> units_of(const std::vector<io::SensorRow>& rows) {
   std::vector<sensors::LidarUnit> units;

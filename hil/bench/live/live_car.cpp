@@ -67,6 +67,7 @@ Result<std::unique_ptr<LiveCar>, Problem> LiveCar::open(const scenario::Scenario
                                                         const LivePlan& plan, bool has_others) {
   if (auto problem = refused_by(BenchMode::kLive, scenario.faults))
     return Unexpected{*std::move(problem)};
+  if (auto problem = dust_in_rays(scenario)) return Unexpected{*std::move(problem)};
   if (scenario.receivers)
     return Unexpected{Problem{
         "receivers", "allowed in lockstep only: in a live run the car file names the receivers"}};

@@ -28,14 +28,6 @@ std::string mode_text(const safety::SupervisorOutput& chosen) {
   return text;
 }
 
-// Rays would need clouds of it, not a number of what is seen in it.
-std::optional<Problem> dust_among(const std::vector<scenario::Fault>& rows) {
-  for (const scenario::Fault& row : rows)
-    if (faults::bench_fault_kind(row.kind) == faults::BenchFaultKind::kDust)
-      return Problem{row.place, "dust needs modelled LiDARs: lidars: model or measured"};
-  return std::nullopt;
-}
-
 }  // namespace
 
 Result<std::unique_ptr<CarBench>, Problem> CarBench::build(const scenario::Scenario& scenario,
@@ -56,8 +48,7 @@ Result<std::unique_ptr<CarBench>, Problem> CarBench::build(const scenario::Scena
   for (const scenario::OperatorText& word : scenario.operator_texts)
     if (const auto fit = inputs::parse_text_command(word.text); !fit)
       return Unexpected{fit.error()};
-  if (has_rays(scenario.lidars))
-    if (auto problem = dust_among(scenario.faults)) return Unexpected{*std::move(problem)};
+  if (auto problem = dust_in_rays(scenario)) return Unexpected{*std::move(problem)};
   auto network = perception::PillarDetector::read(
       has_others && scenario.lidars == scenario::LidarKind::kRays
           ? below(scenario.folder, perception::kPillarNetworkFile)

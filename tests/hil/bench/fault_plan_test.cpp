@@ -240,5 +240,36 @@ TEST(FaultPlan, ThereIsALimit) {
   EXPECT_FALSE(plan_faults(rows, 1));
 }
 
+TEST(FaultPlan, RaysMeetNoDustOfANumber) {
+  scenario::Scenario s;
+  s.faults = {row("camera_outage"), row("dust", 5.0)};
+  for (const scenario::LidarKind kind :
+       {scenario::LidarKind::kModel, scenario::LidarKind::kMeasured}) {
+    s.lidars = kind;
+    EXPECT_FALSE(dust_in_rays(s));
+  }
+  for (const scenario::LidarKind kind :
+       {scenario::LidarKind::kRays, scenario::LidarKind::kRaysClusters}) {
+    s.lidars = kind;
+    const auto problem = dust_in_rays(s);
+    ASSERT_TRUE(problem);
+    EXPECT_EQ(problem->place, "file.yaml:9:5");
+  }
+  s.faults.pop_back();
+  EXPECT_FALSE(dust_in_rays(s));
+}
+
+TEST(FaultPlan, UnitsOfSensorsThatSeeCarsAreThoseOfTheCar) {
+  scenario::Fault fault = row("lidar_outage");
+  fault.unit = 2;
+  EXPECT_EQ(refusal(fault), "");
+  fault.unit = 3;
+  EXPECT_TRUE(is_refused_there(fault));
+  fault.kind = "camera_outage";
+  EXPECT_EQ(refusal(fault), "");
+  fault.kind = "lidar_late";
+  EXPECT_TRUE(is_refused_there(fault));
+}
+
 }  // namespace
 }  // namespace pitwall::bench

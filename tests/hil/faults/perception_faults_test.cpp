@@ -90,6 +90,9 @@ TEST(PerceptionFaults, ALidarThatIsOutHidesItsThirdAlone) {
   EXPECT_GT(boxes(front, false), 200U);
   EXPECT_GT(boxes(left, true), 200U);
   EXPECT_EQ(boxes(left, false), 0U);
+  EXPECT_EQ(boxes(frames_of(std::vector<BenchFault>(20, {.kind = kLidarOutage, .unit = 1})), false),
+            0U)
+      << "twenty times is once";
   EXPECT_GT(boxes(right, true), 200U);
   EXPECT_GT(boxes(right, false), 200U);
 }
@@ -124,6 +127,26 @@ TEST(PerceptionFaults, DustIsSeenAsThatManyCars) {
   const double expected = kEach_s * kSeconds * 0.6;
   EXPECT_NEAR(low(frames_of({{.kind = kDust, .value = kEach_s}})) - low(frames_of({})),
               0.94 * expected, 0.06 * expected + 5.0 * std::sqrt(expected));
+}
+
+TEST(PerceptionFaults, WhatFollowsIsWhatWouldHaveComeWithoutThem) {
+  const auto sum_after = [](const std::vector<DetectionFrame>& frames) {
+    double sum = 0.0;
+    for (const DetectionFrame& frame : frames)
+      if (frame.at >= Instant{} + seconds(11))
+        for (const world::Detection& seen : frame.detections)
+          for (const double figure : {seen.x_m, seen.bearing_rad, seen.range_m, seen.confidence})
+            sum += std::isfinite(figure) ? figure : 0.0;
+    return sum;
+  };
+  const double healthy = sum_after(frames_of({}));
+  for (const auto& [kind, value] :
+       {std::pair{kLidarOutage, 0.0}, std::pair{kLidarLate, 0.2}, std::pair{kCameraOutage, 0.0},
+        std::pair{kRadarOutage, 0.0}, std::pair{kDust, 30.0}}) {
+    const auto frames = frames_of(
+        {{.kind = kind, .start = Instant{} + seconds(5), .duration = seconds(5), .value = value}});
+    EXPECT_NEAR(sum_after(frames), healthy, 1e-6) << row_of(kind).name;
+  }
 }
 
 TEST(PerceptionFaults, RaysHaveTheirOwn) {

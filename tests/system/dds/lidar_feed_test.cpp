@@ -18,7 +18,7 @@ namespace {
 constexpr double kOurs_m = 102.0, kAhead_m = 20.0, kLeft_m = 3.0;
 
 io::SensorFile front_lidar(int domain) {
-  return {.domain = {.domain = domain, .shared_memory_bytes = 4U << 20U},
+  return {.domain = {.domain = domain, .shared_memory_bytes = 1U << 20U},
           .sensors = {{.name = "front",
                        .topic = "/front/points",
                        .type = io::SensorType::kPointCloud2,

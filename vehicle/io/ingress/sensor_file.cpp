@@ -24,7 +24,7 @@ constexpr double kHalfTurn_deg = 180.0;
 constexpr double kPixelsMax = 100'000.0;
 constexpr double kHeightMin_m = 0.3, kHeightMax_m = 5.0;
 constexpr double kAmplitudeMax_db = 300.0;
-constexpr std::uint32_t kSharedMemory_bytes = 4U << 20U;  // a reader sends little
+constexpr std::uint32_t kSharedMemory_bytes = 1U << 20U;  // a reader sends little
 constexpr double kMountMost_m = 10.0, kHorizonMost_ms = 200.0;
 
 DetectionRow read_detections(yaml::StrictMap& map, SensorType type) {

@@ -55,6 +55,9 @@ TEST(SensorFile, ThoseThatAreShippedAreRead) {
                                   [](const SensorRow& row) { return row.lidar.has_value(); }),
             3);
   EXPECT_TRUE(std::filesystem::exists(lidars->network)) << lidars->network;
+  EXPECT_GT(lidars->domain.shared_memory_bytes, 0U);
+  EXPECT_EQ(detections->domain.shared_memory_bytes, 0U);
+  EXPECT_FALSE(lidars->waits_for_all);
 }
 
 TEST(SensorFile, IsOnLoopbackWhereItDoesNotSayOtherwise) {

@@ -84,6 +84,43 @@ TEST(LidarWorker, MakesAFrameOfTheSweepsOfItsSensors) {
   EXPECT_EQ(worker->counts().sweeps, 2U);
 }
 
+// Taken 300 ms after its stamp, whenever it was made.
+TEST(LidarWorker, SaysHowOldTheOldestPointIsWhenTheLoopTakesAFrame) {
+  Lidar lidar;
+  const auto worker = LidarWorker::start({lidar.source()}, traffic::oval(), std::nullopt);
+  worker->report(ego_at_rest());
+  const Instant stamp = transport::monotonic_now() - milliseconds(60);
+  lidar.send(car_cloud(30.0, 2.0));
+  ASSERT_TRUE(comes([&] { return worker->front() != nullptr; }));
+  worker->pop(stamp + milliseconds(300));
+  const auto row = yaml::load_text(worker->json(transport::monotonic_now()), "row.json");
+  ASSERT_TRUE(row);
+  const auto age_ms = yaml::read(*row, [](yaml::StrictMap& map) {
+    const double p50_ms = map.number("to_loop_p50_ms", 0.0, 1e6);
+    for (const std::string& name : map.keys())
+      if (name != "name" && name != "to_loop_p50_ms") map.number(name, 0.0, 1e12);
+    map.text("name");
+    return p50_ms;
+  });
+  ASSERT_TRUE(age_ms) << to_string(age_ms.error());
+  EXPECT_NEAR(*age_ms, 300.0, 20.0);
+}
+
+TEST(LidarWorker, InThePublishedWayADeadSensorStopsAll) {
+  std::array<Lidar, 2> lidars;
+  const auto worker = LidarWorker::start({lidars[0].source(), lidars[1].source()}, traffic::oval(),
+                                         std::nullopt, Gathering::kAll);
+  worker->report(ego_at_rest());
+  const perception::PointCloud points = car_cloud(30.0, 2.0);
+  for (std::uint64_t sweep = 1; sweep <= 3; ++sweep) {
+    lidars[1].send(points);
+    ASSERT_TRUE(comes([&] { return worker->counts().sweeps == sweep; }));
+  }
+  EXPECT_EQ(worker->counts().frames, 0U);
+  lidars[0].send(points), lidars[1].send(points);
+  EXPECT_TRUE(comes([&] { return worker->counts().frames == 1; }));
+}
+
 TEST(LidarWorker, ADeadSensorDelaysNoOther) {
   std::array<Lidar, 3> lidars;
   const auto worker = LidarWorker::start(
