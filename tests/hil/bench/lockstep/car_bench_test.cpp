@@ -92,6 +92,33 @@ INSTANTIATE_TEST_SUITE_P(CarBench, ByRays,
                                            scenario::LidarKind::kRaysClusters),
                          [](const auto& kind) { return name_of(kind.param); });
 
+// Cars that ours knows of when the other one stands ahead and these sensors are out.
+std::size_t seen_without(scenario::LidarKind lidars, const std::vector<std::string>& kinds) {
+  scenario::Scenario own = part_of_lap(2'250.0, 7), other = part_of_lap(2'275.0, 8);
+  own.duration = other.duration = seconds(2);
+  other.start.n_m = 4.0;
+  own.lidars = lidars;
+  for (const std::string& kind : kinds)
+    for (std::uint32_t unit = 0; unit < (kind == "camera_outage" ? 5U : 3U); ++unit)
+      own.faults.push_back({.kind = kind, .lasts = seconds(10), .unit = unit, .place = kind});
+  std::size_t most = 0;
+  std::array stacks{stack_of(own), stack_of(other, "other")};
+  stacks[0].options.watch = [&](const pipeline::Outputs& out, const Rig&, Instant) {
+    most = std::max(most, out.opponents.cars.size());
+  };
+  EXPECT_EQ(had(run_lockstep(stacks)).size(), 2u);
+  return most;
+}
+
+TEST(CarBench, ASensorThatIsOutSeesNoOtherCar) {
+  for (const auto lidars : {scenario::LidarKind::kModel, scenario::LidarKind::kRaysClusters}) {
+    EXPECT_EQ(seen_without(lidars, {"lidar_outage", "camera_outage", "radar_outage"}), 0u)
+        << name_of(lidars);
+    EXPECT_GE(seen_without(lidars, {"camera_outage", "radar_outage"}), 1u) << name_of(lidars);
+    EXPECT_GE(seen_without(lidars, {"lidar_outage", "radar_outage"}), 1u) << name_of(lidars);
+  }
+}
+
 // A car that starts in another one touches it at once, and nobody moved.
 TEST(CarBench, AContactEndsTheRunAndIsAttributed) {
   const scenario::Scenario own = part_of_lap(2'250.0, 7), other = part_of_lap(2'252.0, 8);
