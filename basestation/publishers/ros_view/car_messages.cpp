@@ -77,14 +77,8 @@ void set_covariance(ros::NavSatFix& fix, double sigma_m, double height_sigma_m) 
 
 }  // namespace
 
-ros::Time ros_time(UtcTime at) {
-  const std::int64_t sec = at.ns / kNanosecondsPerSecond;
-  return {static_cast<std::int32_t>(sec),
-          static_cast<std::uint32_t>(at.ns - sec * kNanosecondsPerSecond)};
-}
-
 ros::Header CarMessages::header(Instant at, const std::string& frame) const {
-  return {.stamp = ros_time({(at + utc_minus_base_).ns}), .frame_id = frame};
+  return {.stamp = ros::time_of({(at + utc_minus_base_).ns}), .frame_id = frame};
 }
 
 std::optional<ros::Odometry> CarMessages::odometry(const Snapshot& state) const {

@@ -30,8 +30,6 @@ struct Frames {
   std::string map = "map", base = "base_link";
 };
 
-ros::Time ros_time(UtcTime at);
-
 class CarMessages {
  public:
   CarMessages(Frames frames, Duration utc_minus_base)

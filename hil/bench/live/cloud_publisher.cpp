@@ -144,14 +144,13 @@ void CloudPublisher::serve() {
 void CloudPublisher::sweep(const Moment& moment) {
   const UtcTime utc = transport::utc_now();
   const Duration age = transport::monotonic_now() - moment.begun;
-  const std::int64_t stamp_ns = utc.ns - age.ns;
+  const ros::Time stamp = ros::time_of(UtcTime{utc.ns - age.ns});
   for (std::size_t unit = 0; unit < writers_.size(); ++unit) {
     if (unit < moment.fault.outage.size() && moment.fault.outage[unit]) continue;
     ros::PointCloud2 cloud =
         cloud_of(swept_.sweep(unit, moment.ours, moment.s_m, moment.others, noise_));
     cloud.header.frame_id = "lidar_" + std::to_string(unit);
-    cloud.header.stamp = {static_cast<std::int32_t>(stamp_ns / kNanosecondsPerSecond),
-                          static_cast<std::uint32_t>(stamp_ns % kNanosecondsPerSecond)};
+    cloud.header.stamp = stamp;
     Cloud& made = waiting_.emplace_back();
     made.unit = unit, made.due = moment.begun + kPeriod + moment.fault.added_latency;
     ros::encode(cloud, made.bytes);

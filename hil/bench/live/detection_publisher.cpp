@@ -42,8 +42,7 @@ dds::TopicType topic_of(const io::SensorRow& row) {
 
 template <class M>
 void encode(M message, UtcTime at, std::vector<std::uint8_t>& bytes) {
-  message.header.stamp = {.sec = static_cast<std::int32_t>(at.ns / kNanosecondsPerSecond),
-                          .nanosec = static_cast<std::uint32_t>(at.ns % kNanosecondsPerSecond)};
+  message.header.stamp = ros::time_of(at);
   ros::encode(message, bytes);
 }
 

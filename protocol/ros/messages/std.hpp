@@ -4,6 +4,7 @@
 #pragma once
 
 #include "protocol/ros/message.hpp"
+#include "protocol/vocabulary/time.hpp"
 
 namespace pitwall::ros {
 
@@ -16,6 +17,12 @@ struct Time {
     return std::tuple{field("sec", &Time::sec), field("nanosec", &Time::nanosec)};
   }
 };
+
+inline Time time_of(UtcTime at) {
+  const std::int64_t sec = at.ns / kNanosecondsPerSecond;
+  return {static_cast<std::int32_t>(sec),
+          static_cast<std::uint32_t>(at.ns - sec * kNanosecondsPerSecond)};
+}
 
 struct Duration {
   std::int32_t sec = 0;

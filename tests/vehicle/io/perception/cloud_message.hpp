@@ -12,8 +12,7 @@ namespace pitwall::io {
 
 inline ros::PointCloud2 cloud_message(const perception::PointCloud& points, UtcTime stamp) {
   ros::PointCloud2 message;
-  message.header.stamp = {static_cast<std::int32_t>(stamp.ns / kNanosecondsPerSecond),
-                          static_cast<std::uint32_t>(stamp.ns % kNanosecondsPerSecond)};
+  message.header.stamp = ros::time_of(stamp);
   message.header.frame_id = "lidar";
   message.fields = {
       {"x", 0, 7, 1}, {"y", 4, 7, 1}, {"z", 8, 7, 1}, {"intensity", 12, 7, 1}, {"time", 16, 7, 1}};
