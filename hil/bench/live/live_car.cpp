@@ -21,36 +21,34 @@ namespace {
 constexpr Duration kStartLimit = seconds(60);  // a guest is slow
 constexpr std::size_t kReadBatch = 256;
 
-Result<std::optional<DetectionPublisher>, Problem> open_detections(
-    const LivePlan& plan, const scenario::Scenario& run,
-    std::span<const faults::BenchFault> faults) {
-  using Optional = std::optional<DetectionPublisher>;
-  if (plan.sensors.empty() && !faults.empty())
-    return Unexpected{Problem{"faults",
-                              "of sensors that see other cars: a live run has them with "
-                              "--sensors FILE"}};
-  if (plan.sensors.empty()) return Optional{};
+// None where the run names no file.
+Result<std::optional<io::SensorFile>, Problem> sensor_file_of(const LivePlan& plan) {
+  if (plan.sensors.empty()) return std::optional<io::SensorFile>{};
   auto file = io::read_sensor_file(plan.sensors);
   if (!file) return Unexpected{file.error()};
   file->domain.domain = plan.sensors_domain;
+  return std::optional{*std::move(file)};
+}
+
+Result<std::optional<DetectionPublisher>, Problem> open_detections(
+    const std::optional<io::SensorFile>& file, const scenario::Scenario& run,
+    std::span<const faults::BenchFault> faults) {
+  if (!file && !faults.empty())
+    return Unexpected{Problem{"faults",
+                              "of sensors that see other cars: a live run has them with "
+                              "--sensors FILE"}};
+  if (!file) return std::optional<DetectionPublisher>{};
   auto opened = DetectionPublisher::open(*file, plant::detection_sensors_of(run), faults, run.seed);
   if (!opened) return Unexpected{opened.error()};
-  return Optional{*std::move(opened)};
+  return std::optional{*std::move(opened)};
 }
 
 Result<std::unique_ptr<CloudPublisher>, Problem> open_clouds(
-    const LivePlan& plan, const scenario::Scenario& run, const pipeline::Setup& setup,
-    std::span<const faults::BenchFault> faults) {
+    const std::optional<io::SensorFile>& file, const scenario::Scenario& run,
+    const pipeline::Setup& setup, std::span<const faults::BenchFault> faults) {
   if (run.lidars != scenario::LidarKind::kRays) return std::unique_ptr<CloudPublisher>{};
-  io::SensorFile file;
-  if (!plan.sensors.empty()) {
-    auto read = io::read_sensor_file(plan.sensors);
-    if (!read) return Unexpected{read.error()};
-    file = *std::move(read);
-  }
-  file.domain.domain = plan.sensors_domain;
   auto clouds = CloudPublisher::open(
-      file, setup.track,
+      file.value_or(io::SensorFile{}), setup.track,
       [&setup](double s_m) { return line_offset_m(setup, {.s_m = s_m, .n_m = 0.0}); }, run.seed,
       faults);
   if (clouds && !*clouds)
@@ -101,9 +99,11 @@ Result<std::unique_ptr<LiveCar>, Problem> LiveCar::open(const scenario::Scenario
   auto receivers = ReceiverPort::open(plan.receiver_ports(),
                                       ReceiverEncoder{setup.params.receivers, faults->bytes});
   if (!receivers) return Unexpected{receivers.error()};
-  auto detections = open_detections(plan, scenario, faults->perception);
+  const auto sensors = sensor_file_of(plan);
+  if (!sensors) return Unexpected{sensors.error()};
+  auto detections = open_detections(*sensors, scenario, faults->perception);
   if (!detections) return Unexpected{detections.error()};
-  auto clouds = open_clouds(plan, scenario, setup, faults->perception);
+  auto clouds = open_clouds(*sensors, scenario, setup, faults->perception);
   if (!clouds) return Unexpected{clouds.error()};
   return std::unique_ptr<LiveCar>{
       new LiveCar(scenario, setup, plan, has_others,
