@@ -237,7 +237,12 @@ void find_cars(std::span<const Object> objects, const Surroundings& surroundings
     places.push_back(object.clustered);
     weights.push_back(object.share_of_full);
   }
-  auto clusters = clusters_of(places, {params.cell_m, 1, params.full_least}, weights);
+  auto clusters = clusters_of(places,
+                              {.reach_m = params.reach_m,
+                               .points_least = 1,
+                               .cell_m = params.cell_m,
+                               .weight_least = params.full_least},
+                              weights);
   if (surroundings.road_yaw_rad) join_parts(clusters, objects, params);
   for (const Indices& cluster : clusters)
     if (cluster.size() >= params.points_least)

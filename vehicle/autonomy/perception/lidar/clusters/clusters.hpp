@@ -1,12 +1,13 @@
-// Groups of points that belong together, seen from above: those whose cells touch, as DBSCAN with
-// cells for neighbourhoods finds them.
-//   in     points, the side of a cell, how much is in a cell of a core
+// Groups of points that belong together, seen from above: Euclidean clusters of the Point Cloud
+// Library, after what is too thin to be a surface is left out.
+//   in     points, how near to each other they belong together, how much is in a cell of a surface
 //   out    indices of the points, cluster after cluster; clusters by their first point, points in
 //          their order: the same input gives the same output
-//   law    points in cells that touch, corners included, are in one cluster; two that are more than
-//          2.83 cells apart, with nothing between them, are not
+//   law    points no more than `reach_m` apart are in one cluster, and so are those that such steps
+//          lead to
 //   cost   O(points log points): 2 ms for 10,000
-//   source M. Ester et al.: A density-based algorithm for discovering clusters, KDD 1996
+//   source R. B. Rusu: Semantic 3D object maps for everyday manipulation in human living
+//          environments, dissertation, TU Munich 2009, algorithm 6.2; PCL 1.13
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -22,8 +23,9 @@ namespace pitwall::perception {
 using Indices = std::vector<std::uint32_t>;
 
 struct ClusterRule {
-  double cell_m = 0.4;
+  double reach_m = 0.6;
   std::size_t points_least = 5;  // of a cluster
+  double cell_m = 0.4;
   double weight_least = 0.0;  // of a cell: a thinner one is left out, its points are in no cluster
 };
 

@@ -17,13 +17,8 @@ namespace {
 
 using Points = std::vector<PlanePoint>;
 
-bool touch(const PlanePoint& a, const PlanePoint& b, double cell_m) {
-  const auto cell = [&](double v) { return std::floor(v / cell_m); };
-  return std::abs(cell(a.x_m) - cell(b.x_m)) <= 1.0 && std::abs(cell(a.y_m) - cell(b.y_m)) <= 1.0;
-}
-
-// By its definition: all that can be reached from a point, cell by cell.
-std::set<Indices> by_definition(const Points& points, double cell_m, std::size_t least) {
+// By its definition: all that can be reached from a point, step by step.
+std::set<Indices> by_definition(const Points& points, double reach_m, std::size_t least) {
   std::set<Indices> found;
   std::vector<bool> is_taken(points.size(), false);
   for (std::size_t start = 0; start < points.size(); ++start) {
@@ -36,7 +31,9 @@ std::set<Indices> by_definition(const Points& points, double cell_m, std::size_t
       open.pop_back();
       cluster.push_back(static_cast<std::uint32_t>(i));
       for (std::size_t j = 0; j < points.size(); ++j) {
-        if (is_taken[j] || !touch(points[i], points[j], cell_m)) continue;
+        const double apart_m =
+            std::hypot(points[i].x_m - points[j].x_m, points[i].y_m - points[j].y_m);
+        if (is_taken[j] || apart_m > reach_m) continue;
         is_taken[j] = true;
         open.push_back(j);
       }
@@ -53,27 +50,32 @@ TEST(Clusters, AreThoseOfTheDefinition) {
   for (const std::size_t count : {0U, 1U, 10U, 100U, 400U, 900U}) {
     Points points;
     for (std::size_t i = 0; i < count; ++i) points.push_back({anywhere(), anywhere()});
-    for (const double cell_m : {0.2, 0.5, 1.0}) {
-      const auto found = clusters_of(points, {cell_m, 3});
-      EXPECT_EQ(std::set<Indices>(found.begin(), found.end()), by_definition(points, cell_m, 3))
-          << count << " points, cells of " << cell_m;
+    for (const double reach_m : {0.2, 0.5, 1.0}) {
+      const auto found = clusters_of(points, {.reach_m = reach_m, .points_least = 3});
+      EXPECT_EQ(std::set<Indices>(found.begin(), found.end()), by_definition(points, reach_m, 3))
+          << count << " points, " << reach_m << " m";
     }
   }
 }
 
+ClusterRule rule(std::size_t points_least, double weight_least = 0.0) {
+  return {
+      .reach_m = 0.6, .points_least = points_least, .cell_m = 0.5, .weight_least = weight_least};
+}
+
 TEST(Clusters, ComeByTheirFirstPoint) {
   const Points points{{9.0, 9.0}, {1.0, 1.0}, {9.1, 9.1}, {1.1, 1.1}, {5.0, 5.0}};
-  EXPECT_EQ(clusters_of(points, {0.5, 1}), (std::vector<Indices>{{0, 2}, {1, 3}, {4}}));
-  EXPECT_EQ(clusters_of(points, {0.5, 2}), (std::vector<Indices>{{0, 2}, {1, 3}}));
+  EXPECT_EQ(clusters_of(points, rule(1)), (std::vector<Indices>{{0, 2}, {1, 3}, {4}}));
+  EXPECT_EQ(clusters_of(points, rule(2)), (std::vector<Indices>{{0, 2}, {1, 3}}));
 }
 
 TEST(Clusters, ThinCellsAreLeftOutAndJoinNothing) {
   // Two full cells with a thin one between them.
   const Points points{{0.1, 0.1}, {0.2, 0.2}, {0.7, 0.1}, {1.1, 0.1}, {1.2, 0.2}};
-  EXPECT_EQ(clusters_of(points, {0.5, 1}).size(), 1U);
-  EXPECT_EQ(clusters_of(points, {0.5, 1, 2.0}), (std::vector<Indices>{{0, 1}, {3, 4}}));
+  EXPECT_EQ(clusters_of(points, rule(1)).size(), 1U);
+  EXPECT_EQ(clusters_of(points, rule(1, 2.0)), (std::vector<Indices>{{0, 1}, {3, 4}}));
   const std::vector<float> weights{1.0F, 1.0F, 2.0F, 0.9F, 1.0F};
-  EXPECT_EQ(clusters_of(points, {0.5, 1, 2.0}, weights), (std::vector<Indices>{{0, 1, 2}}));
+  EXPECT_EQ(clusters_of(points, rule(1, 2.0), weights), (std::vector<Indices>{{0, 1, 2}}));
 }
 
 }  // namespace
