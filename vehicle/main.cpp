@@ -211,14 +211,22 @@ class Drive {
   }
 
   void show_sensors(pipeline::IoCounters& counters, Instant now) const {
-    const auto stream = [&](const io::ArrivalFigures& figures) {
-      return pipeline::IoCounters::Stream{figures.rate_hz, figures.gap_ms, figures.latency_ms};
+    using Sensor = pipeline::IoCounters::Sensor;
+    const auto shown = [](const std::optional<io::SensorFigures>& figures) {
+      if (!figures) return Sensor{};
+      const io::ArrivalFigures& a = figures->arrivals;
+      return Sensor{a.rate_hz, a.gap_ms, a.latency_ms, static_cast<double>(figures->drops)};
     };
-    const io::SensorIngress& sensors = *parts_.sensors;
-    counters.lidar =
-        stream(parts_.lidars ? parts_.lidars->figures(now) : sensors.figures("lidar", now));
-    counters.camera = stream(sensors.figures("camera", now));
-    counters.radar = stream(sensors.figures("radar", now));
+    const auto sensor = [&](io::SensorType type, std::size_t unit) {
+      return shown(parts_.sensors->figures(type, unit, now));
+    };
+    for (std::size_t i = 0; i < counters.lidars.size(); ++i)
+      counters.lidars[i] = sensor(io::SensorType::kPointCloud2, i);
+    for (std::size_t i = 0; i < counters.cameras.size(); ++i)
+      counters.cameras[i] = sensor(io::SensorType::kDetection2DArray, i);
+    counters.lidar_frames = parts_.lidars ? shown(parts_.lidars->frame_figures(now))
+                                          : sensor(io::SensorType::kDetection3DArray, 0);
+    counters.radar = sensor(io::SensorType::kRadarScan, 0);
   }
 
   void tell_schema(Instant now) {

@@ -155,15 +155,21 @@ void put_sensors(const TelemetryInputs& in, Snapshot& snapshot) {
     snapshot.values[row.rate + 2] = figures.latency.milliseconds();
     snapshot.at(Group::kSensors) = in.now;
   }
-  const auto put = [&](FieldIndex rate, const IoCounters::Stream& stream) {
-    if (std::isnan(stream.rate_hz)) return;
-    snapshot.values[rate] = stream.rate_hz;
-    snapshot.values[rate + 1] = stream.gap_ms;
-    snapshot.values[rate + 2] = stream.latency_ms;
+  const auto put = [&](FieldIndex rate, const IoCounters::Sensor& sensor) {
+    if (std::isnan(sensor.rate_hz)) return;
+    snapshot.values[rate] = sensor.rate_hz;
+    snapshot.values[rate + 1] = sensor.gap_ms;
+    snapshot.values[rate + 2] = sensor.latency_ms;
+    snapshot.values[rate + 3] = sensor.drops;
     snapshot.at(Group::kSensors) = in.now;
   };
-  put(field("sensors.lidar_rate"), in.io.lidar);
-  put(field("sensors.camera_rate"), in.io.camera);
+  static_assert(field("sensors.lidar_drops") == field("sensors.lidar_rate") + 3);
+  put(field("sensors.lidar_rate"), in.io.lidar_frames);
+  put(field("sensors.lidar0_rate"), in.io.lidars[0]);
+  put(field("sensors.lidar1_rate"), in.io.lidars[1]);
+  put(field("sensors.lidar2_rate"), in.io.lidars[2]);
+  put(field("sensors.camera0_rate"), in.io.cameras[0]);
+  put(field("sensors.camera1_rate"), in.io.cameras[1]);
   put(field("sensors.radar_rate"), in.io.radar);
 }
 

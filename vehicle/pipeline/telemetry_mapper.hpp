@@ -38,11 +38,14 @@ struct IoCounters {
   };
   std::array<Path, 2> paths{};
   std::array<world::ReceiverTraffic, world::kGnssUnits> receivers{};
-  // Arrival statistics of sensor samples; unset before the first.
-  struct Stream {
+  // Of a sensor that sees other cars; unset: the car has none. Its rate is 0 until it sends.
+  struct Sensor {
     double rate_hz = kUnset, gap_ms = kUnset, latency_ms = kUnset;
+    double drops = kUnset;  // messages that were not used
   };
-  Stream lidar{}, camera{}, radar{};
+  Sensor lidar_frames{}, radar{};
+  std::array<Sensor, 3> lidars{};  // their clouds
+  std::array<Sensor, 2> cameras{};
   // Last values from the base, as the radio endpoint stores them; unset before the first.
   struct Uplink {
     bool known = false;                                   // there is a radio

@@ -11,6 +11,7 @@
 
 #include <array>
 #include <cstddef>
+#include <string>
 #include <string_view>
 
 #include "basestation/state/vehicle_state.hpp"
@@ -24,21 +25,28 @@ struct SensorRow {
   telemetry::FieldIndex rate, gap, latency;
   double nominal_hz, latency_allowed_ms;
 };
+consteval SensorRow sensor_row(std::string_view name, double nominal_hz,
+                               double latency_allowed_ms) {
+  const std::string path = "sensors." + std::string{name};
+  return {name,
+          telemetry::field(path + "_rate"),
+          telemetry::field(path + "_gap"),
+          telemetry::field(path + "_latency"),
+          nominal_hz,
+          latency_allowed_ms};
+}
 inline constexpr auto kSensorTable = std::to_array<SensorRow>({
-    {"gnss0", telemetry::field("sensors.gnss0_rate"), telemetry::field("sensors.gnss0_gap"),
-     telemetry::field("sensors.gnss0_latency"), 20.0, 100.0},
-    {"gnss1", telemetry::field("sensors.gnss1_rate"), telemetry::field("sensors.gnss1_gap"),
-     telemetry::field("sensors.gnss1_latency"), 20.0, 100.0},
-    {"imu0", telemetry::field("sensors.imu0_rate"), telemetry::field("sensors.imu0_gap"),
-     telemetry::field("sensors.imu0_latency"), 125.0, 30.0},
-    {"imu1", telemetry::field("sensors.imu1_rate"), telemetry::field("sensors.imu1_gap"),
-     telemetry::field("sensors.imu1_latency"), 125.0, 30.0},
-    {"lidar", telemetry::field("sensors.lidar_rate"), telemetry::field("sensors.lidar_gap"),
-     telemetry::field("sensors.lidar_latency"), 20.0, 105.0},
-    {"camera", telemetry::field("sensors.camera_rate"), telemetry::field("sensors.camera_gap"),
-     telemetry::field("sensors.camera_latency"), 20.0, 150.0},
-    {"radar", telemetry::field("sensors.radar_rate"), telemetry::field("sensors.radar_gap"),
-     telemetry::field("sensors.radar_latency"), 15.0, 150.0},
+    sensor_row("gnss0", 20.0, 100.0),
+    sensor_row("gnss1", 20.0, 100.0),
+    sensor_row("imu0", 125.0, 30.0),
+    sensor_row("imu1", 125.0, 30.0),
+    sensor_row("lidar", 20.0, 105.0),
+    sensor_row("lidar0", 20.0, 105.0),
+    sensor_row("lidar1", 20.0, 105.0),
+    sensor_row("lidar2", 20.0, 105.0),
+    sensor_row("camera0", 20.0, 150.0),
+    sensor_row("camera1", 20.0, 150.0),
+    sensor_row("radar", 15.0, 150.0),
 });
 inline constexpr std::size_t kSensors = kSensorTable.size();
 

@@ -30,7 +30,8 @@ pipeline::IoCounters other_measurements() {
   traffic.bytes = traffic.logs = traffic.bad_checksum = traffic.bad_frame = traffic.resyncs = 1;
   traffic.refused = traffic.lost = 1;
   io.receivers.fill(traffic);
-  io.lidar = io.camera = io.radar = {.rate_hz = 1.0, .gap_ms = 1.0, .latency_ms = 1.0};
+  io.lidar_frames = io.radar = {.rate_hz = 1.0, .gap_ms = 1.0, .latency_ms = 1.0, .drops = 1.0};
+  io.lidars.fill(io.radar), io.cameras.fill(io.radar);
   io.uplink = {.known = true,
                .stop_latch = 1.0,
                .stop_challenge = 1.0,

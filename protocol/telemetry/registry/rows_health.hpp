@@ -20,6 +20,9 @@ constexpr FieldRow gap(std::string_view name) {  // maximum of the last second
 constexpr FieldRow latency(std::string_view name) {  // from measurement to reception; likewise
   return {Group::kSensors, name, "ms", 0, 508, 2};
 }
+constexpr FieldRow drops(std::string_view name) {  // messages since the start that were not used
+  return count(Group::kSensors, name, 65'533);
+}
 
 constexpr std::size_t kReceiverFields = 15;
 constexpr std::array<FieldRow, kReceiverFields> receiver(Group group) {
@@ -71,14 +74,48 @@ inline constexpr auto kStreamRows = std::to_array<FieldRow>({
     stream("radio"),
 });
 
+// lidar: frames of detections, however they are made; lidar0 to lidar2: clouds of points.
 inline constexpr auto kSensorRows = std::to_array<FieldRow>({
-    rate("gnss0_rate"),  gap("gnss0_gap"),  latency("gnss0_latency"),
-    rate("gnss1_rate"),  gap("gnss1_gap"),  latency("gnss1_latency"),
-    rate("imu0_rate"),   gap("imu0_gap"),   latency("imu0_latency"),
-    rate("imu1_rate"),   gap("imu1_gap"),   latency("imu1_latency"),
-    rate("lidar_rate"),  gap("lidar_gap"),  latency("lidar_latency"),
-    rate("camera_rate"), gap("camera_gap"), latency("camera_latency"),
-    rate("radar_rate"),  gap("radar_gap"),  latency("radar_latency"),
+    rate("gnss0_rate"),
+    gap("gnss0_gap"),
+    latency("gnss0_latency"),
+    rate("gnss1_rate"),
+    gap("gnss1_gap"),
+    latency("gnss1_latency"),
+    rate("imu0_rate"),
+    gap("imu0_gap"),
+    latency("imu0_latency"),
+    rate("imu1_rate"),
+    gap("imu1_gap"),
+    latency("imu1_latency"),
+    rate("lidar_rate"),
+    gap("lidar_gap"),
+    latency("lidar_latency"),
+    drops("lidar_drops"),
+    rate("lidar0_rate"),
+    gap("lidar0_gap"),
+    latency("lidar0_latency"),
+    drops("lidar0_drops"),
+    rate("lidar1_rate"),
+    gap("lidar1_gap"),
+    latency("lidar1_latency"),
+    drops("lidar1_drops"),
+    rate("lidar2_rate"),
+    gap("lidar2_gap"),
+    latency("lidar2_latency"),
+    drops("lidar2_drops"),
+    rate("camera0_rate"),
+    gap("camera0_gap"),
+    latency("camera0_latency"),
+    drops("camera0_drops"),
+    rate("camera1_rate"),
+    gap("camera1_gap"),
+    latency("camera1_latency"),
+    drops("camera1_drops"),
+    rate("radar_rate"),
+    gap("radar_gap"),
+    latency("radar_latency"),
+    drops("radar_drops"),
 });
 
 inline constexpr auto kHealthRows = [] {

@@ -141,13 +141,17 @@ function body(t) {
     imu0: 125,
     imu1: 125,
     lidar: 20,
-    camera: 10,
+    lidar0: 20,
+    lidar1: 20,
+    lidar2: 20,
+    camera0: 10,
     radar: 14,
   };
   for (const [name, rate] of Object.entries(nominal)) {
     sensors[`sensors.${name}_rate`] = rate;
     sensors[`sensors.${name}_gap`] = Math.round(1100 / rate);
     sensors[`sensors.${name}_latency`] = name === "lidar" ? 92 : 8;
+    if (!/^(gnss|imu)/.test(name)) sensors[`sensors.${name}_drops`] = name === "lidar1" ? 12 : 0;
   }
   return {
     ...sensors,

@@ -55,6 +55,31 @@ test("a field that was never heard is an en dash, a zero is a zero", async () =>
   );
 });
 
+test("a sensor that sees other cars has a row when the car has it", async () => {
+  const { page } = await stage.open();
+  await until(
+    page,
+    "the LiDARs",
+    () =>
+      document.querySelector('[data-path="sensors.lidar1_drops"] .digits')?.textContent === "12",
+  );
+  const rows = await page.evaluate(() =>
+    [...document.querySelectorAll(".panel-sensors tbody tr")]
+      .filter((row) => row.getClientRects().length > 0)
+      .map((row) =>
+        [...row.children].map((cell) => (cell.querySelector(".digits") ?? cell).textContent),
+      ),
+  );
+  assert.deepEqual(
+    rows.map(([name]) => name),
+    [
+      ...["GNSS 0", "GNSS 1", "IMU 0", "IMU 1"],
+      ...["LiDAR", "LiDAR 0", "LiDAR 1", "LiDAR 2", "camera 0", "radar"],
+    ],
+  );
+  assert.deepEqual(rows[6], ["LiDAR 1", "20.0", "55", "8", "12"]);
+});
+
 test("the car falls silent: every value stale, none coloured, each keeps its digits", async () => {
   for (const path of ["derived.slip", "tyres.temperature_front_left", "sensors.lidar_rate"]) {
     stage.double.set(path, 0.5, path.startsWith("derived") ? kBad : kWarning);

@@ -91,13 +91,21 @@ TEST(SensorPeers, TakesTheNewestOfEachAndMeasuresHowItComes) {
       << "taken already";
   EXPECT_EQ((*ingress)->take<ros::Image>(kLidar), nullptr) << "another type";
   EXPECT_GE((*ingress)->counts(kLidar).overwritten, 4U);
-  const ArrivalFigures figures = (*ingress)->figures("lidar", transport::monotonic_now());
-  EXPECT_GT(figures.rate_hz, 0.0);
-  EXPECT_GE(figures.latency_ms, 0.0);
+  const auto figures_of = [&](SensorType type, std::size_t unit) {
+    return (*ingress)->figures(type, unit, transport::monotonic_now());
+  };
+  const auto figures = figures_of(SensorType::kPointCloud2, 0);
+  ASSERT_TRUE(figures);
+  EXPECT_GT(figures->arrivals.rate_hz, 0.0);
+  EXPECT_GE(figures->arrivals.latency_ms, 0.0);
+  EXPECT_EQ(figures->drops, 0U) << "nobody looks in its points";
+  EXPECT_FALSE(figures_of(SensorType::kPointCloud2, 1));
+  EXPECT_FALSE(figures_of(SensorType::kRadarScan, 0));
   // The camera is silent, and that is nobody else's matter.
   EXPECT_TRUE(std::isnan((*ingress)->figures(kCamera, transport::monotonic_now()).rate_hz));
-  EXPECT_TRUE(comes(
-      [&] { return (*ingress)->figures("lidar", transport::monotonic_now()).rate_hz == 0.0; }));
+  EXPECT_EQ(figures_of(SensorType::kImage, 0)->arrivals.rate_hz, 0.0) << "but the car has it";
+  EXPECT_TRUE(
+      comes([&] { return figures_of(SensorType::kPointCloud2, 0)->arrivals.rate_hz == 0.0; }));
 }
 
 TEST(SensorPeers, WhatIsNoMessageOfItsTypeIsRefusedAndCounted) {

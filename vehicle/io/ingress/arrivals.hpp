@@ -26,6 +26,12 @@ struct ArrivalFigures {
   double rate_hz = kUnset, gap_ms = kUnset, latency_ms = kUnset;
 };
 
+// Of a sensor: its rate is 0 before the first message.
+struct SensorFigures {
+  ArrivalFigures arrivals;
+  std::uint64_t drops = 0;  // messages that were not used
+};
+
 // Rounded to a thousandth; left out where it is not known.
 void add_figure(json::Object& out, const char* name, double value);
 void add_figures(json::Object& out, const ArrivalFigures& figures);

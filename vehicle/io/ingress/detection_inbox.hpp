@@ -30,6 +30,10 @@ struct DetectionCounts {
   std::uint64_t no_room = 0;         // the loop did not take the frames before
   std::uint64_t bad_detections = 0;  // a number that is none or cannot be: left out of its frame
 
+  // Messages that were not used, all of them or a part.
+  std::uint64_t drops() const {
+    return refused + in_future + too_old + foreign_frames + too_many + no_room;
+  }
   bool operator==(const DetectionCounts&) const = default;
 };
 

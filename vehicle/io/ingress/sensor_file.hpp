@@ -25,8 +25,9 @@
 // a camera or a radar facing_deg (0; counter-clockwise from ahead). detection_codec.hpp says what
 // the numbers mean.
 //   invariants
-//          names and topics are unique, and so are the units of one type of detections; telemetry
-//          reports `lidar`, `camera` and `radar` to the pit wall
+//          names and topics are unique, and so are the units of one type of detections. Telemetry
+//          reports the first three rows of points, units 0 and 1 of the cameras' detections, unit 0
+//          of the radar's, and the frames of the LiDARs
 //   errors Problem with file, line and column
 // SPDX-License-Identifier: Apache-2.0
 #pragma once

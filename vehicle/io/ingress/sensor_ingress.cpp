@@ -129,6 +129,22 @@ struct SensorIngress::Sensor {
     CHECK(false);
   }
 
+  std::uint64_t overwritten() const {
+    return std::visit(
+        [](const auto& place) -> std::uint64_t {
+          if constexpr (requires { place.overwritten(); }) return place.overwritten();
+          return 0;
+        },
+        places);
+  }
+
+  std::uint64_t drops() const {
+    const auto* const inbox = std::get_if<DetectionInbox>(&places);
+    if (inbox != nullptr) return inbox->counts().drops();
+    // Nobody takes points that have no mount: the next one is not their loss.
+    return refused + bad_stamps + (row.lidar ? overwritten() : 0);
+  }
+
   SensorRow row;
   Arrivals arrivals;
   std::variant<std::monostate, Mailbox<ros::PointCloud2>, Mailbox<ros::Image>,
@@ -163,23 +179,27 @@ ArrivalFigures SensorIngress::figures(std::size_t i, Instant now) const {
   return sensors_[i]->arrivals.newest(now);
 }
 
-ArrivalFigures SensorIngress::figures(const std::string& name, Instant now) const {
-  for (const auto& sensor : sensors_)
-    if (sensor->row.name == name) return sensor->arrivals.newest(now);
-  return {};
+std::optional<SensorFigures> SensorIngress::figures(SensorType type, std::size_t unit,
+                                                    Instant now) const {
+  std::size_t before = 0;
+  for (const auto& sensor : sensors_) {
+    if (sensor->row.type != type) continue;
+    const std::size_t number = detects_cars(type) ? sensor->row.detections.unit : before++;
+    if (number != unit) continue;
+    SensorFigures figures{sensor->arrivals.newest(now), sensor->drops()};
+    if (std::isnan(figures.arrivals.rate_hz)) figures.arrivals.rate_hz = 0.0;
+    return figures;
+  }
+  return std::nullopt;
 }
 
 SensorCounts SensorIngress::counts(std::size_t i) const {
   const Sensor& sensor = *sensors_[i];
   SensorCounts counts{.samples = sensor.arrivals.count(),
                       .foreign_types = sensor.domain->figures().foreign_types,
+                      .overwritten = sensor.overwritten(),
                       .refused = sensor.refused,
                       .bad_stamps = sensor.bad_stamps};
-  std::visit(
-      [&counts](const auto& place) {
-        if constexpr (requires { place.overwritten(); }) counts.overwritten = place.overwritten();
-      },
-      sensor.places);
   if (const auto* const inbox = std::get_if<DetectionInbox>(&sensor.places))
     counts.detections = inbox->counts();
   return counts;

@@ -15,6 +15,7 @@
 
 #include <array>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <variant>
@@ -55,8 +56,9 @@ class SensorIngress {
   std::size_t size() const { return sensors_.size(); }
   const SensorRow& row(std::size_t i) const;
   ArrivalFigures figures(std::size_t i, Instant now) const;
-  // Figures of the sensor with this name; unset if there is none.
-  ArrivalFigures figures(const std::string& name, Instant now) const;
+  // Of the sensor that is this unit of a type, in the order of the rows or, if it detects cars, by
+  // its own number. No allocation, no lock.
+  std::optional<SensorFigures> figures(SensorType type, std::size_t unit, Instant now) const;
   SensorCounts counts(std::size_t i) const;
   // The newest sample that was not taken yet; nullptr if there is none or the sensor has another
   // type.

@@ -2,6 +2,7 @@
 #include "vehicle/io/perception/lidar_worker.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "protocol/json/json_text.hpp"
@@ -117,6 +118,12 @@ void LidarWorker::make_frame() {
   last_frame_ = frame.received;
 }
 
+SensorFigures LidarWorker::frame_figures(Instant now) const {
+  SensorFigures figures{arrivals_.newest(now), unreadable_ + bad_stamps_ + no_room_};
+  if (std::isnan(figures.arrivals.rate_hz)) figures.arrivals.rate_hz = 0.0;
+  return figures;
+}
+
 LidarWorker::Counts LidarWorker::counts() const {
   return {.frames = frames_,
           .sweeps = sweeps_,
@@ -130,7 +137,7 @@ std::string LidarWorker::json(Instant now) const {
   const Counts c = counts();
   json::Object row;
   row.text("name", "lidars");
-  add_figures(row, figures(now));
+  add_figures(row, arrivals_.newest(now));
   add_figure(row, "largest_gap_ms", c.largest_gap_ms);
   add_figure(row, "to_loop_p50_ms", to_loop_.quantile(0.5) * kAgeCell.milliseconds());
   add_figure(row, "to_loop_p99_ms", to_loop_.quantile(0.99) * kAgeCell.milliseconds());

@@ -63,7 +63,8 @@ class LidarWorker {
   const world::DetectionFrame* front() const { return queue_.front(); }
   void pop(Instant now);  // only after front() has returned one
 
-  ArrivalFigures figures(Instant now) const { return arrivals_.newest(now); }
+  // Of the frames; drops: those that the loop did not take, and clouds in none.
+  SensorFigures frame_figures(Instant now) const;
   Counts counts() const;
   std::string json(Instant now) const;  // a row of SensorIngress::json()
 

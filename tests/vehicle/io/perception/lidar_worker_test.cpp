@@ -148,6 +148,9 @@ TEST(LidarWorker, WhatCannotBeUsedIsCounted) {
   lidar.send(flat);
   ASSERT_TRUE(comes([&] { return worker->counts().unreadable == 1; }));
   EXPECT_EQ(worker->counts().frames, 0U);
+  const SensorFigures figures = worker->frame_figures(transport::monotonic_now());
+  EXPECT_EQ(figures.drops, 3U);
+  EXPECT_EQ(figures.arrivals.rate_hz, 0.0) << "no frame yet, but there is to be one";
   lidar.send(points);
   ASSERT_TRUE(comes([&] { return worker->counts().frames == 1; })) << "it goes on";
 }
@@ -160,6 +163,7 @@ TEST(LidarWorker, FramesThatNobodyTakesAreCounted) {
     ASSERT_TRUE(comes([&] { return worker->counts().frames == sweep; }));
   }
   EXPECT_EQ(worker->counts().no_room, 3U);
+  EXPECT_EQ(worker->frame_figures(transport::monotonic_now()).drops, 3U);
   const auto row = yaml::load_text(worker->json(transport::monotonic_now()), "row.json");
   ASSERT_TRUE(row) << "JSON is YAML";
 }

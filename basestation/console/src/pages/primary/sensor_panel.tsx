@@ -1,39 +1,93 @@
 /**
  * Sensors: rate, longest gap and latency side by side, because a sensor at its full rate may still
- * pause for half a second.
+ * pause for half a second. Drops are counted of those that see other cars; such a sensor has a row
+ * when the car has it.
  */
 // SPDX-License-Identifier: Apache-2.0
+import { useRef } from "preact/hooks";
+import * as session from "../../store/session";
+import { kDigitsHz, usePainter } from "../../view/painting";
 import { TableHead } from "../../view/table_head";
+import { read } from "../../view/timeline";
 import { Value } from "../../view/value";
+import { Quality } from "../../wire/status";
 
-const kSensors = [
+/** On every car. */
+const kOwn = [
   ["gnss0", "GNSS 0"],
   ["gnss1", "GNSS 1"],
   ["imu0", "IMU 0"],
   ["imu1", "IMU 1"],
+] as const;
+
+/** LiDAR: frames of detections; LiDAR 0 to 2: clouds. */
+const kOfOthers = [
   ["lidar", "LiDAR"],
-  ["camera", "camera"],
+  ["lidar0", "LiDAR 0"],
+  ["lidar1", "LiDAR 1"],
+  ["lidar2", "LiDAR 2"],
+  ["camera0", "camera 0"],
+  ["camera1", "camera 1"],
   ["radar", "radar"],
 ] as const;
+
+interface RowProps {
+  sensor: string;
+  label: string;
+}
+
+function Figures({ sensor, label }: RowProps) {
+  return (
+    <>
+      <th scope="row">{label}</th>
+      <td>
+        <Value path={`sensors.${sensor}_rate`} decimals={1} unit={false} />
+      </td>
+      <td>
+        <Value path={`sensors.${sensor}_gap`} decimals={0} unit={false} />
+      </td>
+      <td>
+        <Value path={`sensors.${sensor}_latency`} decimals={0} unit={false} />
+      </td>
+    </>
+  );
+}
+
+function RowOfOthers({ sensor, label }: RowProps) {
+  const row = useRef<HTMLTableRowElement>(null);
+  const slot = session.fields.value.slot(`sensors.${sensor}_rate`);
+  usePainter(
+    () => {
+      const reading = read(slot);
+      const isThere = reading.quality !== Quality.never && Number.isFinite(reading.value);
+      if (row.current) row.current.hidden = !isThere;
+    },
+    kDigitsHz,
+    [slot],
+  );
+  return (
+    <tr ref={row} hidden>
+      <Figures sensor={sensor} label={label} />
+      <td>
+        <Value path={`sensors.${sensor}_drops`} unit={false} />
+      </td>
+    </tr>
+  );
+}
 
 export function SensorPanel() {
   return (
     <table class="readings">
-      <TableHead names={["sensor", "rate Hz", "gap ms", "latency ms"]} />
+      <TableHead names={["sensor", "rate Hz", "gap ms", "latency ms", "drops"]} />
       <tbody>
-        {kSensors.map(([sensor, label]) => (
+        {kOwn.map(([sensor, label]) => (
           <tr key={sensor}>
-            <th scope="row">{label}</th>
-            <td>
-              <Value path={`sensors.${sensor}_rate`} decimals={1} unit={false} />
-            </td>
-            <td>
-              <Value path={`sensors.${sensor}_gap`} decimals={0} unit={false} />
-            </td>
-            <td>
-              <Value path={`sensors.${sensor}_latency`} decimals={0} unit={false} />
-            </td>
+            <Figures sensor={sensor} label={label} />
+            <td />
           </tr>
+        ))}
+        {kOfOthers.map(([sensor, label]) => (
+          <RowOfOthers key={sensor} sensor={sensor} label={label} />
         ))}
       </tbody>
     </table>
