@@ -19,7 +19,7 @@ constexpr Instant kNow{seconds(100).ns};
 
 io::DetectionRow row() {
   io::DetectionRow made;
-  made.focal_px = 900.0, made.centre_px = 640.0, made.height_m = 1.2;
+  made.camera = perception::CameraModel::pinhole(900.0, 640.0), made.height_m = 1.2;
   made.amplitude_0_db = 0.0, made.amplitude_1_db = 30.0;
   return made;
 }

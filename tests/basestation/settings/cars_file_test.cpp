@@ -7,6 +7,8 @@
 #include <filesystem>
 #include <fstream>
 
+#include "tests/support/replaced.hpp"
+
 namespace pitwall::settings {
 namespace {
 
@@ -30,10 +32,6 @@ constexpr const char* kTwo = R"(cars:
 
 Result<std::vector<Arguments>, Problem> read(std::string_view text, const Arguments& whole = {}) {
   return read_cars_text(text, "cars.yaml", "race", whole);
-}
-
-std::string replaced(std::string text, std::string_view what, std::string_view with) {
-  return text.replace(text.find(what), what.size(), with);
 }
 
 TEST(CarsFile, EachCarHasTheCommandLineWithItsOwnWordsInIt) {
@@ -80,7 +78,7 @@ TEST(CarsFile, WithoutAFileTheCommandLineIsTheCar) {
 
 TEST(CarsFile, IsReadFromItsFolder) {
   const std::filesystem::path folder =
-      std::filesystem::path{testing::TempDir()} / ("cars_" + std::to_string(::getpid()));
+      std::filesystem::path{::testing::TempDir()} / ("cars_" + std::to_string(::getpid()));
   std::filesystem::create_directories(folder);
   Arguments whole;
   whole.cars_file = folder / "cars.yaml";
@@ -104,7 +102,7 @@ TEST(CarsFile, NoTwoCarsShareAnything) {
            {"signed: true", "judgement: ./seven.yaml"},
            {"signed: true", "joystick: /dev/input/event3"},
            {"signed: true", "stop_port: 23437"}}) {
-    const auto cars = read(replaced(two, what, with));
+    const auto cars = read(testing::replaced(two, what, with));
     ASSERT_FALSE(cars) << with;
     EXPECT_NE(cars.error().what.find("is used by another car"), std::string::npos) << with;
     EXPECT_EQ(cars.error().place.find("cars.yaml:1"), 0u) << cars.error().place;
@@ -132,12 +130,14 @@ TEST(CarsFile, MistakesAreToldWithTheirPlace) {
   const std::string two = kTwo;
   for (const std::string& text :
        {std::string{"cars: []\n"}, std::string{"cars:\n"}, std::string{"car: 7\n"},
-        replaced(two, "number: 8", "number: 256"), replaced(two, "number: 8", "number: -1"),
-        replaced(two, "    keys: keys/8/base.keys\n", ""), replaced(two, "signed: true", "x: 1"),
-        replaced(two, "budget_kbit_s: 128", "budget_kbit_s: 63"),
-        replaced(two, "budget_kbit_s: 128", "budget_kbit_s: .nan"),
-        replaced(two, "[\"127.0.0.1:23441\"]", "[]"),
-        replaced(two, "stop_port: 23437", "stop_port: 0")}) {
+        testing::replaced(two, "number: 8", "number: 256"),
+        testing::replaced(two, "number: 8", "number: -1"),
+        testing::replaced(two, "    keys: keys/8/base.keys\n", ""),
+        testing::replaced(two, "signed: true", "x: 1"),
+        testing::replaced(two, "budget_kbit_s: 128", "budget_kbit_s: 63"),
+        testing::replaced(two, "budget_kbit_s: 128", "budget_kbit_s: .nan"),
+        testing::replaced(two, "[\"127.0.0.1:23441\"]", "[]"),
+        testing::replaced(two, "stop_port: 23437", "stop_port: 0")}) {
     const auto cars = read(text);
     ASSERT_FALSE(cars) << text;
     EXPECT_EQ(cars.error().place.find("cars.yaml"), 0u) << text;

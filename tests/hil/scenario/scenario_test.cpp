@@ -8,6 +8,8 @@
 #include <sstream>
 #include <string>
 
+#include "tests/support/replaced.hpp"
+
 namespace pitwall::scenario {
 namespace {
 
@@ -27,12 +29,6 @@ const std::string kGood =
     "expect:\n"
     "  - {kind: always, signal: wall_gap_m, is: \">\", value: 0.5}\n"
     "  - {kind: within, signal: speed_mps, is: \">\", value: 20, from_s: 1, until_s: 15}\n";
-
-std::string replaced(std::string text, const std::string& from, const std::string& to) {
-  const auto at = text.find(from);
-  EXPECT_NE(at, std::string::npos) << from;
-  return text.replace(at, from.size(), to);
-}
 
 TEST(Scenario, ReadsEveryPart) {
   const auto read = read_scenario(kGood, "short.yaml");
@@ -88,7 +84,7 @@ TEST(Scenario, EveryMistakeIsRefusedWithItsPlace) {
       {"seed: 3", "seed: 3\ncontact: {at_most_mps: 30, reason: r, wall: left}", "wall"},
   };
   for (const Wrong& wrong : cases) {
-    const auto read = read_scenario(replaced(kGood, wrong.from, wrong.to), "short.yaml");
+    const auto read = read_scenario(testing::replaced(kGood, wrong.from, wrong.to), "short.yaml");
     ASSERT_FALSE(read) << wrong.to;
     EXPECT_NE(to_string(read.error()).find(wrong.place), std::string::npos)
         << wrong.to << " -> " << to_string(read.error());

@@ -19,7 +19,7 @@ using world::DetectionFrame, world::DetectionSource;
 
 io::SensorFile file_of(int domain) {
   io::DetectionRow camera, radar;
-  camera.focal_px = 2'000.0, camera.centre_px = 960.0, camera.height_m = 1.2;
+  camera.camera = perception::CameraModel::pinhole(2'000.0, 960.0), camera.height_m = 1.2;
   radar.amplitude_0_db = -10.0, radar.amplitude_1_db = 30.0;
   return {.domain = {.domain = domain},
           .sensors = {{"lidar", "/lidar", io::SensorType::kDetection3DArray, 20.0, {}},

@@ -30,7 +30,7 @@ constexpr std::size_t kLidar = 0, kCamera = 1, kRadar = 2;
 
 SensorFile file_of(int domain) {
   DetectionRow camera, radar;
-  camera.focal_px = 1'000.0, camera.centre_px = 960.0, camera.height_m = 1.2;
+  camera.camera = perception::CameraModel::pinhole(1'000.0, 960.0), camera.height_m = 1.2;
   radar.amplitude_0_db = 0.0, radar.amplitude_1_db = 40.0;
   return {.domain = {.domain = domain},
           .sensors = {{"lidar", "/lidar", SensorType::kDetection3DArray, 20.0, {}},

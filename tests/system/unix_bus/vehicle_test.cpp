@@ -29,6 +29,7 @@
 #include "tests/support/comes_true.hpp"
 #include "tests/support/in_time.hpp"
 #include "tests/support/pty.hpp"
+#include "tests/support/replaced.hpp"
 #include "tests/support/tcp_server.hpp"
 
 namespace pitwall {
@@ -245,12 +246,6 @@ std::string example_of_receivers() {
   return page.substr(begin, page.find('`', begin) - begin);
 }
 
-std::string with(std::string text, const std::string& what, const std::string& instead) {
-  const std::size_t at = text.find(what);
-  EXPECT_NE(at, std::string::npos) << "the page's example has no " << what << ": " << text;
-  return at == std::string::npos ? text : text.replace(at, what.size(), instead);
-}
-
 std::vector<std::string> words_of(const std::string& text) {
   std::istringstream in(text);
   return {std::istream_iterator<std::string>(in), {}};
@@ -272,8 +267,9 @@ TEST_F(VehicleOnUnixBus, HearsOneReceiverOverTcpAndTheOtherOverASerialLine) {
   support::TcpServer tcp;
   const support::Pty serial;
   std::string example = example_of_receivers();
-  example = with(example, "192.168.1.10:3001", "127.0.0.1:" + std::to_string(tcp.port()));
-  example = with(example, "/dev/ttyS0", serial.path());
+  example =
+      testing::replaced(example, "192.168.1.10:3001", "127.0.0.1:" + std::to_string(tcp.port()));
+  example = testing::replaced(example, "/dev/ttyS0", serial.path());
   Process hub = start_hub();
   Process vehicle = start_vehicle(words_of(example));
   tcp.accept();

@@ -5,6 +5,7 @@
 
 #include <functional>
 
+#include "tests/support/replaced.hpp"
 #include "tests/vehicle/raceline/courses.hpp"
 #include "vehicle/raceline/bank_builder.hpp"
 
@@ -26,12 +27,6 @@ struct Course {
     return refusal_of(to_json(changed));
   }
 };
-
-std::string with(std::string text, const std::string& old, const std::string& now) {
-  const std::size_t at = text.find(old);
-  if (at == std::string::npos) throw std::runtime_error("no " + old);
-  return text.replace(at, old.size(), now);
-}
 
 void expect_refusal(const std::string& refusal, const std::string& part) {
   EXPECT_EQ(refusal.substr(0, 9), "bank.json") << refusal;
@@ -86,13 +81,14 @@ TEST(BankFile, ReadsSpeedProfilesBack) {
     EXPECT_EQ(read.lines[1].lap[i].gear, line.lap[i].gear);
   }
   const std::string text = to_json(bank);
-  expect_refusal(course.refusal_of(with(text, "\"lap_s\": 61.250000, ", "")),
+  expect_refusal(course.refusal_of(testing::replaced(text, "\"lap_s\": 61.250000, ", "")),
                  "inner/centre: error: point 1 has 9 numbers, expected 5");
   bank.lines[1].lap[9].time_s = kUnset;
-  expect_refusal(course.refusal_of(with(to_json(bank), "nan", "null")),
+  expect_refusal(course.refusal_of(testing::replaced(to_json(bank), "nan", "null")),
                  "inner/centre: s = 9.0 m: error: a value is missing or not a number");
-  expect_refusal(course.refusal_of(with(text, "\"tyre_share\": 0.75", "\"tyre_share\": 1.75")),
-                 "tyre_share is 1.75, allowed 0.05 to 1");
+  expect_refusal(
+      course.refusal_of(testing::replaced(text, "\"tyre_share\": 0.75", "\"tyre_share\": 1.75")),
+      "tyre_share is 1.75, allowed 0.05 to 1");
 }
 
 TEST(BankFile, RefusesABankOfAnotherTrack) {
@@ -122,13 +118,15 @@ TEST(BankFile, RefusesWhatIsNoBank) {
   const std::string text = to_json(course.bank);
   expect_refusal(course.refusal_of(text.substr(0, text.size() / 2)), "");
   expect_refusal(course.refusal_of("{}"), "is not a bank of racelines");
-  expect_refusal(course.refusal_of(with(text, "\"version\": 2", "\"version\": 1")),
+  expect_refusal(course.refusal_of(testing::replaced(text, "\"version\": 2", "\"version\": 1")),
                  "is of version 1, expected 2");
-  expect_refusal(course.refusal_of(with(text, "\"region\": \"inner\"", "\"region\": \"apron\"")),
-                 "inner/inside: error: the region is \"apron\"");
-  expect_refusal(course.refusal_of(with(text, "\"name\": \"inner/inside\"", "\"name\": \"\"")),
-                 "a line without a name");
-  expect_refusal(course.refusal_of(with(text, "    [", "    [1.0, ")),
+  expect_refusal(
+      course.refusal_of(testing::replaced(text, "\"region\": \"inner\"", "\"region\": \"apron\"")),
+      "inner/inside: error: the region is \"apron\"");
+  expect_refusal(
+      course.refusal_of(testing::replaced(text, "\"name\": \"inner/inside\"", "\"name\": \"\"")),
+      "a line without a name");
+  expect_refusal(course.refusal_of(testing::replaced(text, "    [", "    [1.0, ")),
                  "inner/inside: error: point 1 has 6 numbers, expected 5");
   expect_refusal(course.refusal_of([](RacelineBank& b) { b.lines.clear(); }), "has no line");
   expect_refusal(course.refusal_of([](RacelineBank& b) { b.lines[1].name = "inner/inside"; }),

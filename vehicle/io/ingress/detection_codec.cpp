@@ -54,14 +54,18 @@ std::optional<Detection> detection_of(const DetectionRow&, const ros::Detection3
 }
 
 std::optional<Detection> detection_of(const DetectionRow& row, const ros::Detection2D& m) {
-  const double u_px = m.bbox.center.position.x, height_px = m.bbox.size_y;
-  if (!are_finite({u_px, height_px}) || height_px < 0.0) return std::nullopt;
-  const double off_axis_rad = std::atan2(row.centre_px - u_px, row.focal_px);
+  const double u_px = m.bbox.center.position.x, v_px = m.bbox.center.position.y;
+  const double height_px = m.bbox.size_y;
+  if (!are_finite({u_px, v_px, height_px}) || height_px < 0.0) return std::nullopt;
+  const auto upper = perception::direction(row.camera, {u_px, v_px - 0.5 * height_px});
+  const auto lower = perception::direction(row.camera, {u_px, v_px + 0.5 * height_px});
+  if (!upper || !lower) return std::nullopt;
+  const double off_axis_rad = std::atan(-0.5 * (upper->x + lower->x));
   Detection d;
   d.confidence = confidence_of(m.results);
   d.bearing_rad = wrap_pi(row.facing_rad + off_axis_rad);
   d.inverse_depth_per_m =
-      set_if_positive(height_px * std::cos(off_axis_rad) / (row.focal_px * row.height_m));
+      set_if_positive((lower->y - upper->y) * std::cos(off_axis_rad) / row.height_m);
   return d;
 }
 
@@ -147,9 +151,13 @@ ros::Detection2DArray image_message(const DetectionRow& row, const DetectionFram
     const double off_axis_rad = wrap_pi(d.bearing_rad - row.facing_rad);
     ros::Detection2D& out = message.detections.emplace_back();
     out.results = hypothesis_of(d);
-    out.bbox.center.position.x = row.centre_px - row.focal_px * std::tan(off_axis_rad);
-    out.bbox.size_y =
-        or_zero(d.inverse_depth_per_m) * row.focal_px * row.height_m / std::cos(off_axis_rad);
+    const double x = -std::tan(off_axis_rad);
+    const double half =
+        0.5 * or_zero(d.inverse_depth_per_m) * row.height_m / std::cos(off_axis_rad);
+    const perception::Pixel upper = perception::pixel(row.camera, {x, -half});
+    const perception::Pixel lower = perception::pixel(row.camera, {x, half});
+    out.bbox.center.position = {0.5 * (upper.u_px + lower.u_px), 0.5 * (upper.v_px + lower.v_px)};
+    out.bbox.size_y = lower.v_px - upper.v_px;
   }
   return message;
 }

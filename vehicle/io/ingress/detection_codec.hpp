@@ -10,8 +10,10 @@
 //   frames header.frame_id must be that of the row; the frame itself is the car's base_link: ISO
 //          8855, at the centre of gravity. Heights are not used. Camera and radar look along
 //          facing_rad and measure from its origin
-//   camera bearing = facing + atan((centre_px - u) / focal_px), u to the right: left is positive.
-//          inverse depth = height in pixels * cos(bearing from the axis) / (focal_px * height_m)
+//   camera bearing = facing + off, off = atan(-x) of the direction to the box's middle, x to the
+//          right: left is positive. Inverse depth = h cos(off) / height_m with the height h of the
+//          box at depth 1. Without a calibration x = (u - centre_px) / focal_px and h is the
+//          height in pixels by focal_px
 //   radar  range rate = doppler_velocity, positive while the distance grows, with our own motion in
 //          it. Confidence: linear in the amplitude, from 0 at amplitude_0_db to 1 at amplitude_1_db
 //   unset  a box without a size, or with a quaternion of zeros: not measured; likewise an image

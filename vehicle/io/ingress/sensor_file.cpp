@@ -7,6 +7,7 @@
 
 #include "protocol/ros/names.hpp"
 #include "protocol/yaml/strict_map.hpp"
+#include "vehicle/io/ingress/calibration_file.hpp"
 
 namespace pitwall::io {
 namespace {
@@ -27,15 +28,32 @@ constexpr double kAmplitudeMax_db = 300.0;
 constexpr std::uint32_t kSharedMemory_bytes = 1U << 20U;  // a reader sends little
 constexpr double kMountMost_m = 10.0, kHorizonMost_ms = 200.0;
 
-DetectionRow read_detections(yaml::StrictMap& map, SensorType type) {
+std::string beside(const std::string& file, const std::string& path) {
+  return path.starts_with('/') ? path : file.substr(0, file.rfind('/') + 1) + path;
+}
+
+perception::CameraModel read_camera(yaml::StrictMap& map, const std::string& file) {
+  if (!map.has("calibration")) {
+    const double focal_px = map.number("focal_px", 1.0, kPixelsMax);
+    return perception::CameraModel::pinhole(focal_px,
+                                            map.number("centre_px", -kPixelsMax, kPixelsMax));
+  }
+  const std::string image = map.text_or("image", "raw");
+  if (image != "raw" && image != "rectified") map.fail("image", "expected raw or rectified");
+  const auto camera = read_calibration(beside(file, map.text("calibration")),
+                                       image == "raw" ? ImageKind::kRaw : ImageKind::kRectified);
+  if (!camera) throw yaml::InputError{camera.error()};
+  return *camera;
+}
+
+DetectionRow read_detections(yaml::StrictMap& map, SensorType type, const std::string& file) {
   DetectionRow row;
   row.unit = static_cast<std::uint8_t>(map.integer_or("unit", 0, 0, kUnitMax));
   row.frame = map.text_or("frame", row.frame);
   if (type == SensorType::kDetection3DArray) return row;
   row.facing_rad = from_deg(map.number_or("facing_deg", 0.0, -kHalfTurn_deg, kHalfTurn_deg));
   if (type == SensorType::kDetection2DArray) {
-    row.focal_px = map.number("focal_px", 1.0, kPixelsMax);
-    row.centre_px = map.number("centre_px", -kPixelsMax, kPixelsMax);
+    row.camera = read_camera(map, file);
     row.height_m = map.number("height_m", kHeightMin_m, kHeightMax_m);
     return row;
   }
@@ -61,7 +79,7 @@ LidarRow read_lidar(yaml::StrictMap& map) {
           .horizon = microseconds(static_cast<std::int64_t>(1e3 * horizon_ms))};
 }
 
-SensorRow read_row(yaml::StrictMap& map) {
+SensorRow read_row(yaml::StrictMap& map, const std::string& file) {
   SensorRow row{.name = map.text("name"), .topic = map.text("topic")};
   const auto name_is_plain = [](char c) {
     return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_';
@@ -74,12 +92,12 @@ SensorRow read_row(yaml::StrictMap& map) {
   if (found == kTypes.end()) map.fail("type", kExpectedTypes);
   row.type = static_cast<SensorType>(found - kTypes.begin());
   row.rate_hz = map.number("rate_hz", kRateMin_hz, kRateMax_hz);
-  if (detects_cars(row.type)) row.detections = read_detections(map, row.type);
+  if (detects_cars(row.type)) row.detections = read_detections(map, row.type, file);
   if (row.type == SensorType::kPointCloud2 && map.has("at_m")) row.lidar = read_lidar(map);
   return row;
 }
 
-SensorFile read(yaml::StrictMap& map) {
+SensorFile read(yaml::StrictMap& map, const std::string& path) {
   SensorFile file;
   file.domain.domain = static_cast<int>(map.integer_or("domain", 0, 0, dds::kDomainMax));
   file.domain.interface = map.text_or("interface", file.domain.interface);
@@ -88,7 +106,7 @@ SensorFile read(yaml::StrictMap& map) {
   file.waits_for_all = map.flag_or("wait_for_all", false);
   if (map.has("peers")) file.domain.peers = map.texts("peers", 0, kSensorsMax);
   for (yaml::StrictMap& row : map.maps("sensors")) {
-    const SensorRow sensor = read_row(row);
+    const SensorRow sensor = read_row(row, path);
     for (const SensorRow& other : file.sensors) {
       if (other.name == sensor.name) row.fail("name", "another sensor has this name");
       if (other.topic == sensor.topic) row.fail("topic", "another sensor has this topic");
@@ -108,9 +126,8 @@ SensorFile read(yaml::StrictMap& map) {
 Result<SensorFile, Problem> read_sensor_file(const std::string& path) {
   const auto document = yaml::load_file(path);
   if (!document) return Unexpected{document.error()};
-  auto file = yaml::read(*document, [](yaml::StrictMap& map) { return read(map); });
-  if (file && !file->network.empty() && !file->network.starts_with('/'))
-    file->network = path.substr(0, path.rfind('/') + 1) + file->network;
+  auto file = yaml::read(*document, [&path](yaml::StrictMap& map) { return read(map, path); });
+  if (file && !file->network.empty()) file->network = beside(path, file->network);
   return file;
 }
 

@@ -23,7 +23,13 @@
 //
 // A row of detections may have: unit (0; which one of its type), frame (base_link), and where it is
 // a camera or a radar facing_deg (0; counter-clockwise from ahead). detection_codec.hpp says what
-// the numbers mean.
+// the numbers mean. Instead of focal_px and centre_px a camera may have a calibration, beside this
+// file, and say which image its boxes are of:
+//
+//       - {name: images, topic: /perception/camera, type: Detection2DArray, rate_hz: 20,
+//          frame: front_camera, calibration: front_camera.yaml, image: raw, height_m: 1.2}
+//
+// image: raw (the default) or rectified. calibration_file.hpp says what such a file has.
 //   invariants
 //          names and topics are unique, and so are the units of one type of detections. Telemetry
 //          reports the first three rows of points, units 0 and 1 of the cameras' detections, unit 0
@@ -41,6 +47,7 @@
 #include "protocol/vocabulary/result.hpp"
 #include "protocol/vocabulary/time.hpp"
 #include "protocol/vocabulary/units.hpp"
+#include "vehicle/autonomy/perception/camera/camera_model.hpp"
 #include "vehicle/autonomy/perception/lidar/motion.hpp"
 
 namespace pitwall::io {
@@ -60,7 +67,7 @@ struct DetectionRow {
   std::uint8_t unit = 0;
   std::string frame = "base_link";                          // header.frame_id of its messages
   double facing_rad = 0.0;                                  // camera, radar
-  double focal_px = kUnset, centre_px = kUnset;             // camera
+  perception::CameraModel camera{};                         // of its image
   double height_m = kUnset;                                 // camera: of a car
   double amplitude_0_db = kUnset, amplitude_1_db = kUnset;  // radar: confidence 0 and 1
 };

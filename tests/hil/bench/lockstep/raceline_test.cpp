@@ -14,6 +14,7 @@
 #include "hil/bench/lockstep/lockstep.hpp"
 #include "hil/bench/signals.hpp"
 #include "protocol/transport/file.hpp"
+#include "tests/support/replaced.hpp"
 #include "vehicle/parameters/car_file.hpp"
 #include "vehicle/parameters/car_setup.hpp"
 #include "vehicle/parameters/track_file.hpp"
@@ -31,12 +32,6 @@ T had(Result<T, Problem> result) {
   return *std::move(result);
 }
 
-std::string with(std::string text, const std::string& what, const std::string& by) {
-  const std::size_t at = text.find(what);
-  if (at == std::string::npos) throw std::runtime_error("no " + what);
-  return text.replace(at, what.size(), by);
-}
-
 // A track of the tree with its bank, and a car file that names a line of it.
 class Course {
  public:
@@ -46,8 +41,9 @@ class Course {
             had(parameters::read_track(had(transport::read_file(track_file_)), track_file_))) {
     const std::string av21 = had(transport::read_file(kTree + "/vehicle/config/cars/av21.yaml"));
     const std::string named =
-        with(with(av21, "    offset_m: 0.0\n", "    bank: <track>.json\n    name: " + line + "\n"),
-             "wall_clearance_m: 1.5", "wall_clearance_m: " + wall_clearance_m);
+        testing::replaced(testing::replaced(av21, "    offset_m: 0.0\n",
+                                            "    bank: <track>.json\n    name: " + line + "\n"),
+                          "wall_clearance_m: 1.5", "wall_clearance_m: " + wall_clearance_m);
     had(transport::write_file(path("car.yaml"), named));
     const auto car = had(parameters::read_car(named, path("car.yaml")));
     const auto map = had(world::TrackMap::build(description_));
@@ -58,9 +54,9 @@ class Course {
     const envelope::EnvelopeTable table{pipeline::envelope_of(car.params, map)};
     figures_ = had(raceline::check_raceline(line_, raceline::Lanes{map},
                                             parameters::limits_of(car.params, table)));
-    scenario_ =
-        with(had(transport::read_file(kTree + "/hil/scenarios/" + track + "_flying_lap.yaml")),
-             "vehicle/config/cars/av21.yaml", path("car.yaml"));
+    scenario_ = testing::replaced(
+        had(transport::read_file(kTree + "/hil/scenarios/" + track + "_flying_lap.yaml")),
+        "vehicle/config/cars/av21.yaml", path("car.yaml"));
   }
 
   std::string path(const std::string& name) const { return folder_.path() + "/" + name; }
@@ -69,10 +65,10 @@ class Course {
     return bench::load(path("scenario.yaml"), kTree);
   }
   void change_track(const std::string& what, const std::string& by) {
-    const std::string text = with(had(transport::read_file(track_file_)), what, by);
+    const std::string text = testing::replaced(had(transport::read_file(track_file_)), what, by);
     const std::string name = track_file_.substr(track_file_.rfind('/') + 1);
     had(transport::write_file(path(name), text));
-    scenario_ = with(scenario_, "vehicle/config/tracks/" + name, path(name));
+    scenario_ = testing::replaced(scenario_, "vehicle/config/tracks/" + name, path(name));
   }
 
   // Distance from the closed row of the line's points, taken as chords: the arc lies at most

@@ -19,7 +19,7 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 DetectionRow camera_row() {
   DetectionRow row;
   row.unit = 3, row.frame = "rear_left_camera", row.facing_rad = from_deg(140.0);
-  row.focal_px = 900.0, row.centre_px = 640.0, row.height_m = 1.2;
+  row.camera = perception::CameraModel::pinhole(900.0, 640.0), row.height_m = 1.2;
   return row;
 }
 
@@ -131,6 +131,39 @@ TEST(DetectionCodec, AnImageHasABearingAndADepthByItsHeight) {
     image.bbox.size_y = bad;
     EXPECT_TRUE(taken(row, &ros::Detection2DArray::detections, image, 1).detections.empty());
   }
+}
+
+TEST(DetectionCodec, AnImageIsReadByTheCalibrationOfItsCamera) {
+  DetectionRow row = camera_row();
+  row.camera = {1046.25, 1048.75, 1032.5, 471.25, {-0.302, 0.096, 0.0011, -0.0007, -0.0125}};
+  const double along_m = 30.0 * std::cos(from_deg(20.0)), left_m = 30.0 * std::sin(from_deg(20.0));
+  const auto at_height = [&](double below_axis_m) {
+    return perception::pixel(row.camera, {-left_m / along_m, below_axis_m / along_m});
+  };
+  const perception::Pixel top = at_height(-0.6), bottom = at_height(0.6);
+  ros::Detection2D image;
+  image.results = box_at(0.0, 0.0).results;
+  image.bbox.center.position = {0.5 * (top.u_px + bottom.u_px), 0.5 * (top.v_px + bottom.v_px)};
+  image.bbox.size_x = 50.0, image.bbox.size_y = bottom.v_px - top.v_px;
+  const Detection seen = taken(row, &ros::Detection2DArray::detections, image).detections[0];
+  EXPECT_NEAR(seen.bearing_rad, from_deg(160.0), 1e-6);
+  EXPECT_NEAR(1.0 / seen.inverse_depth_per_m, 30.0, 1e-3);
+  // Without it both are wrong: 9 mrad, which are 0.27 m, and 4 %.
+  row.camera.distortion = {};
+  const Detection wrong = taken(row, &ros::Detection2DArray::detections, image).detections[0];
+  EXPECT_GT(std::abs(wrong.bearing_rad - seen.bearing_rad), 0.005);
+  EXPECT_GT(std::abs(seen.inverse_depth_per_m / wrong.inverse_depth_per_m - 1.0), 0.02);
+}
+
+TEST(DetectionCodec, APixelWithoutADirectionIsLeftOut) {
+  DetectionRow row = camera_row();
+  row.camera.distortion = {-0.5};
+  ros::Detection2D image;
+  image.results = box_at(0.0, 0.0).results;
+  image.bbox.center.position = {.x = 640.0 + 0.56 * 900.0, .y = 0.0};
+  EXPECT_TRUE(taken(row, &ros::Detection2DArray::detections, image, 1).detections.empty());
+  image.bbox.center.position.x = 640.0 + 0.5 * 900.0;
+  EXPECT_EQ(taken(row, &ros::Detection2DArray::detections, image).detections.size(), 1U);
 }
 
 TEST(DetectionCodec, AReturnIsSeenFromWhereTheRadarLooks) {

@@ -104,13 +104,49 @@ sensors:
   EXPECT_EQ(camera.unit, 2);
   EXPECT_EQ(camera.frame, "left_camera");
   EXPECT_EQ(camera.facing_rad, from_deg(90.0));
-  EXPECT_EQ(camera.focal_px, 900.0);
-  EXPECT_EQ(camera.centre_px, 640.0);
+  EXPECT_EQ(camera.camera.focal_x_px, 900.0);
+  EXPECT_EQ(camera.camera.focal_y_px, 900.0);
+  EXPECT_EQ(camera.camera.centre_x_px, 640.0);
   EXPECT_EQ(camera.height_m, 1.2);
   EXPECT_EQ(file->sensors[2].type, SensorType::kRadarScan);
   EXPECT_EQ(radar.facing_rad, from_deg(-90.0));
   EXPECT_EQ(radar.amplitude_0_db, -5.0);
   EXPECT_EQ(radar.amplitude_1_db, 35.0);
+}
+
+TEST(SensorFile, ACameraMayHaveACalibrationBesideTheFile) {
+  const auto folder = std::filesystem::temp_directory_path();
+  const std::string name = "pitwall-camera-" + std::to_string(getpid()) + ".yaml";
+  std::ofstream{folder / name} << R"(
+image_width: 640
+image_height: 480
+camera_matrix: {rows: 3, cols: 3, data: [600, 0, 320, 0, 610, 240, 0, 0, 1]}
+distortion_model: plumb_bob
+distortion_coefficients: {rows: 1, cols: 5, data: [-0.3, 0, 0, 0, 0]}
+rectification_matrix: {rows: 3, cols: 3, data: [1, 0, 0, 0, 1, 0, 0, 0, 1]}
+projection_matrix: {rows: 3, cols: 4, data: [590, 0, 321, 0, 0, 600, 241, 0, 0, 0, 1, 0]}
+)";
+  const auto with = [&](const std::string& more) {
+    return read(
+        "sensors:\n  - {name: camera, topic: /b, type: Detection2DArray, rate_hz: 20, height_m: 1.2"
+        ", calibration: " +
+        more + "}\n");
+  };
+  const auto raw = with(name), rectified = with(name + ", image: rectified");
+  const auto cropped = with(name + ", image: cropped"), both = with(name + ", focal_px: 600");
+  const auto nowhere = with("nowhere.yaml");
+  std::filesystem::remove(folder / name);
+  ASSERT_TRUE(raw) << to_string(raw.error());
+  EXPECT_EQ(raw->sensors[0].detections.camera.focal_x_px, 600.0);
+  EXPECT_EQ(raw->sensors[0].detections.camera.distortion[0], -0.3);
+  ASSERT_TRUE(rectified) << to_string(rectified.error());
+  EXPECT_EQ(rectified->sensors[0].detections.camera.focal_x_px, 590.0);
+  EXPECT_EQ(rectified->sensors[0].detections.camera.distortion[0], 0.0);
+  ASSERT_FALSE(cropped);
+  EXPECT_EQ(cropped.error().what, "image: expected raw or rectified");
+  EXPECT_FALSE(both) << "one of the two is not used";
+  ASSERT_FALSE(nowhere);
+  EXPECT_NE(nowhere.error().place.find("nowhere.yaml"), std::string::npos);
 }
 
 TEST(SensorFile, AMistakeInASensorThatDetectsCarsIsNamed) {

@@ -1,0 +1,45 @@
+// What a camera sees where: pixels to directions and back, by the model that calibrations of OpenCV
+// and ROS fill in.
+//   in     a pixel of the image as it comes from the camera, u to the right, v down
+//   out    direction() x to the right and y down, at depth 1 along the optical axis; pixel() is the
+//          way back
+//   law    pixel() of direction() is the pixel, to 1e-6 px
+//   errors direction(): nullopt where the model has no inverse, beyond the image's useful part
+//   cost   0.1 us without distortion, 1 us with it; no allocation
+//   source OpenCV, "Camera calibration and 3D reconstruction": plumb_bob has k1, k2, p1, p2, k3,
+//          the rational model k4 to k6 too. Inverse: Newton's method
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <optional>
+
+#include "protocol/vocabulary/units.hpp"
+
+namespace pitwall::perception {
+
+struct Pixel {
+  double u_px = kUnset, v_px = kUnset;
+};
+
+struct SightLine {
+  double x = kUnset, y = kUnset;  // for 1 of depth
+};
+
+struct CameraModel {
+  static constexpr std::size_t kCoefficients = 8;  // k1, k2, p1, p2, k3, k4, k5, k6
+
+  double focal_x_px = kUnset, focal_y_px = kUnset;
+  double centre_x_px = kUnset, centre_y_px = kUnset;
+  std::array<double, kCoefficients> distortion{};
+
+  static CameraModel pinhole(double focal_px, double centre_x_px) {
+    return {focal_px, focal_px, centre_x_px, 0.0, {}};
+  }
+};
+
+Pixel pixel(const CameraModel& camera, const SightLine& line);
+std::optional<SightLine> direction(const CameraModel& camera, const Pixel& at);
+
+}  // namespace pitwall::perception
