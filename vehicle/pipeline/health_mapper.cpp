@@ -38,8 +38,8 @@ constexpr bool verdicts_are_labelled_as_in_localization() {
 }
 static_assert(verdicts_are_labelled_as_in_localization(), "labels of verdicts are out of date");
 static_assert(telemetry::label_at(telemetry::kExcludableNames,
-                                  static_cast<std::size_t>(world::Excludable::kWheels)) ==
-              "wheels");
+                                  static_cast<std::size_t>(world::Excludable::kRadar)) == "radar" &&
+              telemetry::label_at(telemetry::kExcludableNames, world::kExcludables).empty());
 
 template <class T>
 double number(T value) {

@@ -74,7 +74,7 @@ void OrderHandler::exclude(const OperatorCommand& command) {
   const bool is_set = command.argument >= 0.0 && command.argument <= kAll &&
                       command.argument == std::floor(command.argument);
   if (!is_set) return answer(command, CommandAnswer::kRefused);
-  const world::SensorUse use{static_cast<std::uint8_t>(command.argument)};
+  const world::SensorUse use{static_cast<std::uint16_t>(command.argument)};
   if (!in.stands && !enough_to_drive(use)) return answer(command, CommandAnswer::kRefused);
   orders.use = use;
   answer(command, CommandAnswer::kApplied);

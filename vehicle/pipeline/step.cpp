@@ -34,7 +34,11 @@ world::Curvilinear place_of(const Setup& setup, Car& car, const world::EgoState&
 world::Opponents track_opponents(const Setup& setup, Car& car, const world::EgoState& ego,
                                  const Inputs& in) {
   return tracking::step(setup.params.tracking, car.tracking,
-                        {.frames = in.detections, .ego = ego, .track = &setup.track, .now = in.now})
+                        {.frames = in.detections,
+                         .ego = ego,
+                         .track = &setup.track,
+                         .use = car.orders.use,
+                         .now = in.now})
       .opponents;
 }
 

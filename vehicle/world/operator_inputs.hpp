@@ -22,12 +22,16 @@ enum class Excludable : std::uint8_t {
   kGnss1,
   kImu0,
   kImu1,
-  kWheels
+  kWheels,
+  kLidar,  // their detections of other cars, of every unit
+  kCamera0,
+  kCamera1,
+  kRadar
 };
-inline constexpr std::size_t kExcludables = 5;
+inline constexpr std::size_t kExcludables = 9;
 
 struct SensorUse {
-  std::uint8_t excluded = 0;  // bit k: Excludable k
+  std::uint16_t excluded = 0;  // bit k: Excludable k
 
   constexpr bool uses(Excludable sensor) const {
     return (excluded >> static_cast<unsigned>(sensor) & 1U) == 0;

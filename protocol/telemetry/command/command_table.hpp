@@ -70,7 +70,7 @@ inline constexpr auto kCommandTable = [] {
       {kRaceLine, "race line", "", 0, 30, 1, seconds(2), true, {}, false},
       {kRole, "role", "", 0, 6, 1, seconds(2), true, kRoles, false},
       {kTrackFlag, "track flag", "", 0, 14, 1, seconds(2), true, kShownTrackFlags},
-      {kSensorsExcluded, "sensors excluded", CommandRow::kBitSet, 0, 62, 1, seconds(2), true,
+      {kSensorsExcluded, "sensors excluded", CommandRow::kBitSet, 0, 1'022, 1, seconds(2), true,
        kExcludableNames},
       {kFuelEntered, "fuel entered", "l", 0, 120, 0.1, seconds(2), true},
       {kReleaseStop, "release stop", "", 0, 65'534, 1, seconds(2), true},

@@ -40,7 +40,8 @@ inline constexpr std::string_view kShiftStates =
     "not initialised|ready|locked out|shifts up|shifts down";
 inline constexpr std::string_view kUnitSets = "none|unit 0|unit 1|both";
 // Bits of a set of sensors, by the names that an operator enters.
-inline constexpr std::string_view kExcludableNames = "gnss0|gnss1|imu0|imu1|wheels";
+inline constexpr std::string_view kExcludableNames =
+    "gnss0|gnss1|imu0|imu1|wheels|lidar|camera0|camera1|radar";
 inline constexpr std::string_view kSampleVerdicts =
     "-|in use|NOT A NUMBER|no such unit|no solution|too uncertain|too old|from the future|JUMPED|"
     "waits for a start|stands by|IMPLAUSIBLE|excluded|NEGATIVE VARIANCE|old corrections|"

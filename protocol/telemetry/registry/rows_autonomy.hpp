@@ -53,7 +53,7 @@ inline constexpr auto kLocalizationRows = [] {
       count(kGroup, "late"),
       count(kGroup, "implausible"),
       {kGroup, "restarts", "", 0, 254, 1},
-      {kGroup, "excluded", FieldRow::kBitSet, 0, 62, 1, kExcludableNames},  // by the operator
+      {kGroup, "excluded", FieldRow::kBitSet, 0, 1'022, 1, kExcludableNames},  // by the operator
       choice(kGroup, "velocity_units", kUnitSets, 6),
       choice(kGroup, "imu0_verdict", kSampleVerdicts, 62),  // on the newest sample
       choice(kGroup, "imu1_verdict", kSampleVerdicts, 62),

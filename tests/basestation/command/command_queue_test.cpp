@@ -60,7 +60,7 @@ TEST(CommandQueue, WhatDoesNotExistCannotBeStaged) {
   };
   EXPECT_EQ(refused(CommandType::kTrackFlag, 9.0), "no such value");
   EXPECT_EQ(refused(CommandType::kTrackFlag, 3.5), "no such value");
-  EXPECT_EQ(refused(CommandType::kSensorsExcluded, 32.0), "no such value");
+  EXPECT_EQ(refused(CommandType::kSensorsExcluded, 512.0), "no such value");
   EXPECT_EQ(refused(CommandType::kArm, 2.0), "no such value");
   EXPECT_EQ(refused(CommandType::kReset, 0.0), "no such value");
   EXPECT_EQ(refused(CommandType::kSpeedLimit, 121.0), "out of range");

@@ -104,8 +104,12 @@ TEST(TextCommand, SensorsAreExcludedAndAdmittedOneByOne) {
   const struct {
     const char* words;
     double set;
-  } cases[] = {{"exclude gnss0", 1}, {"exclude imu1", 9},    {"exclude gnss0", 9},
-               {"admit gnss0", 8},   {"exclude wheels", 24}, {"admit imu1", 16}};
+  } cases[] = {{"exclude gnss0", 1},   {"exclude imu1", 9},      {"exclude gnss0", 9},
+               {"admit gnss0", 8},     {"exclude wheels", 24},   {"admit imu1", 16},
+               {"exclude lidar", 48},  {"exclude camera1", 176}, {"admit wheels", 160},
+               {"exclude radar", 416}, {"admit camera1", 288},   {"admit lidar", 256},
+               {"exclude imu1", 264},  {"admit radar", 8},       {"exclude wheels", 24},
+               {"admit imu1", 16}};
   for (const auto& c : cases) {
     ASSERT_TRUE(pit.execute("take 7"));
     const auto due = pit.arrives(c.words);
@@ -125,7 +129,7 @@ TEST(TextCommand, SensorsAreExcludedAndAdmittedOneByOne) {
   const auto next = pit.arrives("exclude imu0");
   ASSERT_TRUE(next);
   EXPECT_EQ(next->command.argument, 20) << "what was refused is not counted in";
-  for (const char* wrong : {"exclude", "exclude gnss2", "admit lidar", "exclude gnss0 gnss1"})
+  for (const char* wrong : {"exclude", "exclude gnss2", "admit lidar0", "exclude gnss0 gnss1"})
     EXPECT_FALSE(pit.execute(wrong)) << wrong;
 }
 

@@ -171,13 +171,13 @@ TEST(OperatorOrders, SensorsAreExcludedBySetAndStayExcluded) {
   for (const bool stands : {false, true}) {
     Rig rig;
     rig.stands = stands;
-    std::uint8_t held = 0;
-    for (unsigned set = 0; set < 32; ++set) {
-      const bool blind = (set & 3U) == 3U, numb = (set >> 2U) == 7U;
+    std::uint16_t held = 0;
+    for (unsigned set = 0; set < 1U << world::kExcludables; ++set) {
+      const bool blind = (set & 3U) == 3U, numb = (set >> 2U & 7U) == 7U;
       const auto answer = rig.done(OperatorCommandKind::kSensorsExcluded, static_cast<double>(set));
       const bool refused = !stands && (blind || numb);
       EXPECT_EQ(answer, refused ? CommandAnswer::kRefused : CommandAnswer::kApplied) << set;
-      if (!refused) held = static_cast<std::uint8_t>(set);
+      if (!refused) held = static_cast<std::uint16_t>(set);
       for (int i = 0; i < 3; ++i) rig.tick();
       EXPECT_EQ(rig.orders.use.excluded, held) << set;
     }
@@ -186,7 +186,7 @@ TEST(OperatorOrders, SensorsAreExcludedBySetAndStayExcluded) {
 
 TEST(OperatorOrders, WhatIsNoSetOfSensorsIsRefused) {
   Rig rig;
-  for (const double argument : {-1.0, 0.5, 32.0, 1e9, kUnset})
+  for (const double argument : {-1.0, 0.5, 512.0, 1e9, kUnset})
     EXPECT_EQ(rig.done(OperatorCommandKind::kSensorsExcluded, argument), CommandAnswer::kRefused);
   EXPECT_EQ(rig.orders.use, world::SensorUse{});
 }

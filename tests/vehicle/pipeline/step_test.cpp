@@ -334,14 +334,13 @@ TEST(Step, ReportsThePlaceOnTheTrack) {
   EXPECT_NEAR(place.n_m, 0.0, 0.2);
 }
 
-// LiDAR frames at 20 Hz, 20 ms old, of a car 20 m ahead and 3 m to the left.
-TEST(Step, TracksAnotherCar) {
-  const auto car = new_car();
+// LiDAR frames at 20 Hz, 20 ms old, of a car 20 m ahead and 3 m to the left. What is known then.
+world::Opponents known_of_another(Car& car) {
   StandingCar source;
   source.station_m = 30.0;  // on a straight
   world::Opponents opponents;
   run(
-      *car, seconds(4),
+      car, seconds(4),
       [&](Instant now) {
         Received received = source.receive(now);
         const bool due = now - kStart > seconds(2) && (now - kStart) / kTick % 5 == 0;
@@ -352,11 +351,25 @@ TEST(Step, TracksAnotherCar) {
         return received;
       },
       [&](const Outputs& out) { opponents = out.opponents; });
+  return opponents;
+}
+
+TEST(Step, TracksAnotherCar) {
+  const auto car = new_car();
+  const world::Opponents opponents = known_of_another(*car);
   ASSERT_EQ(opponents.cars.size(), 1U);
   EXPECT_NEAR(opponents.cars[0].s_m, 50.0, 1.0);
   EXPECT_NEAR(opponents.cars[0].n_m, 3.0, 0.5);
   EXPECT_NEAR(opponents.cars[0].speed_mps, 0.0, 1.0);
   EXPECT_GT(car->tracking.counters.frames, 30U);
+}
+
+TEST(Step, DoesNotTrackBySensorsThatTheOperatorHasExcluded) {
+  const auto car = new_car();
+  car->orders.use.excluded = 1U << static_cast<unsigned>(world::Excludable::kLidar);
+  EXPECT_EQ(known_of_another(*car).cars.size(), 0U);
+  EXPECT_EQ(car->tracking.counters.frames, 0U);
+  EXPECT_GT(car->tracking.counters.frames_excluded, 30U);
 }
 
 // ---- The state is a value

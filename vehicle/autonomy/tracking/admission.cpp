@@ -90,6 +90,20 @@ bool is_used_source(const Params& params, DetectionSource source) {
   return params.method == Method::kRoad || source != DetectionSource::kRadar;
 }
 
+// Of cameras two can be excluded, each by itself.
+bool is_excluded(const world::SensorUse& use, const DetectionFrame& frame) {
+  using enum world::Excludable;
+  switch (frame.source) {
+    case DetectionSource::kLidar:
+      return !use.uses(kLidar);
+    case DetectionSource::kRadar:
+      return !use.uses(kRadar);
+    case DetectionSource::kCamera:
+      break;
+  }
+  return (frame.unit == 0 && !use.uses(kCamera0)) || (frame.unit == 1 && !use.uses(kCamera1));
+}
+
 }  // namespace
 
 std::optional<AdmittedFrame> admit(const Params& params, const Surroundings& around,
@@ -99,6 +113,7 @@ std::optional<AdmittedFrame> admit(const Params& params, const Surroundings& aro
     return std::nullopt;
   };
   if (!is_used_source(params, frame.source)) return refuse(counters.frames_unknown);
+  if (is_excluded(around.use, frame)) return refuse(counters.frames_excluded);
   // Sums of `now`: a difference with a stamp that makes no sense could overflow.
   if (frame.at > around.now + from_seconds(params.ahead_max_s))
     return refuse(counters.frames_in_future);

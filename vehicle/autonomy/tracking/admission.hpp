@@ -16,6 +16,7 @@
 #include "vehicle/autonomy/tracking/own_trail.hpp"
 #include "vehicle/autonomy/tracking/params.hpp"
 #include "vehicle/world/detection.hpp"
+#include "vehicle/world/operator_inputs.hpp"
 #include "vehicle/world/track_map.hpp"
 
 namespace pitwall::tracking {
@@ -28,6 +29,7 @@ struct Counters {
   std::uint64_t frames_too_many = 0;  // beyond the room of the window
   std::uint64_t frames_unplaced = 0;  // our own pose at their time is not known
   std::uint64_t frames_unknown = 0;   // of no known source, or one that the method does not use
+  std::uint64_t frames_excluded = 0;  // of a sensor that the operator has excluded
   std::uint64_t not_finite = 0;       // or without a value that its source must have
   std::uint64_t low_confidence = 0, in_own_car = 0, off_track = 0;
   std::uint64_t too_far = 0;   // beyond reach_m
@@ -43,6 +45,7 @@ struct AdmittedFrame {
 struct Surroundings {
   const OwnTrail& own;
   const world::TrackMap* track;  // null: a plane without a map
+  world::SensorUse use;
   Instant now;
 };
 

@@ -57,7 +57,8 @@ Output step(const Params& params, State& state, const Inputs& in) {
   Output out;
   for (const world::DetectionFrame& frame : in.frames) {
     const auto admitted =
-        admit(params, {.own = state.own, .track = in.track, .now = in.now}, frame, state.counters);
+        admit(params, {.own = state.own, .track = in.track, .use = in.use, .now = in.now}, frame,
+              state.counters);
     if (admitted && use_frame(params, state, *admitted)) out.published = true;
   }
   if (out.published) {

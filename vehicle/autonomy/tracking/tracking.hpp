@@ -39,6 +39,7 @@ struct Inputs {
   std::span<const world::DetectionFrame> frames;  // in order of arrival, since the last step
   const world::EgoState& ego;                     // at `now`
   const world::TrackMap* track = nullptr;         // null: a plane without a map
+  world::SensorUse use{};
   Instant now{};
 };
 

@@ -26,6 +26,7 @@ std::string tracking_json(const tracking::Counters& counters, const world::Oppon
       .number("frames_too_many", counters.frames_too_many)
       .number("frames_unplaced", counters.frames_unplaced)
       .number("frames_unknown", counters.frames_unknown)
+      .number("frames_excluded", counters.frames_excluded)
       .number("not_finite", counters.not_finite)
       .number("low_confidence", counters.low_confidence)
       .number("in_own_car", counters.in_own_car)

@@ -145,7 +145,7 @@ TEST_F(CarSummaryFile, ItsDetectionsAndTheCarsThatItTracksAreReadAsItHadThem) {
       io::summary_json({}, some_totals(), some_health(), {},
                        {.sensors = sensors, .tracking = io::tracking_json(counters, opponents)})));
   ASSERT_TRUE(car) << to_string(car.error());
-  EXPECT_EQ(car->tracking.size(), 14U);
+  EXPECT_EQ(car->tracking.size(), 15U);
   EXPECT_EQ(car->tracking[0], (std::pair<std::string, std::uint64_t>{"frames", 9}));
   ASSERT_EQ(car->opponents.size(), 1U);
   EXPECT_EQ(car->opponents[0].x_m, -1.5);

@@ -44,8 +44,8 @@ TEST(CommandTable, AValueIsOneThatHasAName) {
   }
   EXPECT_FALSE(row_of(CommandType::kTrackFlag).has(9.0));
   EXPECT_FALSE(row_of(CommandType::kTrackFlag).has(7.0)) << "nobody shows an unknown flag";
-  EXPECT_TRUE(row_of(CommandType::kSensorsExcluded).has(31.0));
-  EXPECT_FALSE(row_of(CommandType::kSensorsExcluded).has(32.0));
+  EXPECT_TRUE(row_of(CommandType::kSensorsExcluded).has(511.0));
+  EXPECT_FALSE(row_of(CommandType::kSensorsExcluded).has(512.0));
 }
 
 }  // namespace

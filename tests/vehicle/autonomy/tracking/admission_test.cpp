@@ -3,7 +3,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <limits>
+#include <map>
+#include <vector>
 
 #include "tests/vehicle/autonomy/tracking/race.hpp"
 
@@ -26,13 +30,15 @@ struct Gate {
   Params params;
   Counters counters;
   const world::TrackMap* track = &testing::round_track();
+  world::SensorUse use;
 
   Gate() {
     for (int k = 0; k <= 200; ++k)
       trail.note(ego_of(kOwn.at(0.01 * k), at_ms(10 * k)), &testing::round_track());
   }
   std::optional<AdmittedFrame> admit(const DetectionFrame& f) {
-    return tracking::admit(params, {.own = trail, .track = track, .now = at_ms(2000)}, f, counters);
+    return tracking::admit(params, {.own = trail, .track = track, .use = use, .now = at_ms(2000)},
+                           f, counters);
   }
   // Number of detections that are used.
   std::size_t used(DetectionSource source, const Detection& d) {
@@ -163,6 +169,34 @@ TEST(Admission, RefusesSourcesThatItDoesNotKnow) {
   EXPECT_FALSE(gate.admit({.source = DetectionSource::kRadar, .at = at_ms(1950)}));
   EXPECT_TRUE(gate.admit({.source = DetectionSource::kCamera, .at = at_ms(1950)}));
   EXPECT_EQ(gate.counters.frames_unknown, 2U);
+}
+
+TEST(Admission, RefusesASensorThatTheOperatorHasExcluded) {
+  using enum world::Excludable;
+  struct Sensor {
+    DetectionSource source;
+    std::uint8_t unit;
+  };
+  const std::array sensors{Sensor{DetectionSource::kLidar, 0},  Sensor{DetectionSource::kLidar, 2},
+                           Sensor{DetectionSource::kCamera, 0}, Sensor{DetectionSource::kCamera, 1},
+                           Sensor{DetectionSource::kCamera, 2}, Sensor{DetectionSource::kRadar, 0}};
+  const std::map<world::Excludable, std::vector<std::size_t>> excluded{
+      {kGnss0, {}},     {kGnss1, {}},    {kImu0, {}},     {kImu1, {}},  {kWheels, {}},
+      {kLidar, {0, 1}}, {kCamera0, {2}}, {kCamera1, {3}}, {kRadar, {5}}};
+  ASSERT_EQ(excluded.size(), world::kExcludables);
+  for (const auto& [sensor, of_those] : excluded) {
+    Gate gate;
+    gate.use.excluded = static_cast<std::uint16_t>(1U << static_cast<unsigned>(sensor));
+    for (std::size_t i = 0; i < sensors.size(); ++i) {
+      const bool is_out = std::ranges::find(of_those, i) != of_those.end();
+      const auto [source, unit] = sensors[i];
+      EXPECT_EQ(gate.admit({.source = source, .unit = unit, .at = at_ms(1950)}).has_value(),
+                !is_out)
+          << static_cast<int>(sensor) << " " << i;
+    }
+    EXPECT_EQ(gate.counters.frames_excluded, of_those.size());
+    EXPECT_EQ(gate.counters.frames, sensors.size() - of_those.size());
+  }
 }
 
 }  // namespace

@@ -219,7 +219,7 @@ TEST(Tracking, NoInputBreaksIt) {
       const Counters& n = loop.last.counters;
       (void)detections;
       EXPECT_EQ(n.frames + n.frames_in_future + n.frames_too_old + n.frames_repeated +
-                    n.frames_too_many + n.frames_unplaced + n.frames_unknown,
+                    n.frames_too_many + n.frames_unplaced + n.frames_unknown + n.frames_excluded,
                 frames);
       EXPECT_GT(n.frames, 0U);
       EXPECT_GT(n.not_finite, 0U);

@@ -14,11 +14,11 @@ TEST(TrackingSummary, HasEveryCountAndEveryCar) {
   for (std::uint64_t* const count :
        {&counters.frames, &counters.detections, &counters.frames_in_future,
         &counters.frames_too_old, &counters.frames_repeated, &counters.frames_too_many,
-        &counters.frames_unplaced, &counters.frames_unknown, &counters.not_finite,
-        &counters.low_confidence, &counters.in_own_car, &counters.off_track, &counters.too_far,
-        &counters.too_many})
+        &counters.frames_unplaced, &counters.frames_unknown, &counters.frames_excluded,
+        &counters.not_finite, &counters.low_confidence, &counters.in_own_car, &counters.off_track,
+        &counters.too_far, &counters.too_many})
     *count = ++n;
-  static_assert(sizeof(tracking::Counters) == 14 * sizeof(std::uint64_t));
+  static_assert(sizeof(tracking::Counters) == 15 * sizeof(std::uint64_t));
   world::Opponents opponents{.at = Instant{seconds(10).ns}, .cars = {}};
   ASSERT_TRUE(opponents.cars.push({.id = 7,
                                    .x_m = 1.5,
@@ -30,10 +30,10 @@ TEST(TrackingSummary, HasEveryCountAndEveryCar) {
   double sum = 0.0;
   for (const char* name :
        {"frames", "detections", "frames_in_future", "frames_too_old", "frames_repeated",
-        "frames_too_many", "frames_unplaced", "frames_unknown", "not_finite", "low_confidence",
-        "in_own_car", "off_track", "too_far", "too_many"})
+        "frames_too_many", "frames_unplaced", "frames_unknown", "frames_excluded", "not_finite",
+        "low_confidence", "in_own_car", "off_track", "too_far", "too_many"})
     sum += json->number(name);
-  EXPECT_EQ(sum, 14.0 * 15.0 / 2.0);
+  EXPECT_EQ(sum, 15.0 * 16.0 / 2.0);
   EXPECT_EQ(json->number("frames_unplaced"), 7.0);
   ASSERT_EQ(json->items("cars").size(), 1U);
   const auto& car = json->items("cars")[0];
