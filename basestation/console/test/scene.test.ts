@@ -5,8 +5,18 @@
 // SPDX-License-Identifier: Apache-2.0
 import { afterEach, describe, expect, test } from "vitest";
 import { kTrack } from "../../../tests/system/console/drive.mjs";
+import { ageCode } from "../../../tests/system/console/wire.mjs";
 import { Course } from "../src/map/course";
-import { ghost, kSigmas, lineOffset, mates, own, rivals, trail } from "../src/map/scene";
+import {
+  ghost,
+  kForgottenMs,
+  kSigmas,
+  lineOffset,
+  mates,
+  own,
+  rivals,
+  trail,
+} from "../src/map/scene";
 import { CarSession } from "../src/store/car_session";
 import { Fields } from "../src/store/fields";
 import { History } from "../src/store/history";
@@ -67,6 +77,28 @@ test.each([
   const [rival, ...more] = rivals(fields, course);
   expect(more).toEqual([]);
   expect(rival).toMatchObject({ identity: 7, closing: 5, stale: old });
+});
+
+test("a rival of which the car says nothing more goes, and stays when the car is silent", () => {
+  const rivalsWhen = (rivalMs: number, ownMs: number) => {
+    const fields = heard(Quality.stale);
+    for (const { id, path } of fields.info) {
+      const [group] = path.split(".");
+      const ageMs = group === "opponent_1" ? rivalMs : ownMs;
+      fields.write(
+        id,
+        ageMs > 1000 ? Quality.stale : Quality.fresh,
+        ageCode(ageMs),
+        kValues[path],
+        1000,
+      );
+    }
+    return rivals(fields, course).map(({ identity, stale }) => [identity, stale]);
+  };
+  expect(rivalsWhen(100, 100)).toEqual([[7, false]]);
+  expect(rivalsWhen(9_000, 100)).toEqual([[7, true]]);
+  expect(rivalsWhen(kForgottenMs + 2_000, 100)).toEqual([]);
+  expect(rivalsWhen(60_000, 60_000)).toEqual([[7, true]]);
 });
 
 test("nothing that was never heard is placed", () => {

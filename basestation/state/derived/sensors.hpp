@@ -20,6 +20,7 @@
 
 namespace pitwall::state {
 
+// `latency_allowed_ms`: of the largest one within a second, as the car reports it.
 struct SensorRow {
   std::string_view name;
   telemetry::FieldIndex rate, gap, latency;
@@ -40,7 +41,7 @@ inline constexpr auto kSensorTable = std::to_array<SensorRow>({
     sensor_row("gnss1", 20.0, 100.0),
     sensor_row("imu0", 125.0, 30.0),
     sensor_row("imu1", 125.0, 30.0),
-    sensor_row("lidar", 20.0, 105.0),
+    sensor_row("lidar", 20.0, 150.0),
     sensor_row("lidar0", 20.0, 105.0),
     sensor_row("lidar1", 20.0, 105.0),
     sensor_row("lidar2", 20.0, 105.0),

@@ -16,6 +16,8 @@ import type { Course, Point, Pose } from "./course";
 export const kRivals = 4;
 /** Without a detection for longer, the car's tracker only carries the rival on. */
 export const kCoastsAfterS = 0.5;
+/** A rival of which the car says nothing for so long, and does of itself, is gone. */
+export const kForgottenMs = 10_000;
 /** The circle around a rival: so many standard deviations of its place, in the worst direction. */
 export const kSigmas = 2;
 const kTrailMs = 12_000;
@@ -58,10 +60,17 @@ export interface TrailPoint extends Point {
 
 const scratch: Reading = { ...kNothing };
 
-const valueOf = (store: Fields, path: string): { value: number; quality: Quality } => {
-  const { value, quality } = read(store.slot(path));
-  return { value, quality };
+const valueOf = (store: Fields, path: string): Pick<Reading, "value" | "quality" | "ageMs"> => {
+  const { value, quality, ageMs } = read(store.slot(path));
+  return { value, quality, ageMs };
 };
+
+/** Whether the car no longer tells of a rival, `opponent_1` or another, which it did once. */
+export function isGone(store: Fields, group: string): boolean {
+  const { quality, ageMs } = valueOf(store, `${group}.station`);
+  const isOld = quality === Quality.stale && ageMs > kForgottenMs;
+  return isOld && valueOf(store, "ego.x").quality < Quality.stale;
+}
 
 export function own(store: Fields): Own | null {
   const x = valueOf(store, "ego.x");
@@ -98,7 +107,7 @@ export function rivals(store: Fields, course: Course): Rival[] {
     const station = valueOf(store, `opponent_${n}.station`);
     const offset = valueOf(store, `opponent_${n}.offset`);
     if (identity.quality === Quality.never || !Number.isFinite(station.value)) continue;
-    if (!(identity.value > 0)) continue;
+    if (!(identity.value > 0) || isGone(store, `opponent_${n}`)) continue;
     const rivalSpeed = valueOf(store, `opponent_${n}.speed`).value;
     const seenS = valueOf(store, `opponent_${n}.age`).value;
     found.push({

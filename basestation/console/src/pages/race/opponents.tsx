@@ -3,7 +3,10 @@
  * it has not been detected and how surely its place is known.
  */
 // SPDX-License-Identifier: Apache-2.0
-import { kRivals } from "../../map/scene";
+import { useRef } from "preact/hooks";
+import { isGone, kRivals } from "../../map/scene";
+import * as session from "../../store/session";
+import { kDigitsHz, usePainter } from "../../view/painting";
 import { speedUnit } from "../../view/speed_unit";
 import { TableHead } from "../../view/table_head";
 import { Value } from "../../view/value";
@@ -16,6 +19,30 @@ const kColumns = [
   ["position_sigma", 1],
 ] as const;
 
+function Opponent({ group }: { group: string }) {
+  const row = useRef<HTMLTableRowElement>(null);
+  const store = session.fields.value;
+  usePainter(
+    () => {
+      if (row.current) row.current.style.visibility = isGone(store, group) ? "hidden" : "";
+    },
+    kDigitsHz,
+    [store, group],
+  );
+  return (
+    <tr ref={row}>
+      <th scope="row">
+        <Value path={`${group}.identity`} />
+      </th>
+      {kColumns.map(([name, decimals]) => (
+        <td key={name}>
+          <Value path={`${group}.${name}`} decimals={decimals} unit={false} />
+        </td>
+      ))}
+    </tr>
+  );
+}
+
 export function OpponentPanel() {
   const names = ["#", "station m", "offset m", speedUnit.value.name, "seen s ago", "\u03c3 m"];
   return (
@@ -25,16 +52,7 @@ export function OpponentPanel() {
         <TableHead names={names} />
         <tbody>
           {Array.from({ length: kRivals }, (_, i) => `opponent_${i + 1}`).map((group) => (
-            <tr key={group}>
-              <th scope="row">
-                <Value path={`${group}.identity`} />
-              </th>
-              {kColumns.map(([name, decimals]) => (
-                <td key={name}>
-                  <Value path={`${group}.${name}`} decimals={decimals} unit={false} />
-                </td>
-              ))}
-            </tr>
+            <Opponent key={group} group={group} />
           ))}
         </tbody>
       </table>
