@@ -5,7 +5,7 @@
 //          way back
 //   law    pixel() of direction() is the pixel, to 1e-6 px
 //   errors direction(): nullopt where the model has no inverse, beyond the image's useful part
-//   cost   0.1 us without distortion, 1 us with it; no allocation
+//   cost   without distortion two divisions, with it some five steps; no allocation
 //   source OpenCV, "Camera calibration and 3D reconstruction": plumb_bob has k1, k2, p1, p2, k3,
 //          the rational model k4 to k6 too. Inverse: Newton's method
 // SPDX-License-Identifier: Apache-2.0

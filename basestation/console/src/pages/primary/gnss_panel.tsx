@@ -16,7 +16,7 @@ const kRows: readonly Row[] = [
   ["satellites", "satellites"],
   ["\u03c3 position", "sigma", { decimals: 3 }],
   ["\u03c3 heading", "heading_sigma", { scale: 57.29578, decimals: 2, unit: "\u00b0" }],
-  ["correction age", "differential_age", { decimals: 1 }],
+  ["corr. age", "differential_age", { decimals: 1 }],
   ["position used", "position_verdict"],
 ];
 
