@@ -26,12 +26,6 @@ struct ArrivalFigures {
   double rate_hz = kUnset, gap_ms = kUnset, latency_ms = kUnset;
 };
 
-// Of a sensor: its rate is 0 before the first message.
-struct SensorFigures {
-  ArrivalFigures arrivals;
-  std::uint64_t drops = 0;  // messages that were not used
-};
-
 // Rounded to a thousandth; left out where it is not known.
 void add_figure(json::Object& out, const char* name, double value);
 void add_figures(json::Object& out, const ArrivalFigures& figures);
@@ -57,6 +51,14 @@ class Arrivals {
   std::atomic<std::uint64_t> count_{0};
   std::atomic<std::int64_t> last_ns_{0};
   std::atomic<double> rate_hz_{kUnset}, gap_ms_{kUnset}, latency_ms_{kUnset};
+};
+
+// Of a sensor that the car has: its rate is 0 before the first message, too.
+struct SensorFigures {
+  SensorFigures(const Arrivals& of, std::uint64_t dropped, Instant now);
+
+  ArrivalFigures arrivals;
+  std::uint64_t drops;  // messages that were not used
 };
 
 }  // namespace pitwall::io

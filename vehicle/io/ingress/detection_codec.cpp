@@ -57,8 +57,8 @@ std::optional<Detection> detection_of(const DetectionRow& row, const ros::Detect
   const double u_px = m.bbox.center.position.x, v_px = m.bbox.center.position.y;
   const double height_px = m.bbox.size_y;
   if (!are_finite({u_px, v_px, height_px}) || height_px < 0.0) return std::nullopt;
-  const auto upper = perception::direction(row.camera, {u_px, v_px - 0.5 * height_px});
-  const auto lower = perception::direction(row.camera, {u_px, v_px + 0.5 * height_px});
+  const auto upper = perception::undistort(row.camera, {u_px, v_px - 0.5 * height_px});
+  const auto lower = perception::undistort(row.camera, {u_px, v_px + 0.5 * height_px});
   if (!upper || !lower) return std::nullopt;
   const double off_axis_rad = std::atan(-0.5 * (upper->x + lower->x));
   Detection d;
@@ -154,8 +154,8 @@ ros::Detection2DArray image_message(const DetectionRow& row, const DetectionFram
     const double x = -std::tan(off_axis_rad);
     const double half =
         0.5 * or_zero(d.inverse_depth_per_m) * row.height_m / std::cos(off_axis_rad);
-    const perception::Pixel upper = perception::pixel(row.camera, {x, -half});
-    const perception::Pixel lower = perception::pixel(row.camera, {x, half});
+    const perception::Pixel upper = perception::project(row.camera, {x, -half});
+    const perception::Pixel lower = perception::project(row.camera, {x, half});
     out.bbox.center.position = {0.5 * (upper.u_px + lower.u_px), 0.5 * (upper.v_px + lower.v_px)};
     out.bbox.size_y = lower.v_px - upper.v_px;
   }

@@ -186,9 +186,7 @@ std::optional<SensorFigures> SensorIngress::figures(SensorType type, std::size_t
     if (sensor->row.type != type) continue;
     const std::size_t number = detects_cars(type) ? sensor->row.detections.unit : before++;
     if (number != unit) continue;
-    SensorFigures figures{sensor->arrivals.newest(now), sensor->drops()};
-    if (std::isnan(figures.arrivals.rate_hz)) figures.arrivals.rate_hz = 0.0;
-    return figures;
+    return SensorFigures{sensor->arrivals, sensor->drops(), now};
   }
   return std::nullopt;
 }

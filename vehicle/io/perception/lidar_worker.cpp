@@ -2,7 +2,6 @@
 #include "vehicle/io/perception/lidar_worker.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include "protocol/json/json_text.hpp"
@@ -119,9 +118,7 @@ void LidarWorker::make_frame() {
 }
 
 SensorFigures LidarWorker::frame_figures(Instant now) const {
-  SensorFigures figures{arrivals_.newest(now), unreadable_ + bad_stamps_ + no_room_};
-  if (std::isnan(figures.arrivals.rate_hz)) figures.arrivals.rate_hz = 0.0;
-  return figures;
+  return {arrivals_, unreadable_ + bad_stamps_ + no_room_, now};
 }
 
 LidarWorker::Counts LidarWorker::counts() const {

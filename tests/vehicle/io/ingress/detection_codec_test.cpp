@@ -138,7 +138,7 @@ TEST(DetectionCodec, AnImageIsReadByTheCalibrationOfItsCamera) {
   row.camera = {1046.25, 1048.75, 1032.5, 471.25, {-0.302, 0.096, 0.0011, -0.0007, -0.0125}};
   const double along_m = 30.0 * std::cos(from_deg(20.0)), left_m = 30.0 * std::sin(from_deg(20.0));
   const auto at_height = [&](double below_axis_m) {
-    return perception::pixel(row.camera, {-left_m / along_m, below_axis_m / along_m});
+    return perception::project(row.camera, {-left_m / along_m, below_axis_m / along_m});
   };
   const perception::Pixel top = at_height(-0.6), bottom = at_height(0.6);
   ros::Detection2D image;

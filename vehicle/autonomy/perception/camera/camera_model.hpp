@@ -1,10 +1,10 @@
-// What a camera sees where: pixels to directions and back, by the model that calibrations of OpenCV
+// What a camera sees where: pixels to normalized image points and back, by the model that calibrations of OpenCV
 // and ROS fill in.
 //   in     a pixel of the image as it comes from the camera, u to the right, v down
-//   out    direction() x to the right and y down, at depth 1 along the optical axis; pixel() is the
+//   out    undistort(): x to the right and y down, at depth 1 along the optical axis. project() is the
 //          way back
-//   law    pixel() of direction() is the pixel, to 1e-6 px
-//   errors direction(): nullopt where the model has no inverse, beyond the image's useful part
+//   law    project() of undistort() is the pixel, to 1e-6 px
+//   errors undistort(): nullopt where the model has no inverse, beyond the image's useful part
 //   cost   without distortion two divisions, with it some five steps; no allocation
 //   source OpenCV, "Camera calibration and 3D reconstruction": plumb_bob has k1, k2, p1, p2, k3,
 //          the rational model k4 to k6 too. Inverse: Newton's method
@@ -23,7 +23,7 @@ struct Pixel {
   double u_px = kUnset, v_px = kUnset;
 };
 
-struct SightLine {
+struct NormalizedPoint {
   double x = kUnset, y = kUnset;  // for 1 of depth
 };
 
@@ -39,7 +39,7 @@ struct CameraModel {
   }
 };
 
-Pixel pixel(const CameraModel& camera, const SightLine& line);
-std::optional<SightLine> direction(const CameraModel& camera, const Pixel& at);
+Pixel project(const CameraModel& camera, const NormalizedPoint& point);
+std::optional<NormalizedPoint> undistort(const CameraModel& camera, const Pixel& at);
 
 }  // namespace pitwall::perception

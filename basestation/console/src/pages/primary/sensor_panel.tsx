@@ -13,7 +13,7 @@ import { Value } from "../../view/value";
 import { Quality } from "../../wire/status";
 
 /** On every car. */
-const kOwn = [
+const kLocalizationSensors = [
   ["gnss0", "GNSS 0"],
   ["gnss1", "GNSS 1"],
   ["imu0", "IMU 0"],
@@ -21,7 +21,7 @@ const kOwn = [
 ] as const;
 
 /** LiDAR: frames of detections; LiDAR 0 to 2: clouds. */
-const kOfOthers = [
+const kDetectionSensors = [
   ["lidar", "LiDAR"],
   ["lidar0", "LiDAR 0"],
   ["lidar1", "LiDAR 1"],
@@ -36,7 +36,7 @@ interface RowProps {
   label: string;
 }
 
-function Figures({ sensor, label }: RowProps) {
+function ArrivalCells({ sensor, label }: RowProps) {
   return (
     <>
       <th scope="row">{label}</th>
@@ -53,7 +53,7 @@ function Figures({ sensor, label }: RowProps) {
   );
 }
 
-function RowOfOthers({ sensor, label }: RowProps) {
+function DetectionSensorRow({ sensor, label }: RowProps) {
   const row = useRef<HTMLTableRowElement>(null);
   const slot = session.fields.value.slot(`sensors.${sensor}_rate`);
   usePainter(
@@ -67,7 +67,7 @@ function RowOfOthers({ sensor, label }: RowProps) {
   );
   return (
     <tr ref={row} hidden>
-      <Figures sensor={sensor} label={label} />
+      <ArrivalCells sensor={sensor} label={label} />
       <td>
         <Value path={`sensors.${sensor}_drops`} unit={false} />
       </td>
@@ -80,14 +80,14 @@ export function SensorPanel() {
     <table class="readings">
       <TableHead names={["sensor", "rate Hz", "gap ms", "latency ms", "drops"]} />
       <tbody>
-        {kOwn.map(([sensor, label]) => (
+        {kLocalizationSensors.map(([sensor, label]) => (
           <tr key={sensor}>
-            <Figures sensor={sensor} label={label} />
+            <ArrivalCells sensor={sensor} label={label} />
             <td />
           </tr>
         ))}
-        {kOfOthers.map(([sensor, label]) => (
-          <RowOfOthers key={sensor} sensor={sensor} label={label} />
+        {kDetectionSensors.map(([sensor, label]) => (
+          <DetectionSensorRow key={sensor} sensor={sensor} label={label} />
         ))}
       </tbody>
     </table>

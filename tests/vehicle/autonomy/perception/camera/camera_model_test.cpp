@@ -23,16 +23,16 @@ const CameraModel kRational = with({0.52, 0.031, -0.0004, 0.0009, 0.0021, 0.86, 
 
 struct Pair {
   Pixel at;
-  SightLine line;
+  NormalizedPoint point;
 };
 
 void expect_pairs(const CameraModel& camera, const std::array<Pair, 7>& pairs) {
   for (const Pair& pair : pairs) {
-    const auto line = direction(camera, pair.at);
-    ASSERT_TRUE(line) << pair.at.u_px << " " << pair.at.v_px;
-    EXPECT_NEAR(line->x, pair.line.x, 2e-9);
-    EXPECT_NEAR(line->y, pair.line.y, 2e-9);
-    const Pixel back = pixel(camera, pair.line);
+    const auto point = undistort(camera, pair.at);
+    ASSERT_TRUE(point) << pair.at.u_px << " " << pair.at.v_px;
+    EXPECT_NEAR(point->x, pair.point.x, 2e-9);
+    EXPECT_NEAR(point->y, pair.point.y, 2e-9);
+    const Pixel back = project(camera, pair.point);
     EXPECT_NEAR(back.u_px, pair.at.u_px, 2e-6);
     EXPECT_NEAR(back.v_px, pair.at.v_px, 2e-6);
   }
@@ -63,9 +63,9 @@ TEST(CameraModel, APixelOfADirectionIsThePixel) {
     const Pixel at{u_px, testing::draw_uniform(random, 0.0, 960.0)};
     for (const CameraModel& camera :
          {CameraModel::pinhole(900.0, 1000.0), with({}), kPlumbBob, kRational}) {
-      const auto line = direction(camera, at);
-      ASSERT_TRUE(line) << at.u_px << " " << at.v_px;
-      const Pixel back = pixel(camera, *line);
+      const auto point = undistort(camera, at);
+      ASSERT_TRUE(point) << at.u_px << " " << at.v_px;
+      const Pixel back = project(camera, *point);
       EXPECT_NEAR(back.u_px, at.u_px, 1e-6);
       EXPECT_NEAR(back.v_px, at.v_px, 1e-6);
     }
@@ -76,7 +76,7 @@ TEST(CameraModel, WhereTheImageFoldsBackThereIsNoDirection) {
   // r (1 - r^2 / 2) is at most 0.544, at r = 0.816.
   const CameraModel camera = with({-0.5, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0});
   const auto to_the_right = [&](double x) {
-    return direction(camera, {kCentreX_px + kFocalX_px * x, kCentreY_px});
+    return undistort(camera, {kCentreX_px + kFocalX_px * x, kCentreY_px});
   };
   const auto inside = to_the_right(0.54);
   ASSERT_TRUE(inside);

@@ -22,8 +22,8 @@ namespace {
 using Cell = std::pair<std::int32_t, std::int32_t>;
 
 // Points whose cell is full enough.
-Indices surfaces(std::span<const PlanePoint> points, const ClusterRule& rule,
-                 std::span<const float> weights) {
+Indices points_of_full_cells(std::span<const PlanePoint> points, const ClusterRule& rule,
+                             std::span<const float> weights) {
   const auto cell_of = [&](const PlanePoint& p) {
     return Cell{static_cast<std::int32_t>(std::floor(p.x_m / rule.cell_m)),
                 static_cast<std::int32_t>(std::floor(p.y_m / rule.cell_m))};
@@ -43,7 +43,7 @@ Indices surfaces(std::span<const PlanePoint> points, const ClusterRule& rule,
 std::vector<Indices> clusters_of(std::span<const PlanePoint> points, const ClusterRule& rule,
                                  std::span<const float> weights) {
   using Point = pcl::PointXYZ;
-  const Indices kept = surfaces(points, rule, weights);
+  const Indices kept = points_of_full_cells(points, rule, weights);
   if (kept.empty()) return {};
   const auto cloud = std::make_shared<pcl::PointCloud<Point>>();
   for (const std::uint32_t i : kept)
