@@ -1,8 +1,8 @@
-// What a camera sees where: pixels to normalized image points and back, by the model that calibrations of OpenCV
-// and ROS fill in.
+// What a camera sees where: pixels to normalized image points and back, by the model that
+// calibrations of OpenCV and ROS fill in.
 //   in     a pixel of the image as it comes from the camera, u to the right, v down
-//   out    undistort(): x to the right and y down, at depth 1 along the optical axis. project() is the
-//          way back
+//   out    undistort(): x to the right and y down, at depth 1 along the optical axis. project() is
+//          the way back
 //   law    project() of undistort() is the pixel, to 1e-6 px
 //   errors undistort(): nullopt where the model has no inverse, beyond the image's useful part
 //   cost   without distortion two divisions, with it some five steps; no allocation
