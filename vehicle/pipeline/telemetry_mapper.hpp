@@ -38,7 +38,7 @@ struct IoCounters {
   };
   std::array<Path, 2> paths{};
   std::array<world::ReceiverTraffic, world::kGnssUnits> receivers{};
-  // Of a sensor that sees other cars; unset: the car has none. Its rate is 0 until it sends.
+  // Of a sensor that sees other cars; unset: the car has none, or it has not sent yet.
   struct Sensor {
     double rate_hz = kUnset, gap_ms = kUnset, latency_ms = kUnset;
     double drops = kUnset;  // messages that were not used

@@ -44,9 +44,10 @@ ArrivalFigures Arrivals::newest(Instant now) const {
           .latency_ms = gone ? kUnset : latency_ms_.load(std::memory_order_relaxed)};
 }
 
-SensorFigures::SensorFigures(const Arrivals& of, std::uint64_t dropped, Instant now)
+SensorFigures::SensorFigures(const Arrivals& of, std::uint64_t dropped, Instant started,
+                             Instant now)
     : arrivals(of.newest(now)), drops(dropped) {
-  if (std::isnan(arrivals.rate_hz)) arrivals.rate_hz = 0.0;
+  if (std::isnan(arrivals.rate_hz) && now - started >= kAwaited) arrivals.rate_hz = 0.0;
 }
 
 }  // namespace pitwall::io

@@ -53,9 +53,11 @@ class Arrivals {
   std::atomic<double> rate_hz_{kUnset}, gap_ms_{kUnset}, latency_ms_{kUnset};
 };
 
-// Of a sensor that the car has: its rate is 0 before the first message, too.
+// Of a sensor that the car has. Where it sends nothing within kAwaited of the start, its rate is 0.
 struct SensorFigures {
-  SensorFigures(const Arrivals& of, std::uint64_t dropped, Instant now);
+  static constexpr Duration kAwaited = seconds(20);
+
+  SensorFigures(const Arrivals& of, std::uint64_t dropped, Instant started, Instant now);
 
   ArrivalFigures arrivals;
   std::uint64_t drops;  // messages that were not used

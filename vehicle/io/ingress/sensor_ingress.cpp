@@ -154,7 +154,9 @@ struct SensorIngress::Sensor {
   std::unique_ptr<dds::Domain> domain;  // last: its threads use all of the above
 };
 
-SensorIngress::SensorIngress() { frames_.reserve(kFramesMost); }
+SensorIngress::SensorIngress() : started_(transport::monotonic_now()) {
+  frames_.reserve(kFramesMost);
+}
 
 SensorIngress::~SensorIngress() = default;
 
@@ -186,7 +188,7 @@ std::optional<SensorFigures> SensorIngress::figures(SensorType type, std::size_t
     if (sensor->row.type != type) continue;
     const std::size_t number = detects_cars(type) ? sensor->row.detections.unit : before++;
     if (number != unit) continue;
-    return SensorFigures{sensor->arrivals, sensor->drops(), now};
+    return SensorFigures{sensor->arrivals, sensor->drops(), started_, now};
   }
   return std::nullopt;
 }

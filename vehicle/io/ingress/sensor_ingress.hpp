@@ -74,6 +74,7 @@ class SensorIngress {
 
  private:
   SensorIngress();
+  Instant started_;
   std::vector<std::unique_ptr<Sensor>> sensors_;
   std::vector<world::DetectionFrame> frames_;  // of this tick
 };

@@ -38,7 +38,9 @@ std::unique_ptr<LidarWorker> LidarWorker::start(std::vector<LidarSource> sources
 
 LidarWorker::LidarWorker(std::vector<LidarSource> sources, const world::TrackMap& track,
                          std::optional<perception::PillarDetector> network, Gathering gathering)
-    : gatherer_(sources.size(), gathering), detector_(track, {}, std::move(network)) {
+    : started_(transport::monotonic_now()),
+      gatherer_(sources.size(), gathering),
+      detector_(track, {}, std::move(network)) {
   for (LidarSource& source : sources) {
     horizon_most_ = std::max(horizon_most_, source.row.horizon);
     units_.push_back({.source = std::move(source)});
@@ -118,7 +120,7 @@ void LidarWorker::make_frame() {
 }
 
 SensorFigures LidarWorker::frame_figures(Instant now) const {
-  return {arrivals_, unreadable_ + bad_stamps_ + no_room_, now};
+  return {arrivals_, unreadable_ + bad_stamps_ + no_room_, started_, now};
 }
 
 LidarWorker::Counts LidarWorker::counts() const {

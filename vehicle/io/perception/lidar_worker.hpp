@@ -82,6 +82,7 @@ class LidarWorker {
   void take(std::size_t unit, const ros::PointCloud2& cloud);
   void make_frame();
 
+  Instant started_;
   std::vector<Unit> units_;
   SweepGatherer gatherer_;
   perception::LidarDetector detector_;

@@ -17,6 +17,21 @@ TEST(Arrivals, NothingIsKnownBeforeTheFirst) {
               std::isnan(figures.latency_ms));
 }
 
+// A computer's drivers need their time; one that never comes is a sensor at 0 Hz.
+TEST(SensorFigures, ASensorThatNeverComesHasTheRateZeroOnceItWasAwaited) {
+  Arrivals arrivals;
+  const auto rate_hz = [&](Duration since_start) {
+    return SensorFigures{arrivals, 7, kStart, kStart + since_start}.arrivals.rate_hz;
+  };
+  constexpr Duration kJustBefore = SensorFigures::kAwaited - milliseconds(1);
+  EXPECT_TRUE(std::isnan(rate_hz(Duration{})));
+  EXPECT_TRUE(std::isnan(rate_hz(kJustBefore)));
+  EXPECT_EQ(rate_hz(SensorFigures::kAwaited), 0.0);
+  arrivals.note(kStart + SensorFigures::kAwaited, {});
+  EXPECT_EQ(rate_hz(SensorFigures::kAwaited), 1.0);
+  EXPECT_EQ((SensorFigures{arrivals, 7, kStart, kStart}.drops), 7U);
+}
+
 TEST(Arrivals, AnEvenStreamHasItsRateItsPeriodAndItsLatency) {
   Arrivals arrivals;
   Instant now = kStart;

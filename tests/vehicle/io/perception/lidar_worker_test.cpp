@@ -148,9 +148,11 @@ TEST(LidarWorker, WhatCannotBeUsedIsCounted) {
   lidar.send(flat);
   ASSERT_TRUE(comes([&] { return worker->counts().unreadable == 1; }));
   EXPECT_EQ(worker->counts().frames, 0U);
-  const SensorFigures figures = worker->frame_figures(transport::monotonic_now());
-  EXPECT_EQ(figures.drops, 3U);
-  EXPECT_EQ(figures.arrivals.rate_hz, 0.0) << "no frame yet, but there is to be one";
+  const Instant now = transport::monotonic_now();
+  EXPECT_EQ(worker->frame_figures(now).drops, 3U);
+  EXPECT_TRUE(std::isnan(worker->frame_figures(now).arrivals.rate_hz));
+  EXPECT_EQ(worker->frame_figures(now + SensorFigures::kAwaited).arrivals.rate_hz, 0.0)
+      << "no frame yet, but there is to be one";
   lidar.send(points);
   ASSERT_TRUE(comes([&] { return worker->counts().frames == 1; })) << "it goes on";
 }
