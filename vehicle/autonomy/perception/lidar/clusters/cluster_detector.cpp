@@ -239,6 +239,7 @@ void find_cars(std::span<const Object> objects, const Surroundings& surroundings
   }
   auto clusters = clusters_of(places,
                               {.reach_m = params.reach_m,
+                               .bundle_m = params.bundle_m,
                                .points_least = 1,
                                .cell_m = params.cell_m,
                                .weight_least = params.full_least},

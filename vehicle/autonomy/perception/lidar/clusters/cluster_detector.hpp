@@ -41,7 +41,8 @@ struct ClusterParams {
   double above_m = 0.25, below_m = 2.5;  // over the ground: what belongs to a car
   // Over the map's ground; from `far_m` on the road itself sends nothing back.
   double road_above_m = 0.15, far_above_m = 0.05, far_m = 55.0;
-  double reach_m = 0.6;  // between points of one cluster
+  double reach_m = 0.6;   // between points of one cluster
+  double bundle_m = 0.1;  // in which one point stands for all: many are on a car that is near
   double cell_m = 0.4;
   double stretch = 2.5;  // of the cell along a road: parts of one car are further apart than cars
   double ray_rad = 0.0024, ring_rad = 0.0094;  // between rays, between rings

@@ -6,8 +6,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <map>
 #include <random>
 #include <set>
+#include <utility>
 #include <vector>
 
 #include "tests/support/draw.hpp"
@@ -56,6 +58,37 @@ TEST(Clusters, AreThoseOfTheDefinition) {
           << count << " points, " << reach_m << " m";
     }
   }
+}
+
+// What stands for all of a cell of 0.5 m is clustered as by the definition, and takes the rest along.
+TEST(Clusters, OfBundlesAreThoseOfTheirFirstPoints) {
+  std::mt19937_64 random{11};
+  const auto anywhere = [&] { return testing::draw_uniform(random, -12.0, 12.0); };
+  Points points;
+  for (int i = 0; i < 3000; ++i) points.push_back({anywhere(), anywhere()});
+  constexpr double kBundle_m = 0.5, kReach_m = 0.7;
+  std::map<std::pair<double, double>, std::size_t> bundle_in;
+  Points firsts;
+  std::vector<Indices> bundles;
+  for (std::uint32_t i = 0; i < points.size(); ++i) {
+    const std::pair cell{std::floor(points[i].x_m / kBundle_m),
+                         std::floor(points[i].y_m / kBundle_m)};
+    const auto [at, is_new] = bundle_in.try_emplace(cell, bundles.size());
+    if (is_new) firsts.push_back(points[i]), bundles.emplace_back();
+    bundles[at->second].push_back(i);
+  }
+  std::set<Indices> expected;
+  for (const Indices& of_firsts : by_definition(firsts, kReach_m, 1)) {
+    Indices all;
+    for (const std::uint32_t k : of_firsts)
+      all.insert(all.end(), bundles[k].begin(), bundles[k].end());
+    std::ranges::sort(all);
+    if (all.size() >= 3) expected.insert(all);
+  }
+  ASSERT_GT(expected.size(), 1U);
+  const auto found =
+      clusters_of(points, {.reach_m = kReach_m, .bundle_m = kBundle_m, .points_least = 3});
+  EXPECT_EQ(std::set<Indices>(found.begin(), found.end()), expected);
 }
 
 ClusterRule rule(std::size_t points_least, double weight_least = 0.0) {
