@@ -60,7 +60,7 @@ TEST(Clusters, AreThoseOfTheDefinition) {
   }
 }
 
-// What stands for all of a cell of 0.5 m is clustered as by the definition, and takes the rest along.
+// What stands for a cell of 0.5 m is clustered as by the definition, and takes the rest along.
 TEST(Clusters, OfBundlesAreThoseOfTheirFirstPoints) {
   std::mt19937_64 random{11};
   const auto anywhere = [&] { return testing::draw_uniform(random, -12.0, 12.0); };
