@@ -16,13 +16,9 @@
 
 #include "protocol/vocabulary/units.hpp"
 #include "vehicle/autonomy/perception/lidar/point_cloud.hpp"
+#include "vehicle/autonomy/perception/mount/sensor_pose.hpp"
 
 namespace pitwall::perception {
-
-struct SensorPose {  // in Body; turned by yaw, then pitch, then roll
-  double x_m = 0.0, y_m = 0.0, z_m = 0.0;
-  double roll_rad = 0.0, pitch_rad = 0.0, yaw_rad = 0.0;
-};
 
 struct BodyMotion {
   double vx_mps = 0.0, vy_mps = 0.0, yaw_rate_rad_per_s = 0.0;

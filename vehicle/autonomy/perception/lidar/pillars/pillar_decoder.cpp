@@ -9,39 +9,19 @@
 
 #include "protocol/vocabulary/check.hpp"
 #include "vehicle/autonomy/perception/lidar/pillars/pillar_trunk.hpp"
+#include "vehicle/autonomy/perception/network/peaks.hpp"
 
 namespace pitwall::perception {
 namespace {
 
-constexpr std::size_t kRows = PillarTrunk::kOutRows, kColumns = PillarTrunk::kOutColumns;
 constexpr double kCellLength_m = PillarTrunk::kStride * PillarGrid::kLength_m;
 constexpr double kCellWidth_m = PillarTrunk::kStride * PillarGrid::kWidth_m;
 
-struct Output {
-  std::span<const float> planes;
-
-  float at(PillarOutput output, std::size_t row, std::size_t column) const {
-    return planes[static_cast<std::size_t>(output) * PillarTrunk::kOutCells + row * kColumns +
-                  column];
-  }
-};
-
-// Of equal ones the first is the peak.
-bool is_peak(const Output& out, std::size_t row, std::size_t column) {
-  const float here = out.at(PillarOutput::kCar, row, column);
-  for (std::size_t r = row - std::min<std::size_t>(row, 1); r < std::min(row + 2, kRows); ++r)
-    for (std::size_t c = column - std::min<std::size_t>(column, 1);
-         c < std::min(column + 2, kColumns); ++c) {
-      const float other = out.at(PillarOutput::kCar, r, c);
-      const bool is_before = r * kColumns + c < row * kColumns + column;
-      if (other > here || (other == here && is_before)) return false;
-    }
-  return true;
-}
-
-RoadBox box_at(const Output& out, std::size_t row, std::size_t column) {
+RoadBox box_at(const OutputPlanes& out, std::size_t row, std::size_t column) {
   using enum PillarOutput;
-  const auto value = [&](PillarOutput o) { return static_cast<double>(out.at(o, row, column)); };
+  const auto value = [&](PillarOutput o) {
+    return static_cast<double>(out.at(static_cast<std::size_t>(o), row, column));
+  };
   return {.ahead_m = (static_cast<double>(row) + 0.5 + value(kAhead)) * kCellLength_m -
                      PillarGrid::kBehind_m,
           .n_m = (static_cast<double>(column) + 0.5 + value(kLeft)) * kCellWidth_m -
@@ -49,7 +29,7 @@ RoadBox box_at(const Output& out, std::size_t row, std::size_t column) {
           .yaw_rad = 0.5 * std::atan2(value(kSin), value(kCos)),
           .length_m = kCarLength_m * std::exp(value(kLength)),
           .width_m = kCarWidth_m * std::exp(value(kWidth)),
-          .confidence = 1.0 / (1.0 + std::exp(-value(kCar)))};
+          .confidence = share_of_logit(value(kCar))};
 }
 
 bool is_finite(const RoadBox& box) {
@@ -71,23 +51,16 @@ CarBox flat(const RoadBox& box) {
 
 std::vector<RoadBox> decode(std::span<const float> planes, double confidence_least) {
   CHECK(planes.size() == kPillarOutputs * PillarTrunk::kOutCells);
-  const Output out{planes};
-  const double logit_least = std::log(confidence_least / (1.0 - confidence_least));
+  const OutputPlanes out{planes, PillarTrunk::kOutRows, PillarTrunk::kOutColumns};
   std::vector<RoadBox> boxes;
-  for (std::size_t row = 0; row < kRows; ++row)
-    for (std::size_t column = 0; column < kColumns; ++column) {
-      const double logit = out.at(PillarOutput::kCar, row, column);
-      if (!(logit >= logit_least) || !is_peak(out, row, column)) continue;
-      const RoadBox box = box_at(out, row, column);
-      if (is_finite(box)) boxes.push_back(box);
-    }
+  for (const Cell& cell : peaks_of(out, confidence_least)) {
+    const RoadBox box = box_at(out, cell.row, cell.column);
+    if (is_finite(box)) boxes.push_back(box);
+  }
   std::ranges::stable_sort(boxes, std::ranges::greater{}, &RoadBox::confidence);
-  std::vector<RoadBox> kept;
-  for (const RoadBox& box : boxes)
-    if (std::ranges::none_of(
-            kept, [&](const RoadBox& other) { return is_same_place(flat(other), flat(box)); }))
-      kept.push_back(box);
-  return kept;
+  return surest(boxes, [](const RoadBox& other, const RoadBox& box) {
+    return is_same_place(flat(other), flat(box));
+  });
 }
 
 CarBox in_body(const RoadBox& box, const TrackGround& ground) {

@@ -33,8 +33,6 @@ class PillarDetector {
   // By drawn scenes of the tracks of its training that it had not seen: 0.008 false cars a sweep.
   static constexpr double kConfidenceLeast = 0.55;
 
-  using ReadFile = std::function<Result<std::string, Problem>(const std::string& path)>;
-
   // None where there is no name of a file.
   static Result<std::optional<PillarDetector>, Problem> read(const std::string& onnx_file,
                                                              const ReadFile& read_file);
@@ -48,12 +46,12 @@ class PillarDetector {
   // More are dearer than the whole grid.
   static constexpr std::size_t kWindowsMost = 3;
 
-  PillarDetector(PillarTrunk whole, PillarTrunk window)
+  PillarDetector(Network whole, Network window)
       : whole_(std::move(whole)), window_(std::move(window)) {}
   std::vector<float> look_in(std::span<const PillarWindow> windows,
                              std::span<const Pillar> pillars);
 
-  PillarTrunk whole_, window_;
+  Network whole_, window_;
 };
 
 }  // namespace pitwall::perception

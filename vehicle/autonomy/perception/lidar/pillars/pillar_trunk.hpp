@@ -1,21 +1,19 @@
-// Convolutional trunk of the pillar network, run by OpenCV's DNN module.
+// Convolutional trunk of the pillar network.
 //   in     the network as the bytes of an ONNX file; planes_of() a sweep or some of its rows
 //   out    kPillarOutputs planes of rows / kStride x kOutColumns, see PillarOutput
-//   errors load(): no ONNX, or its input or output has another shape
-//   cost   run(): 25 ms of one processor for all rows. Allocates inside OpenCV
+//   errors as Network::load()
+//   cost   25 ms of one processor for all rows
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
-#include <memory>
-#include <span>
 #include <string>
 #include <string_view>
-#include <vector>
 
 #include "protocol/vocabulary/result.hpp"
 #include "vehicle/autonomy/perception/lidar/pillars/pillar_grid.hpp"
+#include "vehicle/autonomy/perception/network/network.hpp"
 
 namespace pitwall::perception {
 
@@ -32,27 +30,18 @@ enum class PillarOutput : std::uint8_t {
 inline constexpr std::size_t kPillarOutputs = 7;
 inline constexpr double kCarLength_m = 4.92, kCarWidth_m = 1.89;
 
-class PillarTrunk {
- public:
+struct PillarTrunk {
   static constexpr std::size_t kStride = 2;
   static constexpr std::size_t kOutRows = PillarGrid::kRows / kStride;
   static constexpr std::size_t kOutColumns = PillarGrid::kColumns / kStride;
   static constexpr std::size_t kOutCells = kOutRows * kOutColumns;
 
   // `name`: of the file, for the error. `rows`: of each input.
-  static Result<PillarTrunk, Problem> load(std::string_view onnx, const std::string& name,
-                                           std::size_t rows = PillarGrid::kRows);
-  ~PillarTrunk();
-  PillarTrunk(PillarTrunk&&) noexcept;
-  PillarTrunk& operator=(PillarTrunk&&) noexcept;
-
-  // `planes`: kPillarFeatures x rows x PillarGrid::kColumns.
-  std::vector<float> run(std::vector<float>& planes);
-
- private:
-  struct Net;
-  explicit PillarTrunk(std::unique_ptr<Net> net);
-  std::unique_ptr<Net> net_;
+  static Result<Network, Problem> load(std::string_view onnx, const std::string& name,
+                                       std::size_t rows = PillarGrid::kRows) {
+    return Network::load(onnx, name, {kPillarFeatures, rows, PillarGrid::kColumns},
+                         {kPillarOutputs, rows / kStride, kOutColumns});
+  }
 };
 
 }  // namespace pitwall::perception
