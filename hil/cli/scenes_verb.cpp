@@ -11,6 +11,7 @@
 
 #include "hil/cli/command_line.hpp"
 #include "hil/cli/exit_code.hpp"
+#include "hil/scenes/camera_scenes.hpp"
 #include "hil/scenes/scene_set.hpp"
 #include "hil/track_file/track_map_file.hpp"
 
@@ -32,8 +33,9 @@ std::optional<Bodies> bodies_named(std::string_view name) {
 
 int scenes_verb(std::span<const std::string> args) {
   std::string folder, track, bodies = "drawn";
+  bool camera = false, varied = false;
   scenes::SceneSet set{.rules = {}, .scenes = 100, .seed = 1};
-  CommandLine app{"pitwall-hil scenes: drawn scenes for the training of the LiDAR's network"};
+  CommandLine app{"pitwall-hil scenes: drawn scenes for the training of the networks"};
   app.option("FOLDER", folder, "made, with the arrays of NumPy in it").required();
   app.option("--track", track, "track file (YAML)").required();
   app.option("--bodies", bodies, "of the other cars: av21, sf23 or drawn").shows_default();
@@ -41,17 +43,27 @@ int scenes_verb(std::span<const std::string> args) {
   app.option("--seed", set.seed, "of the first scene").range(0, 1'000'000'000).shows_default();
   app.option("--dust", set.rules.dust, "density; 0: none").range(0.0, 10.0).shows_default();
   app.option("--spun", set.rules.spun_share, "share of cars that have spun").range(0.0, 1.0);
+  app.flag("--camera", camera, "images of the front cameras in place of sweeps");
+  app.flag("--varied", varied, "with --camera: other cameras than those of the AV-21");
   if (const auto code = app.ended_by(args)) return *code;
   const auto chosen = bodies_named(bodies);
   if (!chosen) return refuse({"--bodies " + bodies, "expected av21, sf23 or drawn"});
   set.bodies = *chosen;
   const auto map = track_file::read_track_map(track);
   if (!map) return refuse(map.error());
-  const auto made =
-      scenes::make_scenes(set, *map, std::max(1U, std::thread::hardware_concurrency()));
-  const auto written = scenes::write_scenes(made, folder);
+  const unsigned threads = std::max(1U, std::thread::hardware_concurrency());
+  const auto written =
+      camera ? scenes::write_camera_scenes({.bodies = set.bodies,
+                                            .rules = {.dust = set.rules.dust,
+                                                      .spun_share = set.rules.spun_share,
+                                                      .varied = varied},
+                                            .scenes = set.scenes,
+                                            .seed = set.seed},
+                                           *map, folder, threads)
+             : scenes::write_scenes(scenes::make_scenes(set, *map, threads), folder);
   if (!written) return refuse(written.error());
-  std::printf("%s: %zu simulated scenes of %s\n", folder.c_str(), made.size(), map->name().c_str());
+  std::printf("%s: %zu simulated %s of %s\n", folder.c_str(), set.scenes,
+              camera ? "images" : "scenes", map->name().c_str());
   return kExitPass;
 }
 

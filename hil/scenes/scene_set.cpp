@@ -7,7 +7,6 @@
 #include "hil/sweep/in_parallel.hpp"
 
 namespace pitwall::scenes {
-namespace {
 
 std::vector<sensors::CarShape> bodies_of(Bodies bodies, std::uint64_t seed) {
   switch (bodies) {
@@ -20,8 +19,6 @@ std::vector<sensors::CarShape> bodies_of(Bodies bodies, std::uint64_t seed) {
   }
   return sensors::bodies_like(sensors::av21_shape(), sensors::kSceneCarsMost, seed);
 }
-
-}  // namespace
 
 std::vector<PillarScene> make_scenes(const SceneSet& set, const world::TrackMap& track,
                                      unsigned at_a_time) {

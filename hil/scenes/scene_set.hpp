@@ -23,6 +23,9 @@ enum class Bodies : std::uint8_t {
 };
 inline constexpr std::size_t kScenesOfBodies = 50;
 
+// One body, or one for each of the cars of a scene.
+std::vector<sensors::CarShape> bodies_of(Bodies bodies, std::uint64_t seed);
+
 struct SceneSet {
   Bodies bodies = Bodies::kAv21;
   sensors::SceneRules rules;

@@ -16,7 +16,7 @@ constexpr std::uint64_t kStream = 0x11DA5;
 
 }  // namespace
 
-perception::SensorPose pose_of(const sensors::LidarMount& mount) {
+perception::SensorPose pose_of(const sensors::SensorMount& mount) {
   return {mount.at_m[0],
           mount.at_m[1],
           mount.at_m[2],

@@ -27,7 +27,7 @@
 namespace pitwall::bench {
 
 // As the car's detector takes them.
-perception::SensorPose pose_of(const sensors::LidarMount& mount);
+perception::SensorPose pose_of(const sensors::SensorMount& mount);
 perception::PointCloud points_of(std::span<const sensors::LidarReturn> returns);
 
 class SweptLidars {

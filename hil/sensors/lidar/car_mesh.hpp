@@ -6,6 +6,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <string_view>
 #include <vector>
 
@@ -37,6 +38,9 @@ struct CarShape {
 
 CarShape av21_shape();
 CarShape sf23_shape();
+
+// In this order.
+enum class CarMesh : std::uint8_t { kBody, kTyres };
 
 std::vector<Mesh> car_meshes(const CarShape& shape);
 

@@ -42,7 +42,7 @@ class Sweep {
       : unit_(unit), scene_(scene), world_(world), noise_(noise) {}
 
   void scan(int ring, double time_s, std::vector<LidarReturn>& out) {
-    const LidarPose pose = pose_of(unit_, after(world_.ours, time_s));
+    const SensorFrame pose = frame_of(unit_.mount, after(world_.ours, time_s));
     for (int column = 0; column < columns_of(unit_.pattern); ++column) {
       const Vector3 ray = ray_of(unit_.pattern, ring, column);
       shoot(pose.at_m, turned(pose.axes, ray), ray, time_s, out);
@@ -85,10 +85,10 @@ std::vector<LidarUnit> av21_lidars() {
   return {facing(1.0, 0.0, 0.0), facing(-0.4, 0.35, 120.0), facing(-0.4, -0.35, -120.0)};
 }
 
-LidarPose pose_of(const LidarUnit& unit, const Moving& body) {
-  const Rotation axes = rotation(body.attitude), mount = rotation(unit.mount.attitude);
-  return {plus(body.at_m, turned(axes, unit.mount.at_m)),
-          {turned(axes, mount[0]), turned(axes, mount[1]), turned(axes, mount[2])}};
+SensorFrame frame_of(const SensorMount& mount, const Moving& body) {
+  const Rotation axes = rotation(body.attitude), in_body = rotation(mount.attitude);
+  return {plus(body.at_m, turned(axes, mount.at_m)),
+          {turned(axes, in_body[0]), turned(axes, in_body[1]), turned(axes, in_body[2])}};
 }
 
 int columns_of(const LidarPattern& pattern) {

@@ -27,7 +27,7 @@
 
 namespace pitwall::sensors {
 
-struct LidarMount {
+struct SensorMount {
   Vector3 at_m{};     // in Body
   Attitude attitude;  // of the sensor's frame in Body
 };
@@ -47,7 +47,7 @@ struct LidarErrors {
 };
 
 struct LidarUnit {
-  LidarMount mount;
+  SensorMount mount;
   LidarPattern pattern;
   LidarErrors errors;
 };
@@ -89,12 +89,12 @@ struct LidarWorld {
   std::span<const DustCloud> dust;
 };
 
-// Where a LiDAR is and how its frame lies.
-struct LidarPose {
+// Where a sensor is and how its frame lies.
+struct SensorFrame {
   Vector3 at_m{};  // Map
   Rotation axes = rotation({});
 };
-LidarPose pose_of(const LidarUnit& unit, const Moving& body);
+SensorFrame frame_of(const SensorMount& mount, const Moving& body);
 
 // Rays of a pattern, row by row from its top, from its right to its left.
 int columns_of(const LidarPattern& pattern);

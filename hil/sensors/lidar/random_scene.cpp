@@ -13,90 +13,6 @@
 namespace pitwall::sensors {
 namespace {
 
-constexpr double kBehind_m = 100.0, kAhead_m = 125.0;
-constexpr double kLengthApart_m = 7.0, kWidthApart_m = 2.6, kWallApart_m = 1.3;
-
-struct OnTrack {
-  double s_m, n_m, speed_mps, turned_rad;
-};
-
-double between(Noise& noise, double least, double most) {
-  return least + (most - least) * noise.uniform();
-}
-
-Moving standing_on(const world::TrackMap& track, const OnTrack& car, double over_m) {
-  const world::TrackPoint road = track.offset(car.s_m, car.n_m);
-  const plant::CarPose pose{.x_m = road.x_m,
-                            .y_m = road.y_m,
-                            .yaw_rad = road.yaw_rad + car.turned_rad,
-                            .vx_mps = car.speed_mps,
-                            .vy_mps = 0.0,
-                            .yaw_rate_rad_per_s = car.speed_mps * road.curvature_per_m,
-                            .s_m = car.s_m,
-                            .n_m = car.n_m};
-  return standing(track, pose, over_m);
-}
-
-double drawn_offset_m(const world::TrackMap& track, double s_m, Noise& noise) {
-  const world::TrackPoint at = track.at(s_m);
-  return between(noise, -at.width_right_m + kWallApart_m, at.width_left_m - kWallApart_m);
-}
-
-std::vector<OnTrack> drawn_cars(const world::TrackMap& track, const OnTrack& ours,
-                                double spun_share, Noise& noise) {
-  std::vector<OnTrack> cars{ours};
-  const std::size_t count = noise.next() % (kSceneCarsMost + 1);
-  for (int attempt = 0; attempt < 50 && cars.size() < count + 1; ++attempt) {
-    const double s_m = track.wrap_station(ours.s_m + between(noise, -kBehind_m, kAhead_m));
-    const OnTrack car{s_m, drawn_offset_m(track, s_m, noise),
-                      std::max(0.0, ours.speed_mps + between(noise, -15.0, 15.0)),
-                      from_deg(3.0) * std::clamp(noise.normal(), -2.0, 2.0)};
-    const bool is_free = std::ranges::all_of(cars, [&](const OnTrack& other) {
-      return std::abs(std::remainder(car.s_m - other.s_m, track.length_m())) > kLengthApart_m ||
-             std::abs(car.n_m - other.n_m) > kWidthApart_m;
-    });
-    if (!is_free) continue;
-    cars.push_back(car);
-    if (spun_share > 0.0 && noise.uniform() < spun_share) {
-      cars.back().speed_mps = 0.0;
-      cars.back().turned_rad = between(noise, -std::numbers::pi, std::numbers::pi);
-    }
-  }
-  cars.erase(cars.begin());
-  return cars;
-}
-
-void add_trail(const Moving& car, double dust, Noise& noise, std::vector<DustCloud>& clouds) {
-  const Rotation axes = rotation(car.attitude);
-  for (const double behind_m : {3.5, 5.5, 8.5, 12.0}) {
-    const Vector3 at =
-        plus(car.at_m, plus(times(-behind_m, axes[0]), times(between(noise, 0.3, 0.9), axes[2])));
-    clouds.push_back(
-        {at, between(noise, 0.5, 0.8) + 0.06 * behind_m, dust * between(noise, 0.02, 0.12)});
-  }
-}
-
-std::vector<DustCloud> drawn_dust(const world::TrackMap& track, const OnTrack& ours,
-                                  std::span<const Moving> cars, double dust, Noise& noise) {
-  std::vector<DustCloud> clouds;
-  if (dust <= 0.0) return clouds;
-  for (const Moving& car : cars)
-    if (noise.uniform() < 1.0 / 3.0) add_trail(car, dust, noise, clouds);
-  if (noise.uniform() < 0.25) {
-    const double s_m = track.wrap_station(ours.s_m + between(noise, 10.0, 80.0));
-    const OnTrack blown{s_m, drawn_offset_m(track, s_m, noise), 0.0, 0.0};
-    add_trail(standing_on(track, blown, 0.0), dust, noise, clouds);
-  }
-  return clouds;
-}
-
-Moving sprung(Moving body, Noise& noise) {
-  body.attitude.roll_rad += from_deg(0.4) * noise.normal();
-  body.attitude.pitch_rad += from_deg(0.4) * noise.normal();
-  body.at_m[2] += 0.01 * noise.normal();
-  return body;
-}
-
 // Both at one time.
 TrueBox box_of(const Moving& ours, const Moving& car, const CarShape& shape) {
   const Rotation axes = rotation(ours.attitude);
@@ -149,14 +65,10 @@ SceneMaker::SceneMaker(const world::TrackMap& track, const std::vector<CarShape>
 
 LidarScene SceneMaker::make(std::uint64_t seed) {
   Noise noise{seed, 0x11DA4};
-  const double s_m = between(noise, 0.0, track_->length_m());
-  const OnTrack ours{s_m, drawn_offset_m(*track_, s_m, noise), between(noise, 20.0, 75.0),
-                     from_deg(1.0) * noise.normal()};
-  std::vector<Moving> cars;
-  for (const OnTrack& car : drawn_cars(*track_, ours, rules_.spun_share, noise))
-    cars.push_back(standing_on(*track_, car, 0.0));
-  const std::vector<DustCloud> dust = drawn_dust(*track_, ours, cars, rules_.dust, noise);
-  const Moving body = sprung(standing_on(*track_, ours, kOriginOverRoad_m), noise);
+  const DrawnCars drawn = draw_cars(*track_, rules_.spun_share, noise);
+  const std::vector<Moving>& cars = drawn.others;
+  const std::vector<DustCloud> dust = draw_dust(*track_, drawn, rules_.dust, noise);
+  const Moving body = sprung_body(*track_, drawn.ours, noise);
   for (std::size_t car = 0; car < kSceneCarsMost; ++car) rays_.hide(car);
 
   LidarScene scene;
@@ -171,7 +83,7 @@ LidarScene SceneMaker::make(std::uint64_t seed) {
   scene.x_m = then.at_m[0] + 0.05 * noise.normal();
   scene.y_m = then.at_m[1] + 0.05 * noise.normal();
   scene.yaw_rad = then.attitude.yaw_rad + from_deg(0.1) * noise.normal();
-  scene.speed_mps = ours.speed_mps;
+  scene.speed_mps = drawn.ours.speed_mps;
   scene.yaw_rate_rad_per_s = body.yaw_rate_rad_per_s;
   return scene;
 }

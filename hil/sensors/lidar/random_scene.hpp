@@ -3,10 +3,7 @@
 //   in     track, bodies of the other cars, what is drawn how often, seed
 //   out    one sweep of each LiDAR; the true boxes at the reference time, in Body, with the number
 //          of returns; our place as localization would tell it
-//   drawn  up to five others from 100 m behind to 125 m ahead, no two in one place, within 15 m/s
-//          of our speed and 6 deg of the road's direction, but for those that have spun: at rest in
-//          any direction; behind every third a trail of dust; some dust of no car; our springs
-//          (pitch and roll 0.4 deg) and errors of our pose (0.05 m, 0.1 deg)
+//   drawn  cars and dust as drawn_cars.hpp; errors of our pose (0.05 m, 0.1 deg)
 //   frames Map; Body of our car at the reference time
 //   law    the same seed gives the same scene
 //   cost   0.2 s a scene
@@ -18,6 +15,7 @@
 #include <vector>
 
 #include "hil/sensors/lidar/car_mesh.hpp"
+#include "hil/sensors/lidar/drawn_cars.hpp"
 #include "hil/sensors/lidar/lidar.hpp"
 #include "hil/sensors/lidar/ray_scene.hpp"
 #include "vehicle/world/track_map.hpp"
@@ -25,7 +23,6 @@
 namespace pitwall::sensors {
 
 inline constexpr double kReference_s = kHorizon.seconds();  // after the sweep's begin
-inline constexpr double kOriginOverRoad_m = 0.3;            // of Body, without springs
 
 struct TrueBox {
   double x_m = kUnset, y_m = kUnset, yaw_rad = kUnset;  // Body
@@ -34,7 +31,7 @@ struct TrueBox {
 };
 
 struct UnitSweep {
-  LidarMount mount;
+  SensorMount mount;
   std::vector<LidarReturn> returns;
 };
 
@@ -49,8 +46,6 @@ struct SceneRules {
   double dust = 1.0;        // density of the clouds; 0: there are none
   double spun_share = 0.0;  // of the others
 };
-
-inline constexpr std::size_t kSceneCarsMost = 5;
 
 // As many bodies like `shape`, other in length, width and height, in each of their parts, and in
 // what they send back: what is learned of them holds for a car that was not among them.

@@ -107,6 +107,19 @@ void RayScene::hide(std::size_t car) {
 
 void RayScene::commit() { rtcCommitScene(embree_->world); }
 
+Meeting RayScene::meeting(const Hit& hit, const Vector3& along) const {
+  const Embree::Part& part = embree_->parts[hit.part];
+  Vector3 normal = turned(part.axes, hit.normal);
+  normal = times(1.0 / std::sqrt(dot(normal, normal)), normal);
+  const double cosine = dot(normal, along);
+  return Meeting{.range_m = hit.range_m,
+                 .cos_incidence = std::min(1.0, std::abs(cosine)),
+                 .reflectance = part.reflectance[hit.mesh],
+                 .car = hit.part == 0 ? std::nullopt : std::optional{hit.part - 1},
+                 .mesh = hit.mesh,
+                 .normal = cosine > 0.0 ? times(-1.0, normal) : normal};
+}
+
 std::optional<Meeting> RayScene::first(const Vector3& from, const Vector3& along,
                                        double reach_m) const {
   RTCRayHit ray{};
@@ -119,14 +132,65 @@ std::optional<Meeting> RayScene::first(const Vector3& from, const Vector3& along
   rtcInitIntersectContext(&context);
   rtcIntersect1(embree_->world, &context, &ray);
   if (ray.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
-  const std::size_t number = ray.hit.instID[0];
-  const Embree::Part& part = embree_->parts[number];
-  const Vector3 normal = turned(part.axes, {ray.hit.Ng_x, ray.hit.Ng_y, ray.hit.Ng_z});
-  return Meeting{
-      .range_m = ray.ray.tfar,
-      .cos_incidence = std::min(1.0, std::abs(dot(normal, along)) / std::sqrt(dot(normal, normal))),
-      .reflectance = part.reflectance[ray.hit.geomID],
-      .car = number == 0 ? std::nullopt : std::optional{number - 1}};
+  return meeting({.part = ray.hit.instID[0],
+                  .mesh = ray.hit.geomID,
+                  .range_m = ray.ray.tfar,
+                  .normal = {ray.hit.Ng_x, ray.hit.Ng_y, ray.hit.Ng_z}},
+                 along);
+}
+
+Packet<std::optional<Meeting>> RayScene::first(const Vector3& from, const Packet<Vector3>& along,
+                                               double reach_m) const {
+  RTCRayHit8 rays{};
+  alignas(32) Packet<int> asked;
+  asked.fill(-1);
+  for (std::size_t k = 0; k < kPacket; ++k) {
+    rays.ray.org_x[k] = static_cast<float>(from[0]);
+    rays.ray.org_y[k] = static_cast<float>(from[1]);
+    rays.ray.org_z[k] = static_cast<float>(from[2]);
+    rays.ray.dir_x[k] = static_cast<float>(along[k][0]);
+    rays.ray.dir_y[k] = static_cast<float>(along[k][1]);
+    rays.ray.dir_z[k] = static_cast<float>(along[k][2]);
+    rays.ray.tfar[k] = static_cast<float>(reach_m), rays.ray.mask[k] = ~0U;
+    rays.hit.geomID[k] = rays.hit.instID[0][k] = RTC_INVALID_GEOMETRY_ID;
+  }
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+  rtcIntersect8(asked.data(), embree_->world, &context, &rays);
+  Packet<std::optional<Meeting>> met{};
+  for (std::size_t k = 0; k < kPacket; ++k)
+    if (rays.hit.geomID[k] != RTC_INVALID_GEOMETRY_ID)
+      met[k] = meeting({.part = rays.hit.instID[0][k],
+                        .mesh = rays.hit.geomID[k],
+                        .range_m = rays.ray.tfar[k],
+                        .normal = {rays.hit.Ng_x[k], rays.hit.Ng_y[k], rays.hit.Ng_z[k]}},
+                       along[k]);
+  return met;
+}
+
+Packet<bool> RayScene::is_hidden(const Packet<std::optional<Vector3>>& places,
+                                 const Vector3& towards) const {
+  constexpr float kOff_m = 0.02F, kReach_m = 100.0F;
+  RTCRay8 rays{};
+  alignas(32) Packet<int> asked{};
+  for (std::size_t k = 0; k < kPacket; ++k) {
+    if (!places[k]) continue;
+    asked[k] = -1;
+    rays.org_x[k] = static_cast<float>((*places[k])[0]);
+    rays.org_y[k] = static_cast<float>((*places[k])[1]);
+    rays.org_z[k] = static_cast<float>((*places[k])[2]);
+    rays.dir_x[k] = static_cast<float>(towards[0]);
+    rays.dir_y[k] = static_cast<float>(towards[1]);
+    rays.dir_z[k] = static_cast<float>(towards[2]);
+    rays.tnear[k] = kOff_m, rays.tfar[k] = kReach_m, rays.mask[k] = ~0U;
+  }
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  rtcOccluded8(asked.data(), embree_->world, &context, &rays);
+  Packet<bool> hidden{};
+  for (std::size_t k = 0; k < kPacket; ++k) hidden[k] = places[k] && rays.tfar[k] < 0.0F;
+  return hidden;
 }
 
 }  // namespace pitwall::sensors

@@ -51,7 +51,7 @@ Columns columns_to(const Vector3& car, const LidarPattern& pattern, double up_ra
 // What a sensor in this place sees of the points that one in another place saw.
 class Carried {
  public:
-  Carried(const LidarPose& from, const LidarPose& to)
+  Carried(const SensorFrame& from, const SensorFrame& to)
       : at_(within(to.axes, plus(from.at_m, times(-1.0, to.at_m)))),
         axes_{within(to.axes, from.axes[0]), within(to.axes, from.axes[1]),
               within(to.axes, from.axes[2])} {}
@@ -68,7 +68,7 @@ class CarsInRing {
   CarsInRing(const LidarUnit& unit, const RayScene& body)
       : unit_(unit), body_(body), met_(static_cast<std::size_t>(columns_of(unit.pattern))) {}
 
-  void look(std::span<const Vector3> rays, int ring, const LidarPose& pose,
+  void look(std::span<const Vector3> rays, int ring, const SensorFrame& pose,
             std::span<const Moving> others) {
     std::fill(met_.begin() + looked_at_.from, met_.begin() + looked_at_.until, std::nullopt);
     looked_at_ = {};
@@ -139,7 +139,7 @@ SweptTrack SweptTrack::make(const world::TrackMap& track, std::vector<LidarUnit>
 SweptTrack::Shot SweptTrack::shot(const LidarUnit& lidar, const Moving& body,
                                   std::span<const Vector3> rays, const RayScene& scene,
                                   Noise& noise) {
-  const LidarPose pose = pose_of(lidar, body);
+  const SensorFrame pose = frame_of(lidar.mount, body);
   Shot made;
   for (const Vector3& ray : rays) {
     std::optional<LidarReturn> back;
@@ -170,10 +170,10 @@ std::vector<LidarReturn> SweptTrack::sweep(std::size_t unit, const Moving& ours,
   CarsInRing in_ring{lidar, body_};
   for (int ring = 0; ring < lidar.pattern.rings; ++ring) {
     const double time_s = ring * lidar.pattern.ring_period_s;
-    const LidarPose pose = pose_of(lidar, after(ours, time_s));
+    const SensorFrame pose = frame_of(lidar.mount, after(ours, time_s));
     const Place& place = nearest(s_m + forward_mps * time_s);
     const Shot& still = place.shots[unit];
-    const Carried carried{pose_of(lidar, place.body), pose};
+    const Carried carried{frame_of(lidar.mount, place.body), pose};
     for (std::size_t car = 0; car < others.size(); ++car) moved[car] = after(others[car], time_s);
     const std::size_t first = static_cast<std::size_t>(ring) * columns;
     in_ring.look(std::span{rays_[unit]}.subspan(first, columns), ring, pose, moved);

@@ -12,6 +12,7 @@ using world::TrackMap;
 using world::TrackPoint;
 
 constexpr float kAsphalt = 0.12F, kConcrete = 0.35F, kSteel = 0.4F, kGrass = 0.3F;
+constexpr float kWhite = 0.6F;
 
 // Of the track at one station: what stands at an offset, at a height over the road or its edge.
 class Section {
@@ -103,6 +104,25 @@ std::vector<Mesh> track_meshes(const TrackMap& track, const TrackSurroundings& s
   for (double s_m = 0.0; s_m < track.length_m(); s_m += sizes.post_each_m)
     add_post(fence, track, s_m, sizes);
   return {std::move(road), std::move(walls), std::move(fence), std::move(grass)};
+}
+
+Mesh line_mesh(const TrackMap& track) {
+  constexpr double kWide_m = 0.15, kFromWall_m = 0.6, kOver_m = 0.01, kStep_m = 3.0;
+  Mesh lines{.reflectance = kWhite};
+  const auto add = [&](const Section& a, const Section& b, double a_m, double b_m, double wide_m) {
+    lines.add_quad({a.corner(a_m, kOver_m), a.corner(a_m + wide_m, kOver_m),
+                    b.corner(b_m + wide_m, kOver_m), b.corner(b_m, kOver_m)});
+  };
+  const int steps = static_cast<int>(std::ceil(track.length_m() / kStep_m));
+  const auto station = [&](int step) { return track.length_m() * (step % steps) / steps; };
+  for (int step = 0; step < steps; ++step) {
+    const Section a{track, station(step)}, b{track, station(step + 1)};
+    add(a, b, a.left_m() - kFromWall_m, b.left_m() - kFromWall_m, kWide_m);
+    add(a, b, a.right_m() + kFromWall_m, b.right_m() + kFromWall_m, kWide_m);
+  }
+  const Section start{track, 0.0}, end{track, 0.9};
+  add(start, end, start.right_m(), end.right_m(), start.left_m() - start.right_m());
+  return lines;
 }
 
 }  // namespace pitwall::sensors

@@ -9,6 +9,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "hil/sensors/lidar/mesh.hpp"
@@ -25,7 +26,13 @@ struct TrackSurroundings {
   double grass_wide_m = 15.0;
 };
 
+// In this order.
+enum class TrackMesh : std::uint8_t { kRoad, kWalls, kFence, kGrass };
+
 std::vector<Mesh> track_meshes(const world::TrackMap& track,
                                const TrackSurroundings& surroundings = {});
+
+// What LiDARs hardly see: the white lines along both walls, and the one across at station 0.
+Mesh line_mesh(const world::TrackMap& track);
 
 }  // namespace pitwall::sensors

@@ -122,5 +122,49 @@ TEST(RayScene, MeetsNothingBeyondItsReachNorWhatIsHidden) {
   EXPECT_FALSE(scene.first(from, ahead, 100.0));
 }
 
+TEST(RayScene, APacketMeetsWhatItsRaysMeetAlone) {
+  RayScene scene{ground()};
+  scene.place(scene.add_car(car_meshes(av21_shape())), rotation({.yaw_rad = 0.4}), {14, 3, 0});
+  scene.commit();
+  std::mt19937_64 random{8};
+  const Vector3 from{0.0, 0.5, 5.0};
+  std::size_t met_cars = 0;
+  for (int i = 0; i < 200; ++i) {
+    Packet<Vector3> along;
+    for (Vector3& ray : along) {
+      const double az_rad = testing::draw_uniform(random, -0.1, 0.4);
+      const double up_rad = testing::draw_uniform(random, -0.5, 0.1);
+      ray = {std::cos(up_rad) * std::cos(az_rad), std::cos(up_rad) * std::sin(az_rad),
+             std::sin(up_rad)};
+    }
+    const auto met = scene.first(from, along, 200.0);
+    for (std::size_t k = 0; k < kPacket; ++k) {
+      const auto alone = scene.first(from, along[k], 200.0);
+      ASSERT_EQ(met[k].has_value(), alone.has_value());
+      if (!alone) continue;
+      EXPECT_NEAR(met[k]->range_m, alone->range_m, 1e-3);
+      if (std::abs(met[k]->cos_incidence - alone->cos_incidence) > 1e-3) continue;  // an edge
+      EXPECT_EQ(met[k]->car, alone->car);
+      EXPECT_EQ(met[k]->mesh, alone->mesh);
+      EXPECT_NEAR(dot(met[k]->normal, met[k]->normal), 1.0, 1e-9);
+      EXPECT_LE(dot(met[k]->normal, along[k]), 0.0) << "on the ray's side";
+      met_cars += alone->car.has_value();
+    }
+  }
+  EXPECT_GT(met_cars, 50U);
+}
+
+TEST(RayScene, WhatStandsBetweenAPlaceAndTheSunHidesIt) {
+  RayScene scene{ground()};
+  scene.place(scene.add_car(car_meshes(av21_shape())), rotation({}), {10.0, 0.0, 0.0});
+  scene.commit();
+  const Vector3 up{0.0, 0.0, 1.0};
+  const Packet<std::optional<Vector3>> places{Vector3{10.0, 0.0, -0.9}, Vector3{10.0, 5.0, -0.9}};
+  const Packet<bool> hidden = scene.is_hidden(places, up);
+  EXPECT_TRUE(hidden[0]) << "under the car";
+  EXPECT_FALSE(hidden[1]);
+  EXPECT_FALSE(hidden[2]) << "not asked";
+}
+
 }  // namespace
 }  // namespace pitwall::sensors

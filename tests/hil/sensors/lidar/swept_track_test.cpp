@@ -49,7 +49,7 @@ TEST(SweptTrack, WhatStandsStillIsWhereItStands) {
   const Moving ours = body_at(112.0, -2.0, kOrigin_m, 0.03);
   std::size_t on_road = 0, on_walls = 0;
   for (const LidarReturn& back : sweep_at(112.0, -2.0, 0.03, {})) {
-    const LidarPose pose = pose_of(coarse(), after(ours, back.after_s));
+    const SensorFrame pose = frame_of(coarse().mount, after(ours, back.after_s));
     const Vector3 at = plus(pose.at_m, turned(pose.axes, {back.x_m, back.y_m, back.z_m}));
     const world::Curvilinear place = traffic::oval().project(at[0], at[1]);
     const double over_m = at[2] - traffic::oval().road(place.s_m, place.n_m).height_m;

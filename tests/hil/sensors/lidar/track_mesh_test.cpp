@@ -59,5 +59,17 @@ TEST(TrackMesh, WallsStandAtTheEdgesAndTheFenceOverTheRightOne) {
   EXPECT_NEAR(highest_m, sizes.fence_m + traffic::kWall_m * std::tan(0.1), 0.01);
 }
 
+TEST(TrackMesh, LinesLieOnTheRoadBeforeBothWalls) {
+  const Mesh lines = line_mesh(traffic::oval());
+  std::size_t left = 0, right = 0;
+  for (const Corner& corner : lines.corners) {
+    const world::Curvilinear at = traffic::oval().project(corner[0], corner[1]);
+    EXPECT_NEAR(corner[2], traffic::oval().road(at.s_m, at.n_m).height_m + 0.01, 0.003);
+    left += at.n_m > traffic::kWall_m - 0.7, right += at.n_m < 0.7 - traffic::kWall_m;
+  }
+  EXPECT_GT(left, 1'000U);
+  EXPECT_GT(right, 1'000U);
+}
+
 }  // namespace
 }  // namespace pitwall::sensors
