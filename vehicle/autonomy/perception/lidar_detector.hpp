@@ -48,6 +48,8 @@ class LidarDetector {
   world::DetectionFrame detect(std::span<const LidarSweep> sweeps, const world::EgoState& ego,
                                Instant at);
   const LidarCounts& counts() const { return counts_; }
+  // Of the last frame: its sweeps as one cloud, in Body.
+  const PointCloud& cloud() const { return cloud_; }
 
  private:
   std::vector<CarBox> find(const std::optional<TrackGround>& ground, double others_mps);

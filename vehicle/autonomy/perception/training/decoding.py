@@ -15,25 +15,29 @@ BOUNDS_M = (0.0, 60.0, 100.0)
 
 def decode(planes, confidence_least=0.5):
     """Rows of ahead_m, n_m, yaw_rad, length_m, width_m, confidence; the surest first."""
-    logit = planes[0].astype(np.float64)
-    rows, columns = logit.shape
-    padded = np.full((rows + 2, columns + 2), -np.inf)
-    padded[1:-1, 1:-1] = logit
-    around = np.stack([padded[r : r + rows, c : c + columns] for r in range(3) for c in range(3)])
-    least = np.log(confidence_least / (1 - confidence_least))
-    peaks = (logit >= around.max(axis=0)) & (logit >= least)
     boxes = []
-    for row, column in zip(*np.nonzero(peaks)):
+    for row, column, confidence in peaks_of(planes[0], confidence_least):
         _, ahead, left, length, width, sine, cosine = planes[:, row, column].astype(np.float64)
         at = (np.array([row, column]) + 0.5 + (ahead, left)) * CELL + FIRST_M
         size = CAR_M * np.exp([length, width])
-        confidence = 1 / (1 + np.exp(-logit[row, column]))
         boxes.append([*at, 0.5 * np.arctan2(sine, cosine), *size, confidence])
     kept = []
     for box in sorted(boxes, key=lambda b: -b[5]):
         if not any(is_same_place(other, box) for other in kept):
             kept.append(box)
     return np.array(kept).reshape(-1, 6)
+
+
+def peaks_of(logits, confidence_least):
+    """Row, column and confidence where the figure is the greatest of its cell and those around."""
+    logit = logits.astype(np.float64)
+    rows, columns = logit.shape
+    padded = np.full((rows + 2, columns + 2), -np.inf)
+    padded[1:-1, 1:-1] = logit
+    around = np.stack([padded[r : r + rows, c : c + columns] for r in range(3) for c in range(3)])
+    least = np.log(confidence_least / (1 - confidence_least))
+    peaks = (logit >= around.max(axis=0)) & (logit >= least)
+    return [(r, c, 1 / (1 + np.exp(-logit[r, c]))) for r, c in zip(*np.nonzero(peaks))]
 
 
 def is_same_place(car, other):

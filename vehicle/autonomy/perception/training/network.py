@@ -62,7 +62,8 @@ def fused(trunk):
     return trunk
 
 
-def export(trunk, path, rows, columns):
-    planes = torch.zeros(1, FEATURES, rows, columns)
+def export(trunk, path, shape):
+    """`shape`: planes, rows and columns of the input."""
+    planes = torch.zeros(1, *shape)
     torch.onnx.export(fused(trunk), planes, path, opset_version=11, input_names=["planes"],
                       output_names=["cars"])  # fmt: skip

@@ -21,19 +21,23 @@ def refuse(why):
     sys.exit(2)
 
 
+def load(folder, name, memory_map=False):
+    try:
+        return np.load(pathlib.Path(folder) / f"{name}.npy", "r" if memory_map else None)
+    except (OSError, ValueError) as error:
+        refuse(error)
+
+
 class Scenes:
     def __init__(self, folders):
-        def load(name):
-            try:
-                return [np.load(pathlib.Path(folder) / f"{name}.npy") for folder in folders]
-            except (OSError, ValueError) as error:
-                refuse(error)
+        def joined(name):
+            return np.concatenate([load(folder, name) for folder in folders])
 
-        counts = np.concatenate(load("counts")).astype(np.int64)
-        self.cells = np.concatenate(load("cells")).astype(np.int64)
-        self.features = np.concatenate(load("features"))
-        self.true_cars = np.concatenate(load("cars"))
-        scales = load("scales")
+        counts = joined("counts").astype(np.int64)
+        self.cells = joined("cells").astype(np.int64)
+        self.features = joined("features")
+        self.true_cars = joined("cars")
+        scales = [load(folder, "scales") for folder in folders]
         self.least, self.step = scales[0].T
         self.begin = np.concatenate([np.zeros((1, 2), np.int64), np.cumsum(counts, axis=0)])
         if tuple(self.begin[-1]) != (len(self.cells), len(self.true_cars)):

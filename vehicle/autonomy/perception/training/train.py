@@ -75,46 +75,33 @@ def is_as_good(figures, reference):
     )
 
 
-def train(scenes, held_back, args):
-    torch.manual_seed(args.seed)
+def fit(trunk, count, args, batch_of, loss):
+    """`batch_of`(indices of the `count` scenes, random): planes and what is wanted of them."""
     random = np.random.default_rng(args.seed)
-    trunk = network.Trunk()
-    steps = len(scenes) // BATCH * args.epochs
+    steps = count // BATCH * args.epochs
     optimizer = torch.optim.AdamW(trunk.parameters(), RATE, weight_decay=DECAY)
     schedule = torch.optim.lr_scheduler.OneCycleLR(optimizer, RATE, total_steps=steps)
     begun = time.monotonic()
     for epoch in range(args.epochs):
         trunk.train()
-        order, sum_of_losses = random.permutation(len(scenes)), 0.0
-        for k in range(len(scenes) // BATCH):
-            planes, wanted = drawn_batch(scenes, order[k * BATCH : (k + 1) * BATCH], random)
-            loss = targets.loss(trunk(planes), wanted)
+        order, sum_of_losses = random.permutation(count), 0.0
+        for k in range(count // BATCH):
+            planes, wanted = batch_of(order[k * BATCH : (k + 1) * BATCH], random)
+            off = loss(trunk(planes), wanted)
             optimizer.zero_grad()
-            loss.backward()
+            off.backward()
             torch.nn.utils.clip_grad_norm_(trunk.parameters(), 10.0)
             optimizer.step()
             schedule.step()
-            sum_of_losses += loss.item()
-        mean = sum_of_losses / max(len(scenes) // BATCH, 1)
+            sum_of_losses += off.item()
+        mean = sum_of_losses / max(count // BATCH, 1)
         print(f"epoch {epoch + 1}: loss {mean:.3f}, {time.monotonic() - begun:.0f} s", flush=True)
-    return trunk, score(trunk, held_back)
 
 
-def main():
-    parser = argparse.ArgumentParser(description="trains the pillar network")
-    parser.add_argument("--scenes", required=True, nargs="+")
-    parser.add_argument("--held-back", required=True)
-    parser.add_argument("--out", required=True)
-    parser.add_argument("--stored")
-    parser.add_argument("--reference")
-    parser.add_argument("--seed", type=int, default=1)
-    parser.add_argument("--epochs", type=int, default=20)
-    args = parser.parse_args()
-    trunk, figures = train(Scenes(args.scenes), Scenes([args.held_back]), args)
+def write(trunk, shape, figures, args):
+    """The network and, beside it, its record; ends the program where it is worse than asked."""
     out = pathlib.Path(args.out)
-    network.export(trunk, str(out), ROWS, COLUMNS)
-    if args.stored:
-        store_boxes(trunk, args.stored)
+    network.export(trunk, str(out), shape)
     record = {
         "simulation": True,
         "seed": args.seed,
@@ -125,10 +112,41 @@ def main():
     }
     out.with_suffix(".json").write_text(json.dumps(record, indent=1) + "\n")
     print(json.dumps(record, indent=1))
+
+
+def judge(figures, args, is_as_good):
     if args.reference:
         reference = json.loads(pathlib.Path(args.reference).read_text())["held_back"]
         if not is_as_good(figures, reference):
             sys.exit(f"worse than {SHARE} of {args.reference}: {reference}")
+
+
+def arguments(what):
+    parser = argparse.ArgumentParser(description=what)
+    parser.add_argument("--scenes", required=True, nargs="+")
+    parser.add_argument("--held-back", required=True)
+    parser.add_argument("--out", required=True)
+    parser.add_argument("--stored")
+    parser.add_argument("--reference")
+    parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--epochs", type=int, default=20)
+    return parser.parse_args()
+
+
+def main():
+    args = arguments("trains the pillar network")
+    torch.manual_seed(args.seed)
+    scenes, trunk = Scenes(args.scenes), network.Trunk()
+
+    def batch_of(indices, random):
+        return drawn_batch(scenes, indices, random)
+
+    fit(trunk, len(scenes), args, batch_of, targets.loss)
+    figures = score(trunk, Scenes([args.held_back]))
+    write(trunk, (network.FEATURES, ROWS, COLUMNS), figures, args)
+    if args.stored:
+        store_boxes(trunk, args.stored)
+    judge(figures, args, is_as_good)
 
 
 if __name__ == "__main__":
