@@ -22,8 +22,7 @@
 #include "vehicle/io/computer_watch.hpp"
 #include "vehicle/io/detect/detect_command.hpp"
 #include "vehicle/io/guardian_link.hpp"
-#include "vehicle/io/ingress/sensor_ingress.hpp"
-#include "vehicle/io/perception/lidar_worker.hpp"
+#include "vehicle/io/perception/car_sensors.hpp"
 #include "vehicle/io/radio.hpp"
 #include "vehicle/io/report/local_report.hpp"
 #include "vehicle/io/report/radio_summary.hpp"
@@ -82,8 +81,7 @@ struct Parts {
   io::LocalReport report;
   io::BlackBox box;
   std::unique_ptr<io::ComputerWatch> computer;  // none: the kernel gave no event file
-  std::unique_ptr<io::SensorIngress> sensors;   // none: no sensor comes over ROS 2 topics
-  std::unique_ptr<io::LidarWorker> lidars;      // none: no LiDAR is looked at here
+  std::unique_ptr<io::CarSensors> sensors;      // none: no file of sensors is named
 };
 
 class Drive {
@@ -95,9 +93,7 @@ class Drive {
         parts_(std::move(parts)),
         adapter_(car_text),
         car_(std::make_unique<pipeline::Car>()),
-        log_(std::make_unique<pipeline::TickLog>()) {
-    detections_.reserve(io::SensorIngress::kFramesMost + io::FrameQueue::kRoom);
-  }
+        log_(std::make_unique<pipeline::TickLog>()) {}
 
   int run(transport::StopSignal& stop) {
     if (const auto taken = transport::take_turns(); !taken)
@@ -119,7 +115,8 @@ class Drive {
                         .dt = now - last_,
                         .can = incoming.can,
                         .sensors = incoming.sensors,
-                        .detections = detections(),
+                        .detections = parts_.sensors ? parts_.sensors->take()
+                                                     : std::span<const world::DetectionFrame>{},
                         .requests = {.arm = args_.arm},
                         .may_arm = !parts_.car_io.listen_only(),
                         .gnss_byte_at = incoming.gnss_byte_at,
@@ -131,7 +128,7 @@ class Drive {
     const pipeline::Outputs out = pipeline::step(setup_, *car_, in);
     parts_.guardian.publish(setup_, *car_, out, out.requests.reset, now);
     parts_.car_io.write(out.passed.frames.span(), now);
-    if (parts_.lidars) parts_.lidars->report(out.ego);
+    if (parts_.sensors) parts_.sensors->report(out.ego);
     parts_.box.tick(in, out.passed.frames.span());
     if (out.bus_guard.restart_now) parts_.car_io.restart_bus();
     tally_.add(transport::monotonic_now() - now, begun - tick.deadline, tick.missed);
@@ -186,18 +183,6 @@ class Drive {
     tell_schema(now);
   }
 
-  std::span<const world::DetectionFrame> detections() {
-    if (!parts_.sensors) return {};
-    const auto received = parts_.sensors->take_detections();
-    if (!parts_.lidars) return received;
-    detections_.assign(received.begin(), received.end());
-    while (const world::DetectionFrame* const frame = parts_.lidars->front()) {
-      detections_.push_back(*frame);
-      parts_.lidars->pop(transport::monotonic_now());
-    }
-    return detections_;
-  }
-
   world::ComputerHealth computer() const {
     if (!parts_.computer) return {};
     const io::ComputerReport report = parts_.computer->newest();
@@ -224,8 +209,7 @@ class Drive {
       counters.lidars[i] = sensor(io::SensorType::kPointCloud2, i);
     for (std::size_t i = 0; i < counters.cameras.size(); ++i)
       counters.cameras[i] = sensor(io::SensorType::kDetection2DArray, i);
-    counters.lidar_frames = parts_.lidars ? shown(parts_.lidars->frame_figures(now))
-                                          : sensor(io::SensorType::kDetection3DArray, 0);
+    counters.lidar_frames = shown(parts_.sensors->lidar_frames(now));
     counters.radar = sensor(io::SensorType::kRadarScan, 0);
   }
 
@@ -268,8 +252,7 @@ class Drive {
                         .tracking = io::tracking_json(car_->tracking.counters, opponents_)};
     if (parts_.radio)
       parts.radio = io::radio_json(parts_.radio->endpoint().report(now), parts_.radio->paths());
-    if (parts_.sensors)
-      parts.sensors = parts_.sensors->json(now, parts_.lidars ? parts_.lidars->json(now) : "");
+    if (parts_.sensors) parts.sensors = parts_.sensors->json(now);
     const auto written = transport::write_file(
         args_.summary_file, io::summary_json(tally_, frames_, bus_, losses_, parts));
     return written ? 0 : (refuse(written.error()), kExitFailed);
@@ -281,7 +264,6 @@ class Drive {
   pipeline::RadioAdapter adapter_;
   std::unique_ptr<pipeline::Car> car_;
   std::unique_ptr<pipeline::TickLog> log_;
-  std::vector<world::DetectionFrame> detections_;  // of this tick
   io::StepTally tally_;
   io::FrameTotals frames_;
   io::LossTally losses_;
@@ -293,26 +275,6 @@ class Drive {
   Instant schema_looked_at_;
   Instant last_;
 };
-
-struct Sensors {
-  std::unique_ptr<io::SensorIngress> ingress;
-  std::unique_ptr<io::LidarWorker> lidars;
-};
-
-Result<Sensors, Problem> open_sensors(const io::Arguments& args, const world::TrackMap& track) {
-  if (args.sensors_file.empty()) return Sensors{};
-  auto file = io::read_sensor_file(args.sensors_file);
-  if (!file) return Unexpected{file.error()};
-  file->domain.domain = args.sensors_domain.value_or(file->domain.domain);
-  auto network = perception::PillarDetector::read(file->network, read_whole);
-  if (!network) return Unexpected{network.error()};
-  auto ingress = io::SensorIngress::start(*file);
-  if (!ingress) return Unexpected{ingress.error()};
-  auto lidars =
-      io::LidarWorker::start(io::lidars_of(**ingress), track, *std::move(network),
-                             file->waits_for_all ? io::Gathering::kAll : io::Gathering::kPunctual);
-  return Sensors{*std::move(ingress), std::move(lidars)};
-}
 
 Result<Parts, Problem> open_parts(const io::Arguments& args, const pipeline::Setup& setup,
                                   const std::string& car_text) {
@@ -337,11 +299,12 @@ Result<Parts, Problem> open_parts(const io::Arguments& args, const pipeline::Set
                                  .bank = setup.params.planning.line.bank},
                                 args.no_base);
   if (!box) return Unexpected{box.error()};
-  auto sensors = open_sensors(args, setup.track);
+  auto sensors = io::CarSensors::open({args.sensors_file, args.sensors_domain, args.debug_dds},
+                                      setup.track, read_whole);
   if (!sensors) return Unexpected{sensors.error()};
-  return Parts{*std::move(car_io),          *std::move(guardian),      std::move(radio),
-               *std::move(report),          *std::move(box),           io::ComputerWatch::start(),
-               std::move(sensors->ingress), std::move(sensors->lidars)};
+  return Parts{*std::move(car_io), *std::move(guardian), std::move(radio),
+               *std::move(report), *std::move(box),      io::ComputerWatch::start(),
+               *std::move(sensors)};
 }
 
 void introduce(const io::Arguments& args, const pipeline::Setup& setup, Parts& parts) {

@@ -37,6 +37,7 @@ const std::vector<Library> kLibraries{
     {"geographic", {"GeographicLib/"}},
     {"pcl", {"pcl/"}},
     {"opencv", {"opencv2/"}},
+    {"turbojpeg", {"turbojpeg.h"}},
     {"sodium", {"sodium.h"}},
     {"lcm", {"lcm/"}},
     {"dds", {"fastdds/", "fastrtps/", "fastcdr/"}},
@@ -145,6 +146,7 @@ const std::vector<Part> kParts{
       "protocol/vocabulary"},
      {}},
     {"vehicle/io", {"vehicle", "protocol"}, rim_and({"cli"})},
+    {"vehicle/io/perception", {"vehicle", "protocol"}, rim_and({"turbojpeg"})},
     {"basestation/link", {"protocol"}, rim_and({})},
     {"basestation/inputs", {"basestation/command", "basestation/alarms", "protocol"}, rim_and({})},
     {"basestation/state", {"protocol/telemetry", "protocol/rules", "protocol/vocabulary"}, {}},
@@ -190,9 +192,12 @@ const std::vector<Part> kParts{
     {"hil/replay", kBench, {"zlib"}},
     {"hil/replay/recordings", kBench, {"bags"}},
     {"hil/sensors", kBench, {"eigen", "embree", "geographic"}},
+    // Its lens is the one that the car's calibration files describe.
+    {"hil/sensors/camera", bench_and({"vehicle/autonomy/perception/camera"}), {"eigen"}},
     {"hil/bench", kBench, rim_and({"eigen"})},
     // It publishes detections as the car's own rim reads them.
-    {"hil/bench/live", bench_and({"vehicle/io/ingress"}), rim_and({"eigen"})},
+    {"hil/bench/live", bench_and({"vehicle/io/ingress", "vehicle/io/perception"}),
+     rim_and({"eigen"})},
     // Ray by ray, it needs the car's detector behind the LiDARs.
     {"hil/bench/lockstep", bench_and({"vehicle/autonomy/perception"}), rim_and({"eigen"})},
     // A run is driven again by what the car's own rim kept of it.

@@ -44,6 +44,10 @@ std::variant<Arguments, int> parse_arguments(int argc, const char* const* argv) 
   app.add_option("--sensors-domain", args.sensors_domain, "ROS domain, instead of that file's")
       ->check(CLI::Range(0, dds::kDomainMax))
       ->needs(sensors);
+  app.add_flag("--debug-dds", args.debug_dds,
+               "show what the car itself sees over ROS 2 topics, in the domain of its sensors: "
+               "/pitwall/debug/points, lidar_cars, camera_cars")
+      ->needs(sensors);
   app.add_option("--guardian", args.guardian,
                  "name of the record shared with pitwall-guardian (a file in /dev/shm, or a path)");
   app.add_flag("--simulation", args.simulation, "say in the telemetry that this is a simulation");

@@ -27,6 +27,7 @@ struct Arguments {
   std::string record_folder;                          // of the car's recording; empty: none
   std::string sensors_file;                           // sensors over ROS 2 topics; empty: none
   std::optional<int> sensors_domain;                  // instead of the file's
+  bool debug_dds = false;                             // what the car sees, over ROS 2 topics
   std::string guardian;     // name of the record shared with the guardian; empty: no guardian
   bool simulation = false;  // marks the telemetry; no other effect
   bool no_base = false;     // no base station: not needed to arm, not watched (benches)

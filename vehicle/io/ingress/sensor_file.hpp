@@ -21,6 +21,15 @@
 //     wait_for_all: true                        # top level; the published way, to compare with: no
 //                                               # frame without a sweep of every LiDAR
 //
+// So does a row of images (Image, CompressedImage) in which the car looks for cars, with the lens
+// (a pinhole with centre_px [u, v], or a calibration as below), the height of the cars, and as
+// which camera its detections count:
+//
+//       - {name: front_left, topic: /front_left/image_raw, type: Image, rate_hz: 10, unit: 0,
+//          at_m: [0.6, 0.15, 0.7], turned_deg: [0, 1.5, 14], focal_px: 1000,
+//          centre_px: [335.5, 159.5], height_m: 1.16}
+//     camera_network: ../networks/camera.onnx   # top level; needed by such a row
+//
 // A row of detections may have: unit (0; which one of its type), frame (base_link), and where it is
 // a camera or a radar facing_deg (0; counter-clockwise from ahead). detection_codec.hpp says what
 // the numbers mean. Instead of focal_px and centre_px a camera may have a calibration, beside this
@@ -47,6 +56,7 @@
 #include "protocol/vocabulary/result.hpp"
 #include "protocol/vocabulary/time.hpp"
 #include "protocol/vocabulary/units.hpp"
+#include "vehicle/autonomy/perception/camera/camera_detector.hpp"
 #include "vehicle/autonomy/perception/camera/camera_model.hpp"
 #include "vehicle/autonomy/perception/lidar/motion.hpp"
 
@@ -55,6 +65,7 @@ namespace pitwall::io {
 enum class SensorType : std::uint8_t {
   kPointCloud2,
   kImage,
+  kCompressedImage,
   kNavSatFix,
   kImu,
   kDetection3DArray,  // of a LiDAR
@@ -78,20 +89,31 @@ struct LidarRow {
   Duration horizon{};  // when its rays pass it, after the stamp
 };
 
+// A camera whose images the car looks for cars in.
+struct CameraRow {
+  perception::CameraMounting mounting;
+  std::uint8_t unit = 0;  // of its detections
+};
+
 struct SensorRow {
   std::string name, topic;
   SensorType type = SensorType::kPointCloud2;
   double rate_hz = 0.0;  // expected rate
   DetectionRow detections{};
-  std::optional<LidarRow> lidar{};  // only of points
+  std::optional<LidarRow> lidar{};    // only of points
+  std::optional<CameraRow> camera{};  // only of images
 };
 
+constexpr bool has_images(SensorType type) {
+  return type == SensorType::kImage || type == SensorType::kCompressedImage;
+}
 constexpr bool detects_cars(SensorType type) { return type >= SensorType::kDetection3DArray; }
 
 struct SensorFile {
   dds::DomainConfig domain;
   std::vector<SensorRow> sensors;
-  std::string network{};  // file of the LiDARs' network; empty: clusters
+  std::string network{};         // file of the LiDARs' network; empty: clusters
+  std::string camera_network{};  // file of the cameras' network
   bool waits_for_all = false;
 };
 

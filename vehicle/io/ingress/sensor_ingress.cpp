@@ -55,6 +55,10 @@ const char* contradiction_of(const ros::Image& image) {
   return nullptr;
 }
 
+const char* contradiction_of(const ros::CompressedImage& image) {
+  return image.data.empty() ? "no data" : nullptr;
+}
+
 const char* contradiction_of(const ros::NavSatFix& fix) {
   const bool solved = fix.status.status >= 0;
   if (solved && !(std::abs(fix.latitude) <= 90.0 && std::abs(fix.longitude) <= 180.0))
@@ -115,6 +119,8 @@ struct SensorIngress::Sensor {
         return open_newest<ros::PointCloud2>();
       case SensorType::kImage:
         return open_newest<ros::Image>();
+      case SensorType::kCompressedImage:
+        return open_newest<ros::CompressedImage>();
       case SensorType::kNavSatFix:
         return open_newest<ros::NavSatFix>();
       case SensorType::kImu:
@@ -141,14 +147,15 @@ struct SensorIngress::Sensor {
   std::uint64_t drops() const {
     const auto* const inbox = std::get_if<DetectionInbox>(&places);
     if (inbox != nullptr) return inbox->counts().drops();
-    // Nobody takes points that have no mount: the next one is not their loss.
-    return refused + bad_stamps + (row.lidar ? overwritten() : 0);
+    // Nobody takes points or images that have no mount: the next one is not their loss.
+    return refused + bad_stamps + (row.lidar || row.camera ? overwritten() : 0);
   }
 
   SensorRow row;
   Arrivals arrivals;
   std::variant<std::monostate, Mailbox<ros::PointCloud2>, Mailbox<ros::Image>,
-               Mailbox<ros::NavSatFix>, Mailbox<ros::Imu>, DetectionInbox>
+               Mailbox<ros::CompressedImage>, Mailbox<ros::NavSatFix>, Mailbox<ros::Imu>,
+               DetectionInbox>
       places;
   std::atomic<std::uint64_t> refused{0}, bad_stamps{0};
   std::unique_ptr<dds::Domain> domain;  // last: its threads use all of the above
@@ -185,8 +192,13 @@ std::optional<SensorFigures> SensorIngress::figures(SensorType type, std::size_t
                                                     Instant now) const {
   std::size_t before = 0;
   for (const auto& sensor : sensors_) {
-    if (sensor->row.type != type) continue;
-    const std::size_t number = detects_cars(type) ? sensor->row.detections.unit : before++;
+    const SensorRow& row = sensor->row;
+    // A camera that we look at ourselves counts as the one whose detections it makes.
+    const bool is_camera = type == SensorType::kDetection2DArray && row.camera.has_value();
+    if (row.type != type && !is_camera) continue;
+    const std::size_t number = is_camera            ? row.camera->unit
+                               : detects_cars(type) ? row.detections.unit
+                                                    : before++;
     if (number != unit) continue;
     return SensorFigures{sensor->arrivals, sensor->drops(), started_, now};
   }
@@ -228,10 +240,11 @@ const M* SensorIngress::take(std::size_t i) {
 }
 template const ros::PointCloud2* SensorIngress::take(std::size_t);
 template const ros::Image* SensorIngress::take(std::size_t);
+template const ros::CompressedImage* SensorIngress::take(std::size_t);
 template const ros::NavSatFix* SensorIngress::take(std::size_t);
 template const ros::Imu* SensorIngress::take(std::size_t);
 
-std::string SensorIngress::json(Instant now, const std::string& more) const {
+std::string SensorIngress::json(Instant now, std::span<const std::string> more) const {
   json::Array out;
   for (std::size_t i = 0; i < sensors_.size(); ++i) {
     const ArrivalFigures f = figures(i, now);
@@ -249,7 +262,7 @@ std::string SensorIngress::json(Instant now, const std::string& more) const {
           .number("bad_stamps", c.bad_stamps);
     out.json(sensor.str());
   }
-  if (!more.empty()) out.json(more);
+  for (const std::string& row : more) out.json(row);
   return out.str();
 }
 

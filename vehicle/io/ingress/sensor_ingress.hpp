@@ -42,6 +42,7 @@ struct SensorCounts {
 // Returns nullptr if the sizes in the message are consistent, else the contradiction.
 const char* contradiction_of(const ros::PointCloud2& cloud);
 const char* contradiction_of(const ros::Image& image);
+const char* contradiction_of(const ros::CompressedImage& image);
 const char* contradiction_of(const ros::NavSatFix& fix);
 const char* contradiction_of(const ros::Imu& imu);
 
@@ -57,7 +58,8 @@ class SensorIngress {
   const SensorRow& row(std::size_t i) const;
   ArrivalFigures figures(std::size_t i, Instant now) const;
   // Of the sensor that is this unit of a type, in the order of the rows or, if it detects cars, by
-  // its own number. No allocation, no lock.
+  // its own number; of kDetection2DArray also a camera whose images the car looks at. No
+  // allocation, no lock.
   std::optional<SensorFigures> figures(SensorType type, std::size_t unit, Instant now) const;
   SensorCounts counts(std::size_t i) const;
   // The newest sample that was not taken yet; nullptr if there is none or the sensor has another
@@ -67,8 +69,8 @@ class SensorIngress {
   // All frames of detections since the last call, at most kFramesMost; what is left comes with the
   // next call. Valid until then. No allocation.
   std::span<const world::DetectionFrame> take_detections();
-  // A list for the summary of a run; `more`: one more row of it.
-  std::string json(Instant now, const std::string& more = {}) const;
+  // A list for the summary of a run; `more`: more rows of it.
+  std::string json(Instant now, std::span<const std::string> more = {}) const;
 
   struct Sensor;
 

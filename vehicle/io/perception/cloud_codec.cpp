@@ -124,4 +124,26 @@ const char* read_points(const ros::PointCloud2& message, perception::PointCloud&
   return nullptr;
 }
 
+ros::PointCloud2 message_of(std::span<const perception::LidarPoint> points) {
+  constexpr std::array kNames{"x", "y", "z", "intensity", "time"};
+  constexpr std::uint8_t kFloat32 = 7;
+  constexpr std::uint32_t kFloat_bytes = sizeof(float);
+  ros::PointCloud2 cloud;
+  for (const char* name : kNames)
+    cloud.fields.push_back(
+        {name, kFloat_bytes * static_cast<std::uint32_t>(cloud.fields.size()), kFloat32, 1});
+  cloud.point_step = kFloat_bytes * static_cast<std::uint32_t>(kNames.size());
+  cloud.height = 1, cloud.width = static_cast<std::uint32_t>(points.size());
+  cloud.row_step = cloud.point_step * cloud.width;
+  cloud.is_dense = true;
+  cloud.data.resize(cloud.row_step);
+  std::uint8_t* to = cloud.data.data();
+  for (const perception::LidarPoint& p : points) {
+    const std::array<float, kNames.size()> numbers{p.x_m, p.y_m, p.z_m, p.intensity, p.after_s};
+    std::memcpy(to, numbers.data(), sizeof numbers);
+    to += sizeof numbers;
+  }
+  return cloud;
+}
+
 }  // namespace pitwall::io

@@ -11,6 +11,7 @@
 #pragma once
 
 #include <cstddef>
+#include <span>
 
 #include "protocol/ros/messages/sensor.hpp"
 #include "vehicle/autonomy/perception/lidar/point_cloud.hpp"
@@ -18,6 +19,9 @@
 namespace pitwall::io {
 
 inline constexpr std::size_t kPointsMost = 400'000;  // of one sweep
+
+// As a driver publishes them, but for the header: x, y, z, intensity and time (in s).
+ros::PointCloud2 message_of(std::span<const perception::LidarPoint> points);
 
 const char* read_points(const ros::PointCloud2& message, perception::PointCloud& points);
 

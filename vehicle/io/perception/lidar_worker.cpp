@@ -28,19 +28,21 @@ std::vector<LidarSource> lidars_of(SensorIngress& ingress) {
 std::unique_ptr<LidarWorker> LidarWorker::start(std::vector<LidarSource> sources,
                                                 const world::TrackMap& track,
                                                 std::optional<perception::PillarDetector> network,
-                                                Gathering gathering) {
+                                                Gathering gathering, DebugTopics* debug) {
   if (sources.empty()) return nullptr;
   std::unique_ptr<LidarWorker> worker{
-      new LidarWorker(std::move(sources), track, std::move(network), gathering)};
+      new LidarWorker(std::move(sources), track, std::move(network), gathering, debug)};
   worker->thread_ = std::thread([&own = *worker] { own.serve(); });
   return worker;
 }
 
 LidarWorker::LidarWorker(std::vector<LidarSource> sources, const world::TrackMap& track,
-                         std::optional<perception::PillarDetector> network, Gathering gathering)
+                         std::optional<perception::PillarDetector> network, Gathering gathering,
+                         DebugTopics* debug)
     : started_(transport::monotonic_now()),
       gatherer_(sources.size(), gathering),
-      detector_(track, {}, std::move(network)) {
+      detector_(track, {}, std::move(network)),
+      debug_(debug) {
   for (LidarSource& source : sources) {
     horizon_most_ = std::max(horizon_most_, source.row.horizon);
     units_.push_back({.source = std::move(source)});
@@ -57,11 +59,7 @@ void LidarWorker::report(const world::EgoState& ego) {
   ego_.put();
 }
 
-void LidarWorker::pop(Instant now) {
-  const Duration age = now - queue_.front()->at + horizon_most_;
-  to_loop_.add(static_cast<double>(age / kAgeCell));
-  queue_.pop();
-}
+void LidarWorker::pop(Instant now) { outbox_.pop(now - outbox_.front()->at + horizon_most_); }
 
 void LidarWorker::serve() {
   while (!end_) {
@@ -110,41 +108,32 @@ void LidarWorker::make_frame() {
         {units_[k].source.row.mount, units_[k].points, (gatherer_.begun(k) - at).seconds()});
   world::DetectionFrame frame = detector_.detect(sweeps, newest_ego_, at);
   frame.received = transport::monotonic_now();
-  ++frames_;
-  if (!queue_.push(frame)) ++no_room_;
-  arrivals_.note(frame.received, frame.received - gathered->begun);
-  if (last_frame_)
-    largest_gap_ms_ =
-        std::max(largest_gap_ms_.load(), (frame.received - *last_frame_).milliseconds());
-  last_frame_ = frame.received;
+  outbox_.put(frame, frame.received, frame.received - gathered->begun);
+  if (debug_ != nullptr) debug_->show(detector_.cloud(), frame);
 }
 
 SensorFigures LidarWorker::frame_figures(Instant now) const {
-  return {arrivals_, unreadable_ + bad_stamps_ + no_room_, started_, now};
+  const std::uint64_t drops = unreadable_ + bad_stamps_ + outbox_.counts().no_room;
+  return {outbox_.arrivals(), drops, started_, now};
 }
 
 LidarWorker::Counts LidarWorker::counts() const {
-  return {.frames = frames_,
+  const FrameOutbox::Counts out = outbox_.counts();
+  return {.frames = out.frames,
           .sweeps = sweeps_,
           .unreadable = unreadable_,
           .bad_stamps = bad_stamps_,
-          .no_room = no_room_,
-          .largest_gap_ms = largest_gap_ms_};
+          .no_room = out.no_room,
+          .largest_gap_ms = out.largest_gap_ms};
 }
 
 std::string LidarWorker::json(Instant now) const {
-  const Counts c = counts();
   json::Object row;
   row.text("name", "lidars");
-  add_figures(row, arrivals_.newest(now));
-  add_figure(row, "largest_gap_ms", c.largest_gap_ms);
-  add_figure(row, "to_loop_p50_ms", to_loop_.quantile(0.5) * kAgeCell.milliseconds());
-  add_figure(row, "to_loop_p99_ms", to_loop_.quantile(0.99) * kAgeCell.milliseconds());
-  return row.number("frames", c.frames)
-      .number("sweeps", c.sweeps)
-      .number("unreadable", c.unreadable)
-      .number("bad_stamps", c.bad_stamps)
-      .number("no_room", c.no_room)
+  outbox_.add_to(row, now);
+  return row.number("sweeps", sweeps_.load())
+      .number("unreadable", unreadable_.load())
+      .number("bad_stamps", bad_stamps_.load())
       .str();
 }
 

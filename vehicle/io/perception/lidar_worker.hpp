@@ -20,12 +20,11 @@
 #include <thread>
 #include <vector>
 
-#include "protocol/vocabulary/quantile.hpp"
 #include "vehicle/autonomy/perception/lidar_detector.hpp"
-#include "vehicle/io/ingress/arrivals.hpp"
-#include "vehicle/io/ingress/frame_queue.hpp"
 #include "vehicle/io/ingress/mailbox.hpp"
 #include "vehicle/io/ingress/sensor_ingress.hpp"
+#include "vehicle/io/perception/debug_topics.hpp"
+#include "vehicle/io/perception/frame_outbox.hpp"
 #include "vehicle/io/perception/sweep_gatherer.hpp"
 #include "vehicle/world/ego_state.hpp"
 
@@ -50,17 +49,18 @@ class LidarWorker {
     double largest_gap_ms = 0.0;                   // between two frames
   };
 
-  // `track` outlives it. Without sources there is nothing to do: nullptr.
+  // `track` and `debug` outlive it. Without sources there is nothing to do: nullptr.
   static std::unique_ptr<LidarWorker> start(std::vector<LidarSource> sources,
                                             const world::TrackMap& track,
                                             std::optional<perception::PillarDetector> network,
-                                            Gathering gathering = Gathering::kPunctual);
+                                            Gathering gathering = Gathering::kPunctual,
+                                            DebugTopics* debug = nullptr);
   ~LidarWorker();
   LidarWorker(const LidarWorker&) = delete;
   LidarWorker& operator=(const LidarWorker&) = delete;
 
   void report(const world::EgoState& ego);
-  const world::DetectionFrame* front() const { return queue_.front(); }
+  const world::DetectionFrame* front() const { return outbox_.front(); }
   void pop(Instant now);  // only after front() has returned one
 
   // Of the frames; drops: those that the loop did not take, and clouds in none.
@@ -69,14 +69,14 @@ class LidarWorker {
   std::string json(Instant now) const;  // a row of SensorIngress::json()
 
  private:
-  static constexpr Duration kAgeCell = microseconds(100);
   struct Unit {
     LidarSource source;
     perception::PointCloud points{};
   };
 
   LidarWorker(std::vector<LidarSource> sources, const world::TrackMap& track,
-              std::optional<perception::PillarDetector> network, Gathering gathering);
+              std::optional<perception::PillarDetector> network, Gathering gathering,
+              DebugTopics* debug);
   void serve();
   bool take_clouds();
   void take(std::size_t unit, const ros::PointCloud2& cloud);
@@ -88,13 +88,10 @@ class LidarWorker {
   perception::LidarDetector detector_;
   Mailbox<world::EgoState> ego_;
   world::EgoState newest_ego_{};  // of the thread
-  FrameQueue queue_;
-  Arrivals arrivals_;
-  std::atomic<std::uint64_t> frames_{0}, sweeps_{0}, unreadable_{0}, bad_stamps_{0}, no_room_{0};
-  std::atomic<double> largest_gap_ms_{0.0};
-  std::optional<Instant> last_frame_;  // of the thread
+  DebugTopics* debug_;            // null: nobody looks on
+  FrameOutbox outbox_;            // ages: of the oldest points
+  std::atomic<std::uint64_t> sweeps_{0}, unreadable_{0}, bad_stamps_{0};
   Duration horizon_most_{};
-  Histogram to_loop_{10'000};  // ages of the oldest points when the loop took them, in kAgeCell
   std::atomic<bool> end_{false};
   std::thread thread_;  // last: it uses all of the above
 };

@@ -57,16 +57,17 @@ TEST(Arguments, TheLeastHaveDefaults) {
 }
 
 TEST(Arguments, EveryOptionArrives) {
-  const Parsed p = parse_vehicle(
-      with(kLeast, {"--radio", "10.0.0.5:99,10.0.0.6:99", "--radio", "10.0.1.5:98",
-                    "--local-report", "23436", "--summary", "s.json", "--simulation", "--arm",
-                    "--no-base", "--sensors", "sensors.yaml", "--sensors-domain", "7"}));
+  const Parsed p = parse_vehicle(with(
+      kLeast, {"--radio", "10.0.0.5:99,10.0.0.6:99", "--radio", "10.0.1.5:98", "--local-report",
+               "23436", "--summary", "s.json", "--simulation", "--arm", "--no-base", "--sensors",
+               "sensors.yaml", "--sensors-domain", "7", "--debug-dds"}));
   ASSERT_FALSE(p.refused()) << p.err;
   EXPECT_EQ(p.args().radio, (Words{"10.0.0.5:99,10.0.0.6:99", "10.0.1.5:98"}));
   EXPECT_EQ(p.args().local_report, 23436);
   EXPECT_EQ(p.args().summary_file, "s.json");
   EXPECT_EQ(p.args().sensors_file, "sensors.yaml");
   EXPECT_EQ(p.args().sensors_domain, 7);
+  EXPECT_TRUE(p.args().debug_dds);
   EXPECT_TRUE(p.args().simulation);
   EXPECT_TRUE(p.args().arm);
   EXPECT_TRUE(p.args().no_base);
@@ -75,6 +76,7 @@ TEST(Arguments, EveryOptionArrives) {
 TEST(Arguments, ADomainOfSensorsNeedsTheirFileAndIsOneOfRos) {
   EXPECT_FALSE(parse_vehicle(with(kLeast, {"--sensors", "s.yaml"})).args().sensors_domain);
   EXPECT_TRUE(parse_vehicle(with(kLeast, {"--sensors-domain", "7"})).refused());
+  EXPECT_TRUE(parse_vehicle(with(kLeast, {"--debug-dds"})).refused()) << "nothing to show";
   EXPECT_TRUE(
       parse_vehicle(with(kLeast, {"--sensors", "s.yaml", "--sensors-domain", "102"})).refused());
 }

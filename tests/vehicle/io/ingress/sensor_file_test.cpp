@@ -58,6 +58,41 @@ TEST(SensorFile, ThoseThatAreShippedAreRead) {
   EXPECT_GT(lidars->domain.shared_memory_bytes, 0U);
   EXPECT_EQ(detections->domain.shared_memory_bytes, 0U);
   EXPECT_FALSE(lidars->waits_for_all);
+  const auto cameras = read_sensor_file(folder + "av21_cameras.yaml");
+  ASSERT_TRUE(cameras) << to_string(cameras.error());
+  EXPECT_EQ(std::ranges::count_if(cameras->sensors,
+                                  [](const SensorRow& row) { return row.camera.has_value(); }),
+            2);
+  EXPECT_TRUE(std::filesystem::exists(cameras->camera_network)) << cameras->camera_network;
+}
+
+TEST(SensorFile, ACameraWhoseImagesAreLookedAtSaysWhereItIsAndWhatItsLensIs) {
+  const std::string camera =
+      "  - {name: front, topic: /front, type: CompressedImage, rate_hz: 10, unit: 1,\n"
+      "     at_m: [0.6, 0.15, 0.7], turned_deg: [0, 1.5, 14], focal_px: 1000,\n"
+      "     centre_px: [335.5, 159.5], height_m: 1.16}\n";
+  const auto file = read("camera_network: net.onnx\nsensors:\n" + camera);
+  ASSERT_TRUE(file) << to_string(file.error());
+  EXPECT_TRUE(file->camera_network.ends_with("/net.onnx")) << "beside the file";
+  const SensorRow& row = file->sensors[0];
+  EXPECT_EQ(row.type, SensorType::kCompressedImage);
+  ASSERT_TRUE(row.camera);
+  EXPECT_EQ(row.camera->unit, 1);
+  EXPECT_EQ(row.camera->mounting.pose.yaw_rad, from_deg(14.0));
+  EXPECT_EQ(row.camera->mounting.optics.focal_y_px, 1'000.0);
+  EXPECT_EQ(row.camera->mounting.optics.centre_y_px, 159.5);
+  EXPECT_EQ(row.camera->mounting.car_height_m, 1.16);
+
+  EXPECT_NE(why("sensors:\n" + camera).find("camera_network"), std::string::npos);
+  const std::string detections =
+      "  - {name: boxes, topic: /b, type: Detection2DArray, rate_hz: 20, unit: 1, focal_px: 900,\n"
+      "     centre_px: 640, height_m: 1.2}\n";
+  EXPECT_NE(why("camera_network: n\nsensors:\n" + camera + detections).find("unit"),
+            std::string::npos)
+      << "both would be camera 1";
+  const auto plain = read("sensors: [{name: i, topic: /i, type: Image, rate_hz: 10}]");
+  ASSERT_TRUE(plain);
+  EXPECT_FALSE(plain->sensors[0].camera) << "nobody looks at it";
 }
 
 TEST(SensorFile, IsOnLoopbackWhereItDoesNotSayOtherwise) {
@@ -159,7 +194,7 @@ TEST(SensorFile, AMistakeInASensorThatDetectsCarsIsNamed) {
   const auto says = [](const std::string& rows) { return why("sensors:\n" + rows); };
   EXPECT_EQ(says(lidar + row("b", "Detection3DArray", ", unit: 1")), "taken");
   EXPECT_EQ(says(lidar + row("b", "Detection3DArray", "")),
-            "unit: another sensor of this type has this unit");
+            "unit: another sensor of this kind has this unit");
   EXPECT_EQ(says(lidar + row("b", "RadarScan", ", amplitude_db: [0, 30]")), "taken");
   EXPECT_NE(says(row("a", "RadarScan", "")), "taken") << "no amplitudes";
   EXPECT_EQ(says(row("a", "RadarScan", ", amplitude_db: [30, 30]")),
