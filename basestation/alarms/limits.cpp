@@ -79,6 +79,7 @@ constexpr auto kOwnLimits = std::to_array<DefaultLimit>({
     {state::field_id("derived.sensor_rate_share"), at_least(0.8, 0.5)},
     {state::field_id("derived.sensor_gap_ms"), at_most(250.0, 500.0)},
     {state::field_id("derived.sensor_latency_share"), at_most(1.0, 2.0)},
+    {state::field_id("derived.camera_offset_share"), at_most(1.0, 3.0)},
     {state::field_id("derived.flag_conflict"), among({}, {1})},
     {state::field_id("derived.role_conflict"), among({}, {1})},
     {state::field_id("derived.round_speed_conflict"), among({}, {1})},

@@ -54,6 +54,7 @@ enum class BaseField : std::uint8_t {
   kSensorShare,
   kSensorGap,
   kSensorLatency,
+  kCameraOffset,
   kFlagConflict,
   kRoundSpeedConflict,
   kRaceControlSpeed,
@@ -98,7 +99,7 @@ enum class BaseField : std::uint8_t {
   kReplayedOpenings,
   kRelay
 };
-inline constexpr std::size_t kBaseFields = 74;
+inline constexpr std::size_t kBaseFields = 75;
 
 struct BaseRow {
   BaseField field;
@@ -152,6 +153,7 @@ inline constexpr auto kBaseTable = [] {
       {kSensorShare, "derived", "sensor_rate_share", "", 0, 2, 0.01},  // worst, of its nominal rate
       {kSensorGap, "derived", "sensor_gap_ms", "ms", 0, 1'016, 4},     // worst
       {kSensorLatency, "derived", "sensor_latency_share", "", 0, 10, 0.01},  // worst, of allowed
+      {kCameraOffset, "derived", "camera_offset_share", "", 0, 20, 0.01},    // worst, of allowed
       {kFlagConflict, "derived", "flag_conflict", "", 0, 1, 1, kNoYes},
       {kRoundSpeedConflict, "derived", "round_speed_conflict", "", 0, 1, 1, kNoYes},
       {kRaceControlSpeed, "derived", "race_control_speed", "m/s", 0, 102, 0.1},

@@ -171,6 +171,14 @@ void put_sensors(const TelemetryInputs& in, Snapshot& snapshot) {
   put(field("sensors.camera0_rate"), in.io.cameras[0]);
   put(field("sensors.camera1_rate"), in.io.cameras[1]);
   put(field("sensors.radar_rate"), in.io.radar);
+  constexpr std::array kBiases{field("sensors.camera0_bearing_bias"),
+                               field("sensors.camera1_bearing_bias")};
+  static_assert(field("sensors.camera0_distance_ratio") == kBiases[0] + 1);
+  for (std::size_t unit = 0; unit < kBiases.size(); ++unit) {
+    const world::CameraBias bias = in.car.tracking.cameras.bias(unit);
+    snapshot.values[kBiases[unit]] = bias.bearing_rad;
+    snapshot.values[kBiases[unit] + 1] = bias.distance_ratio;
+  }
 }
 
 void put_receiver(const TelemetryInputs& in, std::size_t unit, Snapshot& snapshot) {

@@ -26,6 +26,9 @@ struct Detection {
   double length_m = kUnset, width_m = kUnset;
   double bearing_rad = kUnset;          // counter-clockwise from the x axis
   double inverse_depth_per_m = kUnset;  // of the distance along the bearing
+  // By which both may be off, where the detector knows (kCamera): standard deviations, that of the
+  // distance as a share of it.
+  double bearing_sigma_rad = kUnset, distance_sigma = kUnset;
   double range_m = kUnset;
   double range_rate_mps = kUnset;  // positive while the distance grows
 };
@@ -40,5 +43,13 @@ struct DetectionFrame {
   Instant received{};     // arrival at the car's computer
   FixedVector<Detection, kDetectionsMax> detections{};
 };
+
+// What a camera sees off, against the LiDARs, on the mean of many cars; unset where that is not
+// known.
+struct CameraBias {
+  double bearing_rad = kUnset;     // its bearing less theirs
+  double distance_ratio = kUnset;  // its distance over theirs
+};
+inline constexpr std::size_t kWatchedCameras = 2;  // units 0 and 1
 
 }  // namespace pitwall::world

@@ -198,6 +198,7 @@ void derive_sensors(const Pass& pass) {
   pass.put(BaseField::kSensorShare, worst.rate_share, {kSensors});
   pass.put(BaseField::kSensorGap, worst.gap_ms, {kSensors});
   pass.put(BaseField::kSensorLatency, worst.latency_share, {kSensors});
+  pass.put(BaseField::kCameraOffset, worst_camera_offset(pass.vehicle, pass.now), {kSensors});
   pass.put(BaseField::kCrossTrack, std::abs(pass.value(kError)), {kError});
 }
 

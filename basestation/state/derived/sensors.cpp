@@ -24,4 +24,19 @@ SensorHealth worst_sensor(const VehicleState& vehicle, Instant now) {
   return worst;
 }
 
+double worst_camera_offset(const VehicleState& vehicle, Instant now) {
+  constexpr std::array kBearings{telemetry::field("sensors.camera0_bearing_bias"),
+                                 telemetry::field("sensors.camera1_bearing_bias")};
+  constexpr std::array kRatios{telemetry::field("sensors.camera0_distance_ratio"),
+                               telemetry::field("sensors.camera1_distance_ratio")};
+  double worst = kUnset;
+  for (const telemetry::FieldIndex bearing : kBearings)
+    worst =
+        std::fmax(worst, std::abs(vehicle.view(bearing, now).value) / kCameraBearingAllowed_rad);
+  for (const telemetry::FieldIndex ratio : kRatios)
+    worst =
+        std::fmax(worst, std::abs(vehicle.view(ratio, now).value - 1.0) / kCameraDistanceAllowed);
+  return worst;
+}
+
 }  // namespace pitwall::state

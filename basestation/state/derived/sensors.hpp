@@ -45,8 +45,8 @@ inline constexpr auto kSensorTable = std::to_array<SensorRow>({
     sensor_row("lidar0", 20.0, 105.0),
     sensor_row("lidar1", 20.0, 105.0),
     sensor_row("lidar2", 20.0, 105.0),
-    sensor_row("camera0", 20.0, 150.0),
-    sensor_row("camera1", 20.0, 150.0),
+    sensor_row("camera0", 10.0, 150.0),  // images; detections come oftener
+    sensor_row("camera1", 10.0, 150.0),
     sensor_row("radar", 15.0, 150.0),
 });
 inline constexpr std::size_t kSensors = kSensorTable.size();
@@ -56,5 +56,10 @@ struct SensorHealth {
 };
 SensorHealth health_of(const SensorRow& row, const VehicleState& vehicle, Instant now);
 SensorHealth worst_sensor(const VehicleState& vehicle, Instant now);
+
+// How far what a camera sees is off, as a share of what is allowed: bearing, distance, of any
+// camera. Above 1 its calibration is in doubt.
+inline constexpr double kCameraBearingAllowed_rad = 0.005, kCameraDistanceAllowed = 0.15;
+double worst_camera_offset(const VehicleState& vehicle, Instant now);
 
 }  // namespace pitwall::state

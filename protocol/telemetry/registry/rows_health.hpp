@@ -24,6 +24,14 @@ constexpr FieldRow drops(std::string_view name) {  // messages since the start t
   return count(Group::kSensors, name, 65'533);
 }
 
+// What a camera sees off, on the mean of many cars, against the LiDARs.
+constexpr FieldRow bearing_bias(std::string_view name) {
+  return {Group::kSensors, name, "rad", -0.1, 0.1, 0.0005};
+}
+constexpr FieldRow distance_ratio(std::string_view name) {
+  return {Group::kSensors, name, "", 0.5, 2, 0.01};
+}
+
 constexpr std::size_t kReceiverFields = 15;
 constexpr std::array<FieldRow, kReceiverFields> receiver(Group group) {
   return {{{group, "status", "", 0, 62, 1},
@@ -108,10 +116,14 @@ inline constexpr auto kSensorRows = std::to_array<FieldRow>({
     gap("camera0_gap"),
     latency("camera0_latency"),
     drops("camera0_drops"),
+    bearing_bias("camera0_bearing_bias"),
+    distance_ratio("camera0_distance_ratio"),
     rate("camera1_rate"),
     gap("camera1_gap"),
     latency("camera1_latency"),
     drops("camera1_drops"),
+    bearing_bias("camera1_bearing_bias"),
+    distance_ratio("camera1_distance_ratio"),
     rate("radar_rate"),
     gap("radar_gap"),
     latency("radar_latency"),

@@ -167,8 +167,30 @@ inline Outputs full() {
 }
 
 // State of the car: faults, a plan, a running filter.
+// A camera that sees the one other car so far off for a while.
+inline void watch_camera(std::uint8_t unit, double bearing_rad, double ratio,
+                         tracking::CameraWatch& watch) {
+  using world::DetectionSource;
+  constexpr double kAhead_m = 40.0;
+  const auto frame = [](DetectionSource source, std::uint8_t of, Instant at) {
+    tracking::AdmittedFrame made{.key = {at, source, of}, .own = {}, .measurements = {}};
+    made.own = {.x_m = 0, .y_m = 0, .yaw_rad = 0, .vx_mps = 0, .vy_mps = 0};
+    return made;
+  };
+  for (int i = 0; i < 60; ++i) {
+    const Instant at = Instant{} + milliseconds(1'000'000 * unit + 100 * i);
+    tracking::AdmittedFrame lidar = frame(DetectionSource::kLidar, 0, at);
+    tracking::AdmittedFrame camera = frame(DetectionSource::kCamera, unit, at + milliseconds(50));
+    EXPECT_TRUE(lidar.measurements.push({{kAhead_m, 0.0}, 0.9}));
+    EXPECT_TRUE(camera.measurements.push({{bearing_rad, 1.0 / (kAhead_m * ratio)}, 0.9}));
+    watch.note(lidar), watch.note(camera);
+  }
+}
+
 inline std::unique_ptr<Car> full_car() {
   auto car = std::make_unique<Car>();
+  watch_camera(0, 0.02, 1.25, car->tracking.cameras);
+  watch_camera(1, -0.03, 0.8, car->tracking.cameras);
   car->supervisor.log.record({ago_ms(9'000), safety::Cause::kGnssRateLost, 1.0}, false);
   car->supervisor.log.record({ago_ms(4'000), safety::Cause::kImuLost, 1.0}, true);
   car->follow = safety::Follow::kStop;

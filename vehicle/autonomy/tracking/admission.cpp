@@ -24,7 +24,8 @@ bool may_be(double v, double least, double most) { return !is_set(v) || (v >= le
 Measurement measurement_of(DetectionSource source, const Detection& d) {
   switch (source) {
     case DetectionSource::kCamera:
-      return {{d.bearing_rad, d.inverse_depth_per_m, kUnset, kUnset, kUnset}, d.confidence};
+      return {{d.bearing_rad, d.inverse_depth_per_m, d.bearing_sigma_rad, d.distance_sigma, kUnset},
+              d.confidence};
     case DetectionSource::kRadar:
       return {{d.range_m, d.bearing_rad, d.range_rate_mps, kUnset, kUnset}, d.confidence};
     case DetectionSource::kLidar:
@@ -45,7 +46,8 @@ bool has_form(DetectionSource source, const Measurement& m) {
              may_be(v[3], 0.0, kSizeMax_m) && may_be(v[4], 0.0, kSizeMax_m);
     case DetectionSource::kCamera:
       return is_set(v[0]) && may_be(v[0], -kTurn_rad, kTurn_rad) &&
-             may_be(v[1], 1.0 / kLargest, kLargest);
+             may_be(v[1], 1.0 / kLargest, kLargest) && may_be(v[2], 1e-6, 1.0) &&
+             may_be(v[3], 1e-6, 1.0);
     case DetectionSource::kRadar:
       return is_set(v[0]) && is_set(v[1]) && may_be(v[0], 1.0 / kLargest, kLargest) &&
              may_be(v[1], -kTurn_rad, kTurn_rad) && may_be(v[2], -kRateMax_mps, kRateMax_mps);
@@ -60,10 +62,11 @@ bool is_in_own_car(const Params& params, double dx_m, double dy_m, const OwnMoti
 }
 
 bool is_on_track(const Params& params, const world::TrackMap& map, const FrameKey& sensor,
-                 const OwnMotion& own, const Position& at, double distance_m) {
+                 const OwnMotion& own, const Measurement& m, const Position& at,
+                 double distance_m) {
   const world::Curvilinear c = station_of(map, own, at);
   const world::TrackPoint line = map.at(c.s_m);
-  const SightSigma sigma = sight_sigma(params.road, sensor, distance_m);
+  const SightSigma sigma = sight_sigma(params.road, sensor, m, distance_m);
   const double margin_m =
       params.wall_margin_m + kWallSigmas * std::fmax(sigma.along_m, sigma.across_m);
   return c.n_m < line.width_left_m + margin_m && c.n_m > -line.width_right_m - margin_m;
@@ -80,7 +83,8 @@ std::uint64_t* refusal_of(const Params& params, const Surroundings& around, cons
   const double distance_m = std::hypot(dx_m, dy_m);
   if (distance_m > params.reach_m) return &n.too_far;
   if (is_in_own_car(params, dx_m, dy_m, own)) return &n.in_own_car;
-  if (around.track != nullptr && !is_on_track(params, *around.track, sensor, own, at, distance_m))
+  if (around.track != nullptr &&
+      !is_on_track(params, *around.track, sensor, own, m, at, distance_m))
     return &n.off_track;
   return nullptr;
 }

@@ -59,7 +59,9 @@ Output step(const Params& params, State& state, const Inputs& in) {
     const auto admitted =
         admit(params, {.own = state.own, .track = in.track, .use = in.use, .now = in.now}, frame,
               state.counters);
-    if (admitted && use_frame(params, state, *admitted)) out.published = true;
+    if (!admitted || !use_frame(params, state, *admitted)) continue;
+    out.published = true;
+    state.cameras.note(*admitted);
   }
   if (out.published) {
     if (params.method == Method::kRoad) state.timeline.settle(params, in.track, state.tracks);

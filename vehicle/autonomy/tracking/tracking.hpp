@@ -22,6 +22,7 @@
 
 #include "protocol/vocabulary/time.hpp"
 #include "vehicle/autonomy/tracking/admission.hpp"
+#include "vehicle/autonomy/tracking/camera_watch.hpp"
 #include "vehicle/autonomy/tracking/filter/track.hpp"
 #include "vehicle/autonomy/tracking/names.hpp"
 #include "vehicle/autonomy/tracking/own_trail.hpp"
@@ -48,6 +49,7 @@ struct State {
   Timeline timeline;  // method "road"
   OwnTrail own;
   Names names;
+  CameraWatch cameras;
   Counters counters;
 };
 static_assert(std::is_trivially_copyable_v<State> && sizeof(State) < 500'000);

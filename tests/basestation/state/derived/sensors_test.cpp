@@ -40,5 +40,15 @@ TEST(Sensors, OneThatNeverCameIsNotJudged) {
   EXPECT_EQ(worst_sensor(reported.vehicle, kStart).rate_share, 0.0);
 }
 
+TEST(Sensors, ACameraIsOffByTheWorseOfBearingAndDistance) {
+  using telemetry::field;
+  KnownState reported;
+  EXPECT_TRUE(std::isnan(worst_camera_offset(reported.vehicle, kStart))) << "nothing is known";
+  reported.publish(field("sensors.camera0_bearing_bias"), -0.0025, kStart);
+  EXPECT_NEAR(worst_camera_offset(reported.vehicle, kStart), 0.5, 1e-9);
+  reported.publish(field("sensors.camera1_distance_ratio"), 0.7, kStart);
+  EXPECT_NEAR(worst_camera_offset(reported.vehicle, kStart), 2.0, 1e-9);
+}
+
 }  // namespace
 }  // namespace pitwall::state

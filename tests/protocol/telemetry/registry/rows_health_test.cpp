@@ -18,7 +18,8 @@ TEST(ReceiverRows, AreTheSameForBothUnits) {
     EXPECT_EQ(kFields[first.first + i].name, kFields[second.first + i].name);
 }
 
-// The car writes rate, gap, latency and, where they are counted, drops one after the other.
+// The car writes rate, gap, latency and, where they are counted, drops one after the other; of a
+// camera that is watched what it sees off too.
 TEST(SensorRows, OfOneSensorStandTogether) {
   const auto [first, count] = fields_of(Group::kSensors);
   for (std::size_t i = first; i < first + count;) {
@@ -30,6 +31,10 @@ TEST(SensorRows, OfOneSensorStandTogether) {
     EXPECT_EQ(kFields[i + 2].name, sensor + "latency");
     i += 3;
     if (i < first + count && kFields[i].name == sensor + "drops") ++i;
+    if (i < first + count && kFields[i].name == sensor + "bearing_bias") {
+      EXPECT_EQ(kFields[i + 1].name, sensor + "distance_ratio");
+      i += 2;
+    }
   }
 }
 

@@ -48,7 +48,7 @@ struct Race {
       add(d.x_m, sigma_m), add(d.y_m, sigma_m), add(d.yaw_rad, sensors.lidar_yaw_sigma_rad);
       add(d.length_m, 0.2), add(d.width_m, 0.1);
     } else if (source == world::DetectionSource::kCamera) {
-      const CameraSigma sigma = camera_sigma(sensors, unit);
+      const CameraSigma sigma = camera_sigma(sensors, unit, {}, kUnset);
       add(d.bearing_rad, sigma.bearing_rad);
       add(d.inverse_depth_per_m, sigma.inverse_depth_per_m);
     } else {

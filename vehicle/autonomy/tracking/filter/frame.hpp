@@ -32,7 +32,8 @@ struct OwnMotion {
 };
 
 // One detection. `value` by source: kLidar x, y, yaw, length, width (the last three may be unset);
-// kCamera bearing, inverse depth (may be unset); kRadar range, bearing, range rate (may be unset).
+// kCamera bearing, inverse depth, standard deviation of the bearing and, as a share, of the
+// distance (the last three may be unset); kRadar range, bearing, range rate (may be unset).
 struct Measurement {
   std::array<double, 5> value{kUnset, kUnset, kUnset, kUnset, kUnset};
   double confidence = kUnset;

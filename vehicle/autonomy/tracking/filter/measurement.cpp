@@ -213,7 +213,8 @@ Innovation reading_of(const RoadParams& params, const FrameKey& sensor, const Ow
   switch (sensor.source) {
     case DetectionSource::kCamera: {
       const bool depth = std::isfinite(m.value[1]);
-      const CameraSigma sigma = camera_sigma(params, sensor.unit);
+      const CameraSigma sigma =
+          camera_sigma(params, sensor.unit, m, depth ? 1.0 / m.value[1] : kUnset);
       return {.size = depth ? 2U : 1U,
               .value = {m.value[0], depth ? m.value[1] : 0.0, 0.0},
               .variance = {square(sigma.bearing_rad), square(sigma.inverse_depth_per_m), 0.0}};
@@ -304,15 +305,20 @@ double lidar_sigma_m(const RoadParams& p, double distance_m) {
   return p.lidar_sigma_m + p.lidar_sigma_per_m * std::max(0.0, distance_m - p.lidar_sigma_from_m);
 }
 
-CameraSigma camera_sigma(const RoadParams& p, std::uint8_t unit) {
-  if (unit == 0) return {p.camera_bearing_sigma_rad, p.camera_inverse_depth_sigma_per_m};
-  return {p.wide_camera_bearing_sigma_rad, p.wide_camera_inverse_depth_sigma_per_m};
+CameraSigma camera_sigma(const RoadParams& p, std::uint8_t unit, const Measurement& m,
+                         double distance_m) {
+  CameraSigma sigma{p.wide_camera_bearing_sigma_rad, p.wide_camera_inverse_depth_sigma_per_m};
+  if (unit == 0) sigma = {p.camera_bearing_sigma_rad, p.camera_inverse_depth_sigma_per_m};
+  if (std::isfinite(m.value[2])) sigma.bearing_rad = m.value[2];
+  if (std::isfinite(m.value[3])) sigma.inverse_depth_per_m = m.value[3] / distance_m;
+  return sigma;
 }
 
-SightSigma sight_sigma(const RoadParams& p, const FrameKey& sensor, double distance_m) {
+SightSigma sight_sigma(const RoadParams& p, const FrameKey& sensor, const Measurement& m,
+                       double distance_m) {
   switch (sensor.source) {
     case DetectionSource::kCamera: {
-      const CameraSigma sigma = camera_sigma(p, sensor.unit);
+      const CameraSigma sigma = camera_sigma(p, sensor.unit, m, distance_m);
       return {distance_m * distance_m * sigma.inverse_depth_per_m, distance_m * sigma.bearing_rad};
     }
     case DetectionSource::kRadar:

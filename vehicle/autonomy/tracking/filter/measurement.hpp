@@ -93,12 +93,15 @@ double lidar_sigma_m(const RoadParams& params, double distance_m);
 struct CameraSigma {
   double bearing_rad, inverse_depth_per_m;
 };
-CameraSigma camera_sigma(const RoadParams& params, std::uint8_t unit);
+// That which the detector gave, else that of the unit.
+CameraSigma camera_sigma(const RoadParams& params, std::uint8_t unit, const Measurement& m,
+                         double distance_m);
 
 // Standard deviation along and across the line of sight, at a distance.
 struct SightSigma {
   double along_m, across_m;
 };
-SightSigma sight_sigma(const RoadParams& params, const FrameKey& sensor, double distance_m);
+SightSigma sight_sigma(const RoadParams& params, const FrameKey& sensor, const Measurement& m,
+                       double distance_m);
 
 }  // namespace pitwall::tracking

@@ -270,7 +270,7 @@ std::optional<Track> first_track(const RoadParams& params, const TrackMap* map, 
   set_heading(params, map, frame, m, road_rad, track);
   const double sight_rad = std::atan2(at.y_m - own.y_m, at.x_m - own.x_m);
   const double distance_m = std::hypot(at.x_m - own.x_m, at.y_m - own.y_m);
-  set_position_covariance(sight_sigma(params, frame.key, distance_m), sight_rad - road_rad, left,
+  set_position_covariance(sight_sigma(params, frame.key, m, distance_m), sight_rad - road_rad, left,
                           track.p);
   track.x[kSpeed] = std::hypot(own.vx_mps, own.vy_mps);
   track.p[kSpeed][kSpeed] = params.start_speed_sigma_mps * params.start_speed_sigma_mps;

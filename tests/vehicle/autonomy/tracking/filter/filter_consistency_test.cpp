@@ -82,7 +82,7 @@ Measurement noisy(const RoadParams& p, DetectionSource source, const TruePose& o
     const double sigma_m = lidar_sigma_m(p, std::hypot(m.value[0], m.value[1]));
     add(0, sigma_m), add(1, sigma_m), add(2, p.lidar_yaw_sigma_rad);
   } else if (source == DetectionSource::kCamera) {
-    const CameraSigma sigma = camera_sigma(p, 0);
+    const CameraSigma sigma = camera_sigma(p, 0, {}, kUnset);
     add(0, sigma.bearing_rad), add(1, sigma.inverse_depth_per_m);
   } else {
     add(0, p.radar_range_sigma_m), add(1, p.radar_bearing_sigma_rad);

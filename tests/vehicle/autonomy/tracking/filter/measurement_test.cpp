@@ -156,10 +156,26 @@ TEST(TrackMeasurement, UpdateIsThatOfTheFormulaForOneValue) {
 // The noise of a depth grows with its square: that of its inverse does not.
 TEST(TrackMeasurement, CameraDepthIsWorseFarAway) {
   const RoadParams params;
-  const SightSigma near = sight_sigma(params, {.source = DetectionSource::kCamera}, 50.0);
-  const SightSigma far = sight_sigma(params, {.source = DetectionSource::kCamera}, 100.0);
+  const SightSigma near = sight_sigma(params, {.source = DetectionSource::kCamera}, {}, 50.0);
+  const SightSigma far = sight_sigma(params, {.source = DetectionSource::kCamera}, {}, 100.0);
   EXPECT_NEAR(far.along_m / near.along_m, 4.0, 1e-12);
   EXPECT_NEAR(far.across_m / near.across_m, 2.0, 1e-12);
+}
+
+// A detector that knows how far it is off says so with each car.
+TEST(TrackMeasurement, TheDetectorsOwnSigmasComeBeforeThoseOfTheUnit) {
+  const RoadParams params;
+  const Measurement own{{0.1, 1.0 / 40.0, 0.002, 0.08, kUnset}, 0.9};
+  const SightSigma sigma = sight_sigma(params, {.source = DetectionSource::kCamera}, own, 40.0);
+  EXPECT_NEAR(sigma.along_m, 0.08 * 40.0, 1e-12);
+  EXPECT_NEAR(sigma.across_m, 0.002 * 40.0, 1e-12);
+  const Innovation reading = reading_of(params, {.source = DetectionSource::kCamera}, {}, own);
+  EXPECT_NEAR(std::sqrt(reading.variance[0]), 0.002, 1e-12);
+  EXPECT_NEAR(std::sqrt(reading.variance[1]), 0.08 / 40.0, 1e-12);
+  const Measurement plain{{0.1, 1.0 / 40.0, kUnset, kUnset, kUnset}, 0.9};
+  EXPECT_NEAR(
+      std::sqrt(reading_of(params, {.source = DetectionSource::kCamera}, {}, plain).variance[0]),
+      params.camera_bearing_sigma_rad, 1e-12);
 }
 
 }  // namespace
