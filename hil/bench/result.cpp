@@ -42,7 +42,7 @@ std::string lap_errors_json(const std::vector<grading::ErrorStatistics>& laps) {
   return out.str();
 }
 
-std::string clouds_json(const CloudFeed& feed) {
+std::string feed_json(const SensorFeed& feed) {
   return json::Object{}
       .number("sent", feed.sent)
       .number("refused", feed.refused)
@@ -53,13 +53,13 @@ std::string clouds_json(const CloudFeed& feed) {
       .str();
 }
 
-std::string clouds_text(const CloudFeed& feed) {
+std::string feed_text(const char* what, const SensorFeed& feed) {
   return formatted(
-      "clouds of LiDARs: %llu sent, %llu refused, %llu sweeps skipped; late p50 %.1f ms, "
-      "p99 %.1f ms, at most %.1f ms\n",
-      static_cast<unsigned long long>(feed.sent), static_cast<unsigned long long>(feed.refused),
-      static_cast<unsigned long long>(feed.skipped), feed.late_p50_ms, feed.late_p99_ms,
-      feed.late_max_ms);
+      "%s: %llu sent, %llu refused, %llu times skipped; late p50 %.1f ms, p99 %.1f ms, at most "
+      "%.1f ms\n",
+      what, static_cast<unsigned long long>(feed.sent),
+      static_cast<unsigned long long>(feed.refused), static_cast<unsigned long long>(feed.skipped),
+      feed.late_p50_ms, feed.late_p99_ms, feed.late_max_ms);
 }
 
 std::string laps_json(const decltype(RunResult::laps)& laps) {
@@ -186,7 +186,10 @@ std::string drive_text(const RunResult& r) {
     out += formatted("LiDARs, ray by ray: %llu sweeps on the ground of the map, %llu without\n",
                      static_cast<unsigned long long>(r.sweeps_on_map),
                      static_cast<unsigned long long>(r.sweeps_by_cloth));
-  if (r.clouds) out += clouds_text(*r.clouds);
+  if (r.images > 0)
+    out += formatted("cameras, rendered: %llu images\n", static_cast<unsigned long long>(r.images));
+  if (r.clouds) out += feed_text("clouds of LiDARs", *r.clouds);
+  if (r.live_images) out += feed_text("images of cameras", *r.live_images);
   if (!r.refused_to_arm.empty()) out += "car refused to arm: " + r.refused_to_arm + "\n";
   for (const CompletedAction& done : r.done)
     out += formatted("at %.3f s: ", done.at.seconds()) + done.what + "\n";
@@ -356,9 +359,11 @@ std::string to_json(const RunResult& r) {
       .number("bus_refusals", r.bus_refusals)
       .number("bus_losses", r.bus_losses)
       .number("detections_lost", r.detections_lost)
+      .number("images", r.images)
       .number("sweeps_on_map", r.sweeps_on_map)
       .number("sweeps_by_cloth", r.sweeps_by_cloth);
-  if (r.clouds) out.json("clouds", clouds_json(*r.clouds));
+  if (r.clouds) out.json("clouds", feed_json(*r.clouds));
+  if (r.live_images) out.json("live_images", feed_json(*r.live_images));
   if (r.real_time) out.json("real_time", real_time_json(*r.real_time));
   if (!r.others.empty()) out.json("others", others_json(r.others));
   return out.json("done", done_json(r.done))

@@ -55,10 +55,10 @@ struct RealTime {
   static constexpr double kMissedShareMax = 0.01;
 };
 
-// Clouds of LiDARs that a live bench published for its car.
-struct CloudFeed {
+// Clouds or images that a live bench published for its car.
+struct SensorFeed {
   std::uint64_t sent = 0, refused = 0;  // refused: DDS took them not
-  std::uint64_t skipped = 0;            // sweeps of all LiDARs that were not made in time
+  std::uint64_t skipped = 0;            // times of all sensors for which none was made
   double late_p50_ms = kUnset, late_p99_ms = kUnset, late_max_ms = kUnset;  // after their time
 };
 
@@ -77,7 +77,8 @@ struct RunResult {
   std::uint64_t detections_lost = 0;
   // Of LiDARs that are run ray by ray, else 0: sweeps on the map's ground, and on that of a cloth.
   std::uint64_t sweeps_on_map = 0, sweeps_by_cloth = 0;
-  std::optional<CloudFeed> clouds;
+  std::uint64_t images = 0;  // rendered, in which the car looked
+  std::optional<SensorFeed> clouds, live_images;
   double speed_max_mps = 0.0;
   Outcome outcome;
   std::size_t other_cars = 0;             // on the track

@@ -90,4 +90,11 @@ LidarFault lidar_fault(std::span<const BenchFault> faults, Instant now) {
   return f;
 }
 
+CameraFault camera_fault(std::span<const BenchFault> faults, Instant now) {
+  CameraFault f;
+  for (const BenchFault& fault : faults)
+    if (fault.kind == kCameraOutage && active(fault, now)) f.outage[fault.unit] = true;
+  return f;
+}
+
 }  // namespace pitwall::faults

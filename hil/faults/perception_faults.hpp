@@ -32,4 +32,10 @@ struct LidarFault {
 };
 LidarFault lidar_fault(std::span<const BenchFault> faults, Instant now);
 
+// Of cameras whose images are there.
+struct CameraFault {
+  std::array<bool, sensors::kCameraUnits> outage{};
+};
+CameraFault camera_fault(std::span<const BenchFault> faults, Instant now);
+
 }  // namespace pitwall::faults

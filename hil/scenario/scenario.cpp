@@ -60,6 +60,11 @@ constexpr std::array kLidarKinds = {
     Named<LidarKind>{"rays_clusters", LidarKind::kRaysClusters},
 };
 
+constexpr std::array kCameraKinds = {
+    Named<CameraKind>{"model", CameraKind::kModel},
+    Named<CameraKind>{"rendered", CameraKind::kRendered},
+};
+
 constexpr std::array kReceiverKinds = {
     Named<world::ReceiverKind>{"novatel_oem7", world::ReceiverKind::kNovatelOem7},
     Named<world::ReceiverKind>{"vectornav", world::ReceiverKind::kVectorNav},
@@ -257,6 +262,7 @@ Scenario read_root(yaml::StrictMap& map) {
   scenario.car_file = map.text("car");
   scenario.bus = one_of(map, "bus", kBusRevisions, "v14");
   scenario.lidars = one_of(map, "lidars", kLidarKinds, "model");
+  scenario.cameras = one_of(map, "cameras", kCameraKinds, "model");
   if (map.has("receivers")) scenario.receivers = read_receivers(map);
   if (auto start = map.optional_map("start")) scenario.start = read_start(*start);
   if (auto tyres = map.optional_map("tyres")) scenario.tyres = read_tyres(*tyres);

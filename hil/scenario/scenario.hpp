@@ -106,6 +106,10 @@ enum class LidarKind : std::uint8_t { kModel, kMeasured, kRays, kRaysClusters };
 
 constexpr bool has_rays(LidarKind lidars) { return lidars >= LidarKind::kRays; }
 
+// How the cameras see them: as detections with drawn errors; or in rendered images of those in
+// front, with the car's own detector behind them.
+enum class CameraKind : std::uint8_t { kModel, kRendered };
+
 struct Scenario {
   std::string name;
   std::uint64_t seed = 0;
@@ -116,6 +120,7 @@ struct Scenario {
   std::optional<std::array<world::ReceiverKind, world::kGnssUnits>> receivers;
   BusRevision bus = BusRevision::kV14;
   LidarKind lidars = LidarKind::kModel;
+  CameraKind cameras = CameraKind::kModel;
   std::optional<sensors::DetectorErrors> lidar_errors{};  // of kMeasured; by who opens the files
   Start start;
   Tyres tyres;

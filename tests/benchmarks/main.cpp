@@ -17,6 +17,7 @@
 #include "tests/benchmarks/modules/bench_ekf.hpp"
 #include "tests/benchmarks/modules/bench_gnss.hpp"
 #include "tests/benchmarks/modules/bench_plant.hpp"
+#include "tests/benchmarks/perception/bench_camera.hpp"
 #include "tests/benchmarks/perception/bench_perception.hpp"
 #include "tests/benchmarks/protocol_comparison/bench_radio.hpp"
 #include "tests/benchmarks/radio/radio_gates.hpp"
@@ -34,6 +35,7 @@ struct Benchmark {
 };
 
 constexpr std::array kBenchmarks{
+    Benchmark{"camera", "the camera's detector on drawn images", bench_camera},
     Benchmark{"control", "control laws side by side, at held speeds on three ovals", bench_control},
     Benchmark{"dbc", "CAN databases: parse, decode, encode", bench_dbc},
     Benchmark{"ekf", "the filter of localization: its cost to the car", bench_ekf},

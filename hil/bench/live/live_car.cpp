@@ -12,7 +12,6 @@
 #include "hil/bench/live/car_summary.hpp"
 #include "hil/bench/match_run.hpp"
 #include "hil/bench/signals.hpp"
-#include "hil/scenario/perturbed.hpp"
 #include "protocol/transport/clock.hpp"
 
 namespace pitwall::bench {
@@ -20,43 +19,6 @@ namespace {
 
 constexpr Duration kStartLimit = seconds(60);  // a guest is slow
 constexpr std::size_t kReadBatch = 256;
-
-// None where the run names no file.
-Result<std::optional<io::SensorFile>, Problem> sensor_file_of(const LivePlan& plan) {
-  if (plan.sensors.empty()) return std::optional<io::SensorFile>{};
-  auto file = io::read_sensor_file(plan.sensors);
-  if (!file) return Unexpected{file.error()};
-  file->domain.domain = plan.sensors_domain;
-  return std::optional{*std::move(file)};
-}
-
-Result<std::optional<DetectionPublisher>, Problem> open_detections(
-    const std::optional<io::SensorFile>& file, const scenario::Scenario& run,
-    std::span<const faults::BenchFault> faults) {
-  if (!file && !faults.empty())
-    return Unexpected{Problem{"faults",
-                              "of sensors that see other cars: a live run has them with "
-                              "--sensors FILE"}};
-  if (!file) return std::optional<DetectionPublisher>{};
-  auto opened = DetectionPublisher::open(*file, plant::detection_sensors_of(run), faults, run.seed);
-  if (!opened) return Unexpected{opened.error()};
-  return std::optional{*std::move(opened)};
-}
-
-Result<std::unique_ptr<CloudPublisher>, Problem> open_clouds(
-    const std::optional<io::SensorFile>& file, const scenario::Scenario& run,
-    const pipeline::Setup& setup, std::span<const faults::BenchFault> faults) {
-  if (run.lidars != scenario::LidarKind::kRays) return std::unique_ptr<CloudPublisher>{};
-  auto clouds = CloudPublisher::open(
-      file.value_or(io::SensorFile{}), setup.track,
-      [&setup](double s_m) { return line_offset_m(setup, {.s_m = s_m, .n_m = 0.0}); }, run.seed,
-      faults);
-  if (clouds && !*clouds)
-    return Unexpected{Problem{run.name,
-                              "\"lidars: rays\": a live run needs --sensors FILE with "
-                              "LiDARs whose mounts it knows"}};
-  return clouds;
-}
 
 }  // namespace
 
@@ -99,19 +61,18 @@ Result<std::unique_ptr<LiveCar>, Problem> LiveCar::open(const scenario::Scenario
   auto receivers = ReceiverPort::open(plan.receiver_ports(),
                                       ReceiverEncoder{setup.params.receivers, faults->bytes});
   if (!receivers) return Unexpected{receivers.error()};
-  const auto sensors = sensor_file_of(plan);
-  if (!sensors) return Unexpected{sensors.error()};
-  auto detections = open_detections(*sensors, scenario, faults->perception);
-  if (!detections) return Unexpected{detections.error()};
-  auto clouds = open_clouds(*sensors, scenario, setup, faults->perception);
-  if (!clouds) return Unexpected{clouds.error()};
+  auto feeds = CarFeeds::open(
+      plan.sensors, plan.sensors_domain, scenario, setup.track,
+      [&setup](double s_m) { return line_offset_m(setup, {.s_m = s_m, .n_m = 0.0}); },
+      faults->perception);
+  if (!feeds) return Unexpected{feeds.error()};
   return std::unique_ptr<LiveCar>{
       new LiveCar(scenario, setup, plan, has_others,
                   {*std::move(rig), *std::move(grader), *std::move(bus), *std::move(radio),
                    *std::move(monitor), *std::move(receivers), *std::move(machine),
                    ProcessSupervisor{members_of(plan),
                                      script_of(faults->processes, Instant{} + scenario.duration)},
-                   *std::move(detections), *std::move(clouds)})};
+                   *std::move(feeds)})};
 }
 
 LiveCar::LiveCar(const scenario::Scenario& scenario, const pipeline::Setup& setup,
@@ -253,11 +214,8 @@ void LiveCar::serve_radio(Instant now) { parts_.radio.serve(now); }
 
 void LiveCar::show_others(Field& field, std::size_t own, Instant at) {
   parts_.rig.show_rival(field.rival_of(own));
-  if (parts_.detections)
-    parts_.detections->step({field.car(own).pose, field.others_of(own)}, at, started_);
-  if (parts_.clouds)
-    parts_.clouds->show(parts_.rig.truth(), parts_.rig.road().s_m, field.others_of(own), at,
-                        started_);
+  parts_.feeds.show(parts_.rig.truth(), parts_.rig.road().s_m,
+                    {field.car(own).pose, field.others_of(own)}, at, started_);
   const bool tick = (at - Instant{}).ns % setup_.params.rates.tick.ns == 0;
   if (record_ && tick) record_->others(field, own, at);
 }
@@ -324,8 +282,7 @@ void LiveCar::fill() {
   result_.laps = parts_.rig.laps();
   result_.traffic.from_car = result_.traffic.bench_received;
   result_.traffic.lost = lost_here();
-  if (parts_.detections) result_.detections_lost = parts_.detections->lost();
-  if (parts_.clouds) result_.clouds = parts_.clouds->counts();
+  parts_.feeds.add_to(result_);
   const CarReport& last = parts_.monitor.report();
   if (std::isfinite(last.gate_refusals))
     result_.gate_refusals = static_cast<std::uint64_t>(last.gate_refusals);
@@ -360,8 +317,8 @@ void LiveCar::compare_counts(const CarSummary& car) {
   result_.traffic.lost = missing(result_.traffic.to_car, car.frames_received) +
                          missing(car.frames_sent, result_.traffic.bench_received) + not_taken_ +
                          car.tx_drops;
-  if (parts_.detections)
-    result_.detections_lost += missing(parts_.detections->sent(), detections_received(car));
+  if (parts_.feeds.detections)
+    result_.detections_lost += missing(parts_.feeds.detections->sent(), detections_received(car));
 }
 
 void LiveCar::record_car(const CarSummary& car) {

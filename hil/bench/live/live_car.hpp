@@ -17,11 +17,10 @@
 
 #include "hil/bench/live/car_monitor.hpp"
 #include "hil/bench/live/car_summary.hpp"
-#include "hil/bench/live/cloud_publisher.hpp"
-#include "hil/bench/live/detection_publisher.hpp"
 #include "hil/bench/live/live.hpp"
 #include "hil/bench/live/machine.hpp"
 #include "hil/bench/live/operator_line.hpp"
+#include "hil/bench/live/publishers/car_feeds.hpp"
 #include "hil/bench/live/receiver_port.hpp"
 #include "hil/bench/path_deviation.hpp"
 #include "hil/bench/run_record.hpp"
@@ -80,8 +79,7 @@ class LiveCar {
     ReceiverPort receivers;
     Machine machine;
     ProcessSupervisor processes;
-    std::optional<DetectionPublisher> detections;  // none: the car has no such sensors
-    std::unique_ptr<CloudPublisher> clouds;        // none: its LiDARs shoot no rays
+    CarFeeds feeds;
   };
 
   LiveCar(const scenario::Scenario& scenario, const pipeline::Setup& setup, const LivePlan& plan,

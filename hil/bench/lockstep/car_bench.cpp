@@ -28,6 +28,21 @@ std::string mode_text(const safety::SupervisorOutput& chosen) {
   return text;
 }
 
+Result<OwnDetectors, Problem> own_detectors(const scenario::Scenario& scenario, bool has_others) {
+  const auto file = [&](bool is_used, const char* name) {
+    return has_others && is_used ? below(scenario.folder, name) : "";
+  };
+  const auto read = [](const std::string& path) { return transport::read_file(path); };
+  auto lidar = perception::PillarDetector::read(
+      file(scenario.lidars == scenario::LidarKind::kRays, perception::kPillarNetworkFile), read);
+  if (!lidar) return Unexpected{lidar.error()};
+  auto camera = perception::CameraDetector::read(
+      file(scenario.cameras == scenario::CameraKind::kRendered, perception::kCameraNetworkFile),
+      read);
+  if (!camera) return Unexpected{camera.error()};
+  return OwnDetectors{*std::move(lidar), *std::move(camera)};
+}
+
 }  // namespace
 
 Result<std::unique_ptr<CarBench>, Problem> CarBench::build(const scenario::Scenario& scenario,
@@ -49,22 +64,17 @@ Result<std::unique_ptr<CarBench>, Problem> CarBench::build(const scenario::Scena
     if (const auto fit = inputs::parse_text_command(word.text); !fit)
       return Unexpected{fit.error()};
   if (auto problem = dust_in_rays(scenario)) return Unexpected{*std::move(problem)};
-  auto network = perception::PillarDetector::read(
-      has_others && scenario.lidars == scenario::LidarKind::kRays
-          ? below(scenario.folder, perception::kPillarNetworkFile)
-          : "",
-      [](const std::string& path) { return transport::read_file(path); });
-  if (!network) return Unexpected{network.error()};
+  auto detectors = own_detectors(scenario, has_others);
+  if (!detectors) return Unexpected{detectors.error()};
   GuardianNode guardian{setup.params, faults->processes, options.guardian};
   return std::unique_ptr<CarBench>{new CarBench(scenario, setup, *std::move(rig),
                                                 *std::move(grader), std::move(guardian), *faults,
-                                                options, has_others, *std::move(network))};
+                                                options, has_others, *std::move(detectors))};
 }
 
 CarBench::CarBench(const scenario::Scenario& scenario, const pipeline::Setup& setup, Rig rig,
                    grading::Grader grader, GuardianNode guardian, const FaultPlan& faults,
-                   const LockstepOptions& options, bool has_others,
-                   std::optional<perception::PillarDetector> network)
+                   const LockstepOptions& options, bool has_others, OwnDetectors detectors)
     : scenario_(scenario),
       setup_(setup),
       rig_(std::move(rig)),
@@ -87,9 +97,11 @@ CarBench::CarBench(const scenario::Scenario& scenario, const pipeline::Setup& se
   if (options.log) record_.emplace(scenario, "lockstep", options.log, has_others);
   if (!has_others) return;
   detection_sensors_ = plant::detection_sensors_of(scenario_);
-  network_ = std::move(network);
+  own_ = std::move(detectors);
   if (has_rays(scenario_.lidars))
     detection_sensors_ = without(detection_sensors_, world::DetectionSource::kLidar);
+  if (scenario_.cameras == scenario::CameraKind::kRendered)
+    detection_sensors_ = without(detection_sensors_, world::DetectionSource::kCamera);
   detection_ = sensors::make_detections(detection_sensors_, scenario_.seed, Instant{});
   detections_.reserve(kDetectionFrames);
 }
@@ -110,9 +122,16 @@ void CarBench::show_others(Field& field, std::size_t own, Instant at) {
   sensors::step_detections(detection_sensors_, detection_,
                            {.ours = field.car(own).pose, .others = others}, at, arrivals_);
   if (has_rays(scenario_.lidars)) {
-    if (!lidars_) lidars_.emplace(setup_.track, others.size(), scenario_.seed, std::move(network_));
+    if (!lidars_)
+      lidars_.emplace(setup_.track, others.size(), scenario_.seed, std::move(own_.lidar));
     lidars_->step(rig_.truth(), others, out_ ? out_->ego : world::EgoState{},
                   faults::lidar_fault(perception_faults_, at), at, arrivals_);
+  }
+  if (scenario_.cameras == scenario::CameraKind::kRendered) {
+    if (!cameras_)
+      cameras_.emplace(setup_.track, others.size(), scenario_.seed, *std::move(own_.camera));
+    cameras_->step(rig_.truth(), others, faults::camera_fault(perception_faults_, at), at,
+                   arrivals_);
   }
   for (const world::DetectionFrame& frame : arrivals_) {
     if (detections_.size() < kDetectionFrames)
@@ -328,6 +347,10 @@ RunResult CarBench::finish() {
     result_.sweeps_on_map = lidars_->counts().on_map;
     result_.sweeps_by_cloth = lidars_->counts().by_cloth;
     result_.detections_lost += lidars_->counts().no_room;
+  }
+  if (cameras_) {
+    result_.images = cameras_->counts().images;
+    result_.detections_lost += cameras_->counts().no_room;
   }
   result_.traffic.lost = frames_lost();
   result_.traffic.bus_load = bus_.load();

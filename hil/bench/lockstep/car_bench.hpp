@@ -16,6 +16,7 @@
 #include "hil/bench/lockstep/clock_faults.hpp"
 #include "hil/bench/lockstep/guardian_node.hpp"
 #include "hil/bench/lockstep/lockstep.hpp"
+#include "hil/bench/lockstep/rendered_cameras.hpp"
 #include "hil/bench/lockstep/swept_lidars.hpp"
 #include "hil/bench/lockstep/virtual_station.hpp"
 #include "hil/bench/path_deviation.hpp"
@@ -24,6 +25,12 @@
 #include "hil/can_bus/memory_bus.hpp"
 
 namespace pitwall::bench {
+
+// The car's own detectors, behind what the bench renders.
+struct OwnDetectors {
+  std::optional<perception::PillarDetector> lidar;
+  std::optional<perception::CameraDetector> camera;
+};
 
 class CarBench {
  public:
@@ -65,8 +72,7 @@ class CarBench {
  private:
   CarBench(const scenario::Scenario& scenario, const pipeline::Setup& setup, Rig rig,
            grading::Grader grader, GuardianNode guardian, const FaultPlan& faults,
-           const LockstepOptions& options, bool has_others,
-           std::optional<perception::PillarDetector> network);
+           const LockstepOptions& options, bool has_others, OwnDetectors detectors);
   RunView view(Instant now) const;
   void step_car(Instant now);
   void hang_planner(Instant now);
@@ -106,8 +112,9 @@ class CarBench {
   bool identity_changed_ = false;
   sensors::DetectionSensors detection_sensors_;  // none for a car that is alone
   sensors::DetectionState detection_;
-  std::optional<perception::PillarDetector> network_;  // of lidars_, until they are made
-  std::optional<SweptLidars> lidars_;                  // in place of the modelled ones
+  OwnDetectors own_;                        // of lidars_ and cameras_, until they are made
+  std::optional<SweptLidars> lidars_;       // in place of the modelled ones
+  std::optional<RenderedCameras> cameras_;  // likewise
   sensors::Arrivals arrivals_;
   std::vector<world::DetectionFrame> detections_;  // since the last tick
 };

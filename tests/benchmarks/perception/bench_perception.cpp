@@ -25,21 +25,6 @@ using perception::PillarDetector, perception_bench::DetectorRow, perception_benc
 
 constexpr unsigned kAtATime = 2;
 
-std::vector<SceneSet> sets_of(std::size_t scenes, std::uint64_t seed) {
-  return {{"held back: SF23 at IMS, dust x 2",
-           "vehicle/config/tracks/ims.yaml",
-           sensors::sf23_shape(),
-           {.dust = 2.0},
-           scenes,
-           seed},
-          {"known: AV-21 at LVMS, dust",
-           "vehicle/config/tracks/lvms.yaml",
-           sensors::av21_shape(),
-           {},
-           scenes,
-           seed}};
-}
-
 Result<std::optional<PillarDetector>, Problem> network_of(const std::string& file) {
   return PillarDetector::read(file,
                               [](const std::string& path) { return transport::read_file(path); });
@@ -79,7 +64,7 @@ int bench_perception(std::span<const std::string> args) {
   app.option("--scenes", scenes, "of each set").range(1, 100'000);
   app.option("--seed", seed, "of the first scene").range(0, 1'000'000);
   if (const auto code = app.ended_by(args)) return *code;
-  const std::vector<SceneSet> sets = sets_of(scenes, seed);
+  const std::vector<SceneSet> sets = perception_bench::scene_sets(scenes, seed);
   const auto rows = detect_all(sets, network_file);
   if (!rows) return refuse(rows.error());
   const auto track = track_file::read_track_map(sets.front().track_file);

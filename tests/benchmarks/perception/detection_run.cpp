@@ -6,6 +6,21 @@
 
 namespace pitwall::perception_bench {
 
+std::vector<SceneSet> scene_sets(std::size_t scenes, std::uint64_t seed) {
+  return {{"held back: SF23 at IMS, dust x 2",
+           "vehicle/config/tracks/ims.yaml",
+           sensors::sf23_shape(),
+           {.dust = 2.0},
+           scenes,
+           seed},
+          {"known: AV-21 at LVMS, dust",
+           "vehicle/config/tracks/lvms.yaml",
+           sensors::av21_shape(),
+           {},
+           scenes,
+           seed}};
+}
+
 std::vector<DetectorRow> detect_scenes(const SceneSet& set, const world::TrackMap& track,
                                        std::optional<perception::PillarDetector> network) {
   const perception::TrackGrid grid{track};

@@ -26,6 +26,9 @@ struct SceneSet {
   std::uint64_t seed = 0;
 };
 
+// Another body and track than those of the training, and more dust; then one of its kind.
+std::vector<SceneSet> scene_sets(std::size_t scenes, std::uint64_t seed);
+
 struct DetectorRow {
   std::string set, detector;
   DetectionScore score;

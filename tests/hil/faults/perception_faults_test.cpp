@@ -159,6 +159,15 @@ TEST(PerceptionFaults, RaysHaveTheirOwn) {
   EXPECT_EQ(f.added_latency, milliseconds(200));
 }
 
+TEST(PerceptionFaults, ACameraThatIsOutSendsNoImages) {
+  const std::vector<BenchFault> faults{
+      {.kind = kCameraOutage, .start = Instant{} + seconds(1), .unit = 1},
+      {.kind = kLidarOutage, .start = Instant{}, .unit = 2}};
+  EXPECT_EQ(camera_fault(faults, Instant{}).outage, CameraFault{}.outage);
+  EXPECT_EQ(camera_fault(faults, Instant{} + seconds(1)).outage,
+            (std::array{false, true, false, false, false}));
+}
+
 TEST(PerceptionFaults, AreThoseOfTheCatalogue) {
   EXPECT_TRUE(is_perception_fault(kLidarLate));
   EXPECT_FALSE(is_perception_fault(kGnssLatency));

@@ -271,6 +271,13 @@ TEST(Scenario, TheLidarsAreModelledUnlessTheyShootRays) {
   EXPECT_EQ(to_string(wrong.error()).rfind("l.yaml:", 0), 0u) << to_string(wrong.error());
 }
 
+TEST(Scenario, TheCamerasAreModelledUnlessTheyAreRendered) {
+  EXPECT_EQ(read_scenario(kGood, "good.yaml")->cameras, CameraKind::kModel);
+  EXPECT_EQ(read_scenario(kGood + "cameras: rendered\n", "good.yaml")->cameras,
+            CameraKind::kRendered);
+  EXPECT_FALSE(read_scenario(kGood + "cameras: eyes\n", "c.yaml"));
+}
+
 TEST(Expectation, OfATimeThatIsCutAwayIsNotShown) {
   using enum ExpectKind;
   for (const ExpectKind kind : {kAlways, kNever, kWithin, kDetects}) {

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <vector>
 
-#include "hil/bench/live/detection_publisher.hpp"
+#include "hil/bench/live/publishers/detection_publisher.hpp"
 #include "protocol/transport/clock.hpp"
 #include "vehicle/io/ingress/sensor_ingress.hpp"
 

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <optional>
 
-#include "hil/bench/live/cloud_publisher.hpp"
+#include "hil/bench/live/publishers/cloud_publisher.hpp"
 #include "protocol/transport/clock.hpp"
 #include "tests/hil/traffic/oval_cars.hpp"
 #include "tests/vehicle/autonomy/perception/lidar/ego_on_oval.hpp"
@@ -30,7 +30,7 @@ io::SensorFile front_lidar(int domain) {
 // The bench for so long; what the car's clusters found ahead, at most `frames`.
 struct Seen {
   std::size_t frames = 0, with_car = 0;
-  CloudFeed feed{};
+  SensorFeed feed{};
 };
 Seen seen_in(int domain, Duration span, std::size_t frames,
              std::span<const faults::BenchFault> faults) {

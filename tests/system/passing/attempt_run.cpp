@@ -122,6 +122,8 @@ AttemptDraw drawn(std::uint64_t seed) {
 
 std::string scenario_text(const AttemptCase& attempt) {
   const AttemptDraw draw = drawn(attempt.seed);
+  const char* const cameras =
+      attempt.cameras == scenario::CameraKind::kRendered ? "rendered" : "model";
   return formatted(R"(schema: 1
 name: attempt_%.0f_%llu_%s
 seed: %llu
@@ -129,6 +131,7 @@ duration_s: 400
 track: vehicle/config/tracks/tms.yaml
 car: %s
 lidars: %s
+cameras: %s
 start: {s_m: %.0f, n_m: 0, speed_mps: 0}
 tyres: {temperature_c: 85}
 perturb: {friction: %.4f, detection_noise: %.4f}
@@ -157,10 +160,10 @@ match:
 %s)",
                    attempt.round_mph, static_cast<unsigned long long>(attempt.seed),
                    text_of(attempt.driver), static_cast<unsigned long long>(attempt.seed),
-                   car_of(attempt.driver), name_of(attempt.lidars), kOwnStart_m, draw.friction,
-                   draw.detection_noise, kOwnStart_m - draw.start_gap_m, draw.lane_sigma_m,
-                   draw.lane_correlation_s, draw.speed_sigma_mps, draw.speed_correlation_s,
-                   attempt.round_mph, faults_of(attempt.out).c_str());
+                   car_of(attempt.driver), name_of(attempt.lidars), cameras, kOwnStart_m,
+                   draw.friction, draw.detection_noise, kOwnStart_m - draw.start_gap_m,
+                   draw.lane_sigma_m, draw.lane_correlation_s, draw.speed_sigma_mps,
+                   draw.speed_correlation_s, attempt.round_mph, faults_of(attempt.out).c_str());
 }
 
 AttemptRun run_attempt(const AttemptCase& attempt) {

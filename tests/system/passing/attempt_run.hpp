@@ -36,6 +36,7 @@ struct AttemptCase {
   double round_mph = kUnset;
   Driver driver = Driver::kOurs;
   scenario::LidarKind lidars = scenario::LidarKind::kModel;
+  scenario::CameraKind cameras = scenario::CameraKind::kModel;
   SensorsOut out = SensorsOut::kNone;
 };
 

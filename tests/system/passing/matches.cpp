@@ -1,6 +1,7 @@
 // Attempts to pass in every bracket, ours and the published planner's: `./pitwall long matches`.
 // With `--lidars rays` ours alone, at three speeds, by LiDARs that shoot their rays; at one of them
-// again without cameras and without the LiDAR that looks ahead.
+// again without cameras and without the LiDAR that looks ahead. With `--cameras rendered` the car
+// looks in rendered images too.
 // Exit: 0 the gates hold, 1 one does not, 2 the command line is wrong.
 // SPDX-License-Identifier: Apache-2.0
 #include <CLI/CLI.hpp>
@@ -18,7 +19,7 @@ namespace pitwall::testing {
 namespace {
 
 // Processor time of one, on the reference machine.
-constexpr double kAttempt_s = 7.0, kByRays_s = 110.0;
+constexpr double kAttempt_s = 7.0, kByRays_s = 110.0, kByImages_s = 350.0;
 constexpr std::array kByRays{kBrackets[1], kBrackets[3], kBrackets[5]};
 constexpr std::size_t kByRaysAttempts = 5;
 
@@ -36,12 +37,13 @@ void see_as_measured(std::vector<AttemptCase>& cases) {
 }
 
 std::vector<AttemptCase> cases_by_rays(std::span<const BracketGate> brackets, SensorsOut out,
-                                       std::size_t attempts) {
+                                       std::size_t attempts, scenario::CameraKind cameras) {
   std::vector<AttemptCase> cases;
   for (const BracketGate& bracket : brackets)
     for (std::size_t i = 0; i < attempts; ++i) {
       cases.push_back(case_of(Seeds::kCommitted, "", i, bracket.round_mph, Driver::kOurs));
       cases.back().lidars = scenario::LidarKind::kRays;
+      cases.back().cameras = cameras;
       cases.back().out = out;
     }
   return cases;
@@ -79,14 +81,15 @@ bool run_all(const std::vector<AttemptCase>& cases, std::span<const BracketGate>
   return missed.empty();
 }
 
-bool run_by_rays(std::size_t attempts, unsigned processes, const std::string& lost_folder) {
+bool run_by_rays(std::size_t attempts, scenario::CameraKind cameras, unsigned processes,
+                 const std::string& lost_folder) {
   bool held = true;
   for (const SensorsOut out : {SensorsOut::kNone, SensorsOut::kCameras, SensorsOut::kFrontLidar}) {
     const std::span<const BracketGate> brackets =
         out == SensorsOut::kNone ? std::span{kByRays} : std::span{kByRays}.subspan(1, 1);
     std::printf("%s%s:\n", out == SensorsOut::kNone ? "" : "\n", text_of(out));
-    held = run_all(cases_by_rays(brackets, out, attempts), brackets, Seeds::kCommitted, processes,
-                   lost_folder) &&
+    held = run_all(cases_by_rays(brackets, out, attempts, cameras), brackets, Seeds::kCommitted,
+                   processes, lost_folder) &&
            held;
   }
   return held;
@@ -99,7 +102,7 @@ int main(int argc, char** argv) {
   using namespace pitwall::testing;
   std::size_t attempts = 0;
   unsigned processes = 2;
-  std::string commit, lost_folder, lidars = "model";
+  std::string commit, lost_folder, lidars = "model", cameras = "model";
   CLI::App app{"Attempts to pass a defender at every round speed: ours and the published planner."};
   app.add_option("--attempts", attempts,
                  "of each driver at each speed, for each kind of seeds; 20, by rays 5")
@@ -108,11 +111,18 @@ int main(int argc, char** argv) {
          "--lidars", lidars,
          "model; measured: its errors are the network's; rays: ours alone at 100, 125, 150 mph")
       ->check(CLI::IsMember({"model", "measured", "rays"}));
+  CLI::Option* const by_images =
+      app.add_option("--cameras", cameras, "rendered: the car looks in images; with --lidars rays")
+          ->check(CLI::IsMember({"model", "rendered"}));
   app.add_option("--commit", commit, "its name gives the second kind of seeds; without: none");
   app.add_option("--processes", processes, "at once")->check(CLI::Range(1, 256));
   app.add_option("--lost", lost_folder, "scenarios of attempts that ours did not make go here");
   CLI11_PARSE(app, argc, argv);
-  const bool by_rays = lidars == "rays";
+  const bool by_rays = lidars == "rays", is_rendered = cameras == "rendered";
+  if (*by_images && !by_rays) {
+    std::fprintf(stderr, "--cameras: only with --lidars rays\n");
+    return 2;
+  }
   if (attempts == 0) attempts = by_rays ? kByRaysAttempts : kGateAttempts;
   const auto announce = [&](std::size_t all, double one_s) {
     std::printf("simulated: %zu attempts, about %.0f min on %u processors\n", all,
@@ -120,8 +130,10 @@ int main(int argc, char** argv) {
     std::fflush(stdout);
   };
   if (by_rays) {
-    announce((kByRays.size() + 2) * attempts, kByRays_s);
-    return run_by_rays(attempts, processes, lost_folder) ? 0 : 1;
+    announce((kByRays.size() + 2) * attempts, is_rendered ? kByImages_s : kByRays_s);
+    const auto kind = is_rendered ? pitwall::scenario::CameraKind::kRendered
+                                  : pitwall::scenario::CameraKind::kModel;
+    return run_by_rays(attempts, kind, processes, lost_folder) ? 0 : 1;
   }
   auto committed = cases_of(Seeds::kCommitted, commit, attempts);
   if (lidars == "measured") see_as_measured(committed);

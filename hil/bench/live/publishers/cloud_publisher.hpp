@@ -12,27 +12,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <condition_variable>
 #include <cstdint>
-#include <deque>
 #include <functional>
 #include <memory>
-#include <mutex>
-#include <optional>
 #include <span>
-#include <string>
-#include <thread>
 #include <vector>
 
-#include "hil/bench/result.hpp"
-#include "hil/faults/perception_faults.hpp"
+#include "hil/bench/live/publishers/scene_sender.hpp"
 #include "hil/plant/car_pose.hpp"
 #include "hil/plant/plant.hpp"
 #include "hil/sensors/lidar/swept_track.hpp"
-#include "protocol/dds/domain.hpp"
 #include "protocol/ros/messages/sensor.hpp"
-#include "protocol/vocabulary/quantile.hpp"
-#include "vehicle/io/ingress/sensor_file.hpp"
 
 namespace pitwall::bench {
 
@@ -49,55 +39,31 @@ class CloudPublisher {
       const io::SensorFile& file, const world::TrackMap& track,
       const std::function<double(double s_m)>& offset_m, std::uint64_t seed,
       std::span<const faults::BenchFault> faults);
-  ~CloudPublisher();
-  CloudPublisher(const CloudPublisher&) = delete;
-  CloudPublisher& operator=(const CloudPublisher&) = delete;
 
   // `at` is scenario time, `started` the time of this process at its zero; `s_m` our station.
   void show(const plant::Truth& ours, double s_m, std::span<const plant::CarPose> others,
             Instant at, Instant started);
-  CloudFeed counts() const;
+  SensorFeed counts() const { return sender_->counts(); }
 
  private:
-  static constexpr Duration kLateCell = microseconds(10);
-  struct Moment {
-    sensors::Moving ours{};
-    double s_m = 0.0;
-    std::vector<sensors::Moving> others{};
-    Instant begun{};  // of this process
-    faults::LidarFault fault{};
-  };
-  struct Cloud {
-    std::size_t unit = 0;
-    Instant due{};
-    std::vector<std::uint8_t> bytes{};
-  };
+  CloudPublisher(const world::TrackMap& track, sensors::SweptTrack swept, std::size_t units,
+                 std::uint64_t seed, std::span<const faults::BenchFault> faults)
+      : track_(track),
+        swept_(std::move(swept)),
+        units_(units),
+        noise_(seed, kStream),
+        faults_(faults.begin(), faults.end()) {}
+  std::vector<SceneMessage> sweep(const SceneMoment& moment);
 
-  CloudPublisher(const world::TrackMap& track, sensors::SweptTrack swept, std::uint64_t seed,
-                 std::span<const faults::BenchFault> faults);
-  void serve();
-  void sweep(const Moment& moment);
-  void send_due();
+  static constexpr std::uint64_t kStream = 0xC10D5;
 
   const world::TrackMap& track_;
   sensors::SweptTrack swept_;
+  std::size_t units_;
+  sensors::Noise noise_;  // of the sender's thread
   std::vector<faults::BenchFault> faults_;
-  std::unique_ptr<dds::Domain> domain_;
-  std::vector<dds::Writer*> writers_;  // by unit
-  Instant next_{};                     // scenario time, of the caller
-
-  // Of the thread.
-  sensors::Noise noise_;
-  std::deque<Cloud> waiting_;
-
-  mutable std::mutex lock_;  // of what follows
-  std::condition_variable fresh_;
-  std::optional<Moment> moment_;
-  bool busy_ = false, end_ = false;
-  CloudFeed counts_;
-  Histogram late_{50'000};  // in kLateCell
-
-  std::thread thread_;  // last: it uses all of the above
+  Instant next_{};                       // scenario time, of the caller
+  std::unique_ptr<SceneSender> sender_;  // last: its thread uses all of the above
 };
 
 }  // namespace pitwall::bench

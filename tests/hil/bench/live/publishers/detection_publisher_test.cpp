@@ -1,6 +1,6 @@
 // That they reach a car is tested in tests/system/dds.
 // SPDX-License-Identifier: Apache-2.0
-#include "hil/bench/live/detection_publisher.hpp"
+#include "hil/bench/live/publishers/detection_publisher.hpp"
 
 #include <gtest/gtest.h>
 

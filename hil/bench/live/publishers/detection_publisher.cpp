@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "hil/bench/live/detection_publisher.hpp"
+#include "hil/bench/live/publishers/detection_publisher.hpp"
 
 #include <algorithm>
 #include <utility>
