@@ -66,7 +66,8 @@ TEST(CameraFeed, TheCarFindsTheOtherOneInTheImagesOfTheBench) {
       ++frames;
       for (const world::Detection& d : worker->front()->detections)
         with_car += std::abs(d.bearing_rad - bearing_rad) < 0.015 &&
-                    std::abs(1.0 / d.inverse_depth_per_m - std::hypot(kApart_m, kAside_m)) < 4.0;
+                    std::abs(d.inverse_depth_per_m * std::hypot(kApart_m, kAside_m) - 1.0) <
+                        3.0 * perception::kCameraDistanceSigma;
     }
   }
   EXPECT_EQ(frames, 10U);
