@@ -43,8 +43,9 @@ int scenes_verb(std::span<const std::string> args) {
   app.option("--seed", set.seed, "of the first scene").range(0, 1'000'000'000).shows_default();
   app.option("--dust", set.rules.dust, "density; 0: none").range(0.0, 10.0).shows_default();
   app.option("--spun", set.rules.spun_share, "share of cars that have spun").range(0.0, 1.0);
-  app.flag("--camera", camera, "images of the front cameras in place of sweeps");
-  app.flag("--varied", varied, "with --camera: other cameras than those of the AV-21");
+  const VerbOption of_images =
+      app.flag("--camera", camera, "images of the front cameras in place of sweeps");
+  app.flag("--varied", varied, "other cameras than those of the AV-21").needs(of_images);
   if (const auto code = app.ended_by(args)) return *code;
   const auto chosen = bodies_named(bodies);
   if (!chosen) return refuse({"--bodies " + bodies, "expected av21, sf23 or drawn"});
