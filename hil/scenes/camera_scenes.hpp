@@ -4,7 +4,7 @@
 //          cars (f32: u_px, v_px, width_px, height_px, depth_m, pixels, upright_px)
 //   law    the same set is the same scenes, on any number of threads
 //   errors Problem with the file that cannot be written
-//   cost   0.15 s a scene and processor; 0.65 MB a scene
+//   cost   0.1 s a scene and processor; 0.65 MB a scene
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

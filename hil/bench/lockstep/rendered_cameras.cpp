@@ -45,9 +45,7 @@ void RenderedCameras::expose(std::size_t unit, const plant::Truth& ours,
                              std::span<const plant::CarPose> others, Instant now) {
   std::vector<sensors::Moving> cars;
   for (const plant::CarPose& car : others) cars.push_back(sensors::standing(track_, car));
-  for (std::size_t car = 0; car < cars.size(); ++car)
-    rays_.place(car, sensors::rotation(cars[car].attitude), cars[car].at_m);
-  rays_.commit();
+  sensors::place_cars(cars, rays_);
   sensors::CameraImage image =
       sensors::camera_image(units_[unit], rays_, {sensors::moving(ours), cars, {}}, look_, noise_);
   world::DetectionFrame frame =

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 
 #include "hil/sensors/camera/shading.hpp"
 #include "hil/sensors/lidar/track_mesh.hpp"

@@ -79,9 +79,7 @@ CameraScene CameraSceneMaker::make(std::uint64_t seed) {
   const std::vector<DustCloud> dust = draw_dust(*track_, drawn, rules_.dust, noise);
   const Moving body = sprung_body(*track_, drawn.ours, noise);
   for (std::size_t car = 0; car < kSceneCarsMost; ++car) rays_.hide(car);
-  for (std::size_t car = 0; car < drawn.others.size(); ++car)
-    rays_.place(car, rotation(drawn.others[car].attitude), drawn.others[car].at_m);
-  rays_.commit();
+  place_cars(drawn.others, rays_);
   CameraScene scene{.unit = drawn_unit(seed, rules_.varied, noise), .image = {}, .cars = {}};
   const Look look = draw_look(kSceneCarsMost, noise);
   scene.image = camera_image(scene.unit, rays_, {body, drawn.others, dust}, look, noise);

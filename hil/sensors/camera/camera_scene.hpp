@@ -5,7 +5,7 @@
 //   drawn  cars, dust and springs as drawn_cars.hpp; the look (draw_look()); in turn the left and
 //          the right camera and, if the rules say so, another place, direction and focal length
 //   law    the same seed gives the same scene
-//   cost   0.15 s a scene
+//   cost   0.1 s a scene
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

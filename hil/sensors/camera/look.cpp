@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hil/sensors/camera/look.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <numbers>
 

@@ -91,6 +91,12 @@ SensorFrame frame_of(const SensorMount& mount, const Moving& body) {
           {turned(axes, in_body[0]), turned(axes, in_body[1]), turned(axes, in_body[2])}};
 }
 
+void place_cars(std::span<const Moving> cars, RayScene& scene) {
+  for (std::size_t car = 0; car < cars.size(); ++car)
+    scene.place(car, rotation(cars[car].attitude), cars[car].at_m);
+  scene.commit();
+}
+
 int columns_of(const LidarPattern& pattern) {
   return static_cast<int>(std::ceil(2.0 * pattern.half_width_rad / pattern.ray_step_rad));
 }
@@ -122,11 +128,9 @@ std::vector<LidarReturn> lidar_sweep(const LidarUnit& unit, RayScene& scene,
   Sweep sweep{unit, scene, world, noise};
   for (int ring = 0; ring < unit.pattern.rings; ++ring) {
     const double time_s = ring * unit.pattern.ring_period_s;
-    for (std::size_t car = 0; car < world.cars.size(); ++car) {
-      const Moving at = after(world.cars[car], time_s);
-      scene.place(car, rotation(at.attitude), at.at_m);
-    }
-    scene.commit();
+    std::vector<Moving> cars;
+    for (const Moving& car : world.cars) cars.push_back(after(car, time_s));
+    place_cars(cars, scene);
     sweep.scan(ring, time_s, returns);
   }
   return returns;

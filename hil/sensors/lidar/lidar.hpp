@@ -96,6 +96,9 @@ struct SensorFrame {
 };
 SensorFrame frame_of(const SensorMount& mount, const Moving& body);
 
+// Places the first cars of the scene, and commits that.
+void place_cars(std::span<const Moving> cars, RayScene& scene);
+
 // Rays of a pattern, row by row from its top, from its right to its left.
 int columns_of(const LidarPattern& pattern);
 Vector3 ray_of(const LidarPattern& pattern, int ring, int column);  // in the sensor's frame

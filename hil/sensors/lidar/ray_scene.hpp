@@ -4,7 +4,7 @@
 //   out    the first surface along a ray; whether something is in the way
 //   law    the nearest of all triangles; of two at one distance either
 //   errors none that a caller can make: a place beyond the cars is a CHECK
-//   cost   about 1 us a ray, in packets of neighbours 0.2 us; place() and commit() 20 us for some
+//   cost   about 1 us a ray, less in packets of neighbours; place() and commit() 20 us for some
 //          cars
 //   source Embree 3 (Wald et al., ACM TOG 33(4), 2014)
 // SPDX-License-Identifier: Apache-2.0

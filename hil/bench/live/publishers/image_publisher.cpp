@@ -75,9 +75,7 @@ void ImagePublisher::show(const plant::Truth& ours, std::span<const plant::CarPo
 
 std::vector<SceneMessage> ImagePublisher::expose(const SceneMoment& moment) {
   const ros::Time stamp = stamp_of(moment);
-  for (std::size_t car = 0; car < moment.others.size(); ++car)
-    rays_.place(car, sensors::rotation(moment.others[car].attitude), moment.others[car].at_m);
-  rays_.commit();
+  sensors::place_cars(moment.others, rays_);
   std::vector<SceneMessage> messages;
   for (std::size_t k = 0; k < cameras_.size(); ++k) {
     const auto& [unit, number] = cameras_[k];

@@ -3,8 +3,7 @@
 //   out    a frame of detections in Body, with bearing and inverse depth: of a car of the height H,
 //          upright h pixels high with the focal length f, the depth is f H / h (pinhole)
 //   errors read(): Problem with the file: it cannot be read, or as Network::load(). counts()
-//   cost   30 ms of one processor, 5 ms more where the image is not of the network's size.
-//          Allocates
+//   cost   25 ms of one processor for an image of the network's size. Allocates
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

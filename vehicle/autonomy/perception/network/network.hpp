@@ -1,8 +1,7 @@
 // A convolutional network from planes to planes, run by OpenCV's DNN module.
 //   in     the network as the bytes of an ONNX file, and the shapes that it must have
 //   errors load(): no ONNX, or its input or output has another shape
-//   cost   run(): of one processor that of its multiplications, some 25 a nanosecond. Allocates
-//          inside OpenCV
+//   cost   run(): that of its multiplications. Allocates inside OpenCV
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

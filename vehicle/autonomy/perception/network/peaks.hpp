@@ -31,7 +31,7 @@ inline double share_of_logit(double logit) { return 1.0 / (1.0 + std::exp(-logit
 
 std::vector<Cell> peaks_of(const OutputPlanes& out, double confidence_least);
 
-// Of those that are one thing the first.
+// Non-maximum suppression: of those that are one thing the first.
 template <class Box, class Same>
 std::vector<Box> surest(const std::vector<Box>& boxes, const Same& is_same) {
   std::vector<Box> kept;

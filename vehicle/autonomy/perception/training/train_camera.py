@@ -3,7 +3,7 @@
 
 in     --scenes FOLDER... of the training, --held-back FOLDER for the figures, --seed, --epochs
 out    --out FILE.onnx, and beside it FILE.json: figures on the held-back scenes, seed, hash
-cost   0.06 s an image and epoch on one processor
+cost   0.03 s an image and epoch on one processor
 exit   0 written; 1 worse than 0.9 of the figures in --reference FILE.json; 2 the command line or a
        folder is wrong
 SPDX-License-Identifier: Apache-2.0
