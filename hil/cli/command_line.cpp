@@ -36,6 +36,8 @@ VerbOption CommandLine::option(const std::string& name, Value& value, const std:
   return VerbOption{*app_->add_option(name, value, help)};
 }
 template VerbOption CommandLine::option(const std::string&, std::string&, const std::string&);
+template VerbOption CommandLine::option(const std::string&, std::vector<std::size_t>&,
+                                        const std::string&);
 template VerbOption CommandLine::option(const std::string&, std::vector<std::string>&,
                                         const std::string&);
 template VerbOption CommandLine::option(const std::string&, std::vector<double>&,

@@ -1,6 +1,6 @@
 // Subcommand `pitwall-hil scenes FOLDER --track FILE [--bodies av21|sf23|drawn] [--scenes N]
-// [--seed N] [--dust X] [--spun X] [--camera [--varied]]`: drawn scenes for the training of the
-// networks.
+// [--seed N] [--dust X] [--spun X] [--decoys none|common|rare] [--camera [--varied]]`: drawn scenes
+// for the training of the networks.
 //
 //   out    the arrays of hil/scenes/pillar_scenes.hpp, or of camera_scenes.hpp beside it, in
 //          FOLDER, which is made

@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "hil/sensors/lidar/drawn_cars.hpp"
-#include "protocol/vocabulary/check.hpp"
 
 namespace pitwall::sensors {
 namespace {
@@ -68,10 +67,11 @@ SeenCar seen(const CameraUnit& unit, const Moving& ours, const Moving& car, cons
 
 CameraSceneMaker::CameraSceneMaker(const world::TrackMap& track,
                                    const std::vector<CarShape>& bodies, const CameraRules& rules)
-    : track_(&track), bodies_(bodies), rules_(rules), rays_(track_scene_meshes(track)) {
-  CHECK(!bodies_.empty());
-  for (std::size_t car = 0; car < kSceneCarsMost; ++car) rays_.add_car(car_meshes(shape_of(car)));
-}
+    : track_(&track),
+      bodies_(bodies),
+      rules_(rules),
+      rays_(scene_with_cars(track_scene_meshes(track), bodies)),
+      decoys_(rules.decoys, rays_) {}
 
 CameraScene CameraSceneMaker::make(std::uint64_t seed) {
   Noise noise{seed, 0xCA3E4A};
@@ -79,12 +79,13 @@ CameraScene CameraSceneMaker::make(std::uint64_t seed) {
   const std::vector<DustCloud> dust = draw_dust(*track_, drawn, rules_.dust, noise);
   const Moving body = sprung_body(*track_, drawn.ours, noise);
   for (std::size_t car = 0; car < kSceneCarsMost; ++car) rays_.hide(car);
+  decoys_.stand_anew(*track_, drawn, seed, rays_);
   place_cars(drawn.others, rays_);
   CameraScene scene{.unit = drawn_unit(seed, rules_.varied, noise), .image = {}, .cars = {}};
   const Look look = draw_look(kSceneCarsMost, noise);
   scene.image = camera_image(scene.unit, rays_, {body, drawn.others, dust}, look, noise);
   for (std::size_t car = 0; car < drawn.others.size(); ++car) {
-    SeenCar of = seen(scene.unit, body, drawn.others[car], shape_of(car));
+    SeenCar of = seen(scene.unit, body, drawn.others[car], shape_of(bodies_, car));
     of.pixels = static_cast<std::size_t>(
         std::ranges::count(scene.image.car, static_cast<std::int8_t>(car)));
     if (of.pixels > 0 && !std::isnan(of.u_px)) scene.cars.push_back(of);

@@ -2,8 +2,9 @@
 // and the test of a detector.
 //   in     track, bodies of the other cars, rules, seed
 //   out    one image of one camera; each car of which it shows a pixel
-//   drawn  cars, dust and springs as drawn_cars.hpp; the look (draw_look()); in turn the left and
-//          the right camera and, if the rules say so, another place, direction and focal length
+//   drawn  cars, dust and springs as drawn_cars.hpp, decoys as decoys.hpp; the look (draw_look());
+//          in turn the left and the right camera and, if the rules say so, another place, direction
+//          and focal length
 //   law    the same seed gives the same scene
 //   cost   0.1 s a scene
 // SPDX-License-Identifier: Apache-2.0
@@ -15,6 +16,7 @@
 
 #include "hil/sensors/camera/camera.hpp"
 #include "hil/sensors/lidar/car_mesh.hpp"
+#include "hil/sensors/lidar/decoys.hpp"
 
 namespace pitwall::sensors {
 
@@ -36,6 +38,7 @@ struct CameraScene {
 struct CameraRules {
   double dust = 1.0, spun_share = 0.0;  // as drawn_cars.hpp
   bool varied = false;                  // cameras other than those of the AV-21
+  DecoySet decoys = DecoySet::kNone;
 };
 
 class CameraSceneMaker {
@@ -46,12 +49,11 @@ class CameraSceneMaker {
   CameraScene make(std::uint64_t seed);
 
  private:
-  const CarShape& shape_of(std::size_t car) const { return bodies_[car % bodies_.size()]; }
-
   const world::TrackMap* track_;
   std::vector<CarShape> bodies_;
   CameraRules rules_;
   RayScene rays_;
+  Decoys decoys_;
 };
 
 }  // namespace pitwall::sensors

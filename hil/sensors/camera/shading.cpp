@@ -52,6 +52,7 @@ Shading::Shading(const Look& look, std::span<const Moving> cars) : look_(look), 
 
 Colour Shading::body_colour(std::size_t car, const Vector3& at) const {
   const Paint& paint = look_.paints[car % look_.paints.size()];
+  if (car >= cars_.size()) return paint.first;  // of a decoy
   const Vector3 from = plus(at, times(-1.0, cars_[car].at_m));
   const Vector3 in_car{dot(from, axes_[car][0]), dot(from, axes_[car][1]),
                        dot(from, axes_[car][2])};

@@ -6,25 +6,13 @@
 #include <numbers>
 
 #include "hil/sensors/lidar/standing.hpp"
+#include "protocol/vocabulary/check.hpp"
 
 namespace pitwall::sensors {
 namespace {
 
 constexpr double kBehind_m = 100.0, kAhead_m = 125.0;
 constexpr double kLengthApart_m = 7.0, kWidthApart_m = 2.6, kWallApart_m = 1.3;
-
-Moving standing_on(const world::TrackMap& track, const OnTrack& car, double over_m) {
-  const world::TrackPoint road = track.offset(car.s_m, car.n_m);
-  const plant::CarPose pose{.x_m = road.x_m,
-                            .y_m = road.y_m,
-                            .yaw_rad = road.yaw_rad + car.turned_rad,
-                            .vx_mps = car.speed_mps,
-                            .vy_mps = 0.0,
-                            .yaw_rate_rad_per_s = car.speed_mps * road.curvature_per_m,
-                            .s_m = car.s_m,
-                            .n_m = car.n_m};
-  return standing(track, pose, over_m);
-}
 
 double drawn_offset_m(const world::TrackMap& track, double s_m, Noise& noise) {
   const world::TrackPoint at = track.at(s_m);
@@ -67,13 +55,26 @@ void add_trail(const Moving& car, double dust, Noise& noise, std::vector<DustClo
 
 }  // namespace
 
+Moving standing_on(const world::TrackMap& track, const OnTrack& car, double over_m) {
+  const world::TrackPoint road = track.offset(car.s_m, car.n_m);
+  const plant::CarPose pose{.x_m = road.x_m,
+                            .y_m = road.y_m,
+                            .yaw_rad = road.yaw_rad + car.turned_rad,
+                            .vx_mps = car.speed_mps,
+                            .vy_mps = 0.0,
+                            .yaw_rate_rad_per_s = car.speed_mps * road.curvature_per_m,
+                            .s_m = car.s_m,
+                            .n_m = car.n_m};
+  return standing(track, pose, over_m);
+}
+
 DrawnCars draw_cars(const world::TrackMap& track, double spun_share, Noise& noise) {
   const double s_m = between(noise, 0.0, track.length_m());
   DrawnCars drawn{.ours = {s_m, drawn_offset_m(track, s_m, noise), between(noise, 20.0, 75.0),
                            from_deg(1.0) * noise.normal()},
                   .others = {}};
   for (const OnTrack& car : drawn_others(track, drawn.ours, spun_share, noise))
-    drawn.others.push_back(standing_on(track, car, 0.0));
+    drawn.others.push_back(standing_on(track, car));
   return drawn;
 }
 
@@ -86,9 +87,17 @@ std::vector<DustCloud> draw_dust(const world::TrackMap& track, const DrawnCars& 
   if (noise.uniform() < 0.25) {
     const double s_m = track.wrap_station(cars.ours.s_m + between(noise, 10.0, 80.0));
     const OnTrack blown{s_m, drawn_offset_m(track, s_m, noise), 0.0, 0.0};
-    add_trail(standing_on(track, blown, 0.0), density, noise, clouds);
+    add_trail(standing_on(track, blown), density, noise, clouds);
   }
   return clouds;
+}
+
+RayScene scene_with_cars(std::span<const Mesh> still, std::span<const CarShape> bodies) {
+  CHECK(!bodies.empty());
+  RayScene rays{still};
+  for (std::size_t car = 0; car < kSceneCarsMost; ++car)
+    rays.add_car(car_meshes(shape_of(bodies, car)));
+  return rays;
 }
 
 Moving sprung_body(const world::TrackMap& track, const OnTrack& ours, Noise& noise) {

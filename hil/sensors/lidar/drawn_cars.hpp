@@ -12,7 +12,9 @@
 #include <span>
 #include <vector>
 
+#include "hil/sensors/lidar/car_mesh.hpp"
 #include "hil/sensors/lidar/lidar.hpp"
+#include "hil/sensors/lidar/ray_scene.hpp"
 #include "hil/sensors/noise.hpp"
 #include "protocol/vocabulary/units.hpp"
 #include "vehicle/world/track_map.hpp"
@@ -26,6 +28,9 @@ struct OnTrack {
   double s_m = kUnset, n_m = kUnset, speed_mps = kUnset, turned_rad = kUnset;
 };
 
+// As Vehicle (mesh.hpp), or another origin above it.
+Moving standing_on(const world::TrackMap& track, const OnTrack& car, double over_m = 0.0);
+
 struct DrawnCars {
   OnTrack ours;
   std::vector<Moving> others;  // as Vehicle (mesh.hpp)
@@ -36,6 +41,14 @@ DrawnCars draw_cars(const world::TrackMap& track, double spun_share, Noise& nois
 
 std::vector<DustCloud> draw_dust(const world::TrackMap& track, const DrawnCars& cars,
                                  double density, Noise& noise);
+
+// Bodies of a scene's others: one for all, or one for each.
+inline const CarShape& shape_of(std::span<const CarShape> bodies, std::size_t car) {
+  return bodies[car % bodies.size()];
+}
+
+// What stands still, and kSceneCarsMost cars: their numbers are 0, 1, ... No body is a CHECK.
+RayScene scene_with_cars(std::span<const Mesh> still, std::span<const CarShape> bodies);
 
 // Our Body on its springs.
 Moving sprung_body(const world::TrackMap& track, const OnTrack& ours, Noise& noise);

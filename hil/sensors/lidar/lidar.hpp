@@ -80,7 +80,7 @@ struct LidarReturn {
   float x_m = 0.0F, y_m = 0.0F, z_m = 0.0F;  // in the sensor's frame
   float intensity = 0.0F;                    // reflectance x cos(incidence), as calibrated
   float after_s = 0.0F;                      // since the sweep's begin
-  std::int16_t car = -1;                     // -1: of no car
+  std::int16_t car = -1;  // or decoy, by its number in the scene; -1: what stands still, dust
 };
 
 struct LidarWorld {

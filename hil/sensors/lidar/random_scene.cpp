@@ -8,7 +8,6 @@
 
 #include "hil/sensors/lidar/standing.hpp"
 #include "hil/sensors/lidar/track_mesh.hpp"
-#include "protocol/vocabulary/check.hpp"
 
 namespace pitwall::sensors {
 namespace {
@@ -27,7 +26,7 @@ TrueBox box_of(const Moving& ours, const Moving& car, const CarShape& shape) {
 // The whole and each of its parts a little larger or smaller.
 CarShape varied(const CarShape& shape, Noise& noise) {
   const auto factor = [&](double share) { return between(noise, 1.0 - share, 1.0 + share); };
-  const double length = factor(0.08), width = factor(0.06), height = factor(0.12);
+  const double length = factor(0.08), width = factor(0.06), height = factor(0.2);
   const auto stretched = [&](const Block::Face& face) {
     return Block::Face{length * face.x_m, width * face.half_width_m * factor(0.1),
                        height * face.low_m, height * face.high_m * factor(0.05)};
@@ -58,10 +57,11 @@ std::vector<CarShape> bodies_like(const CarShape& shape, std::size_t count, std:
 
 SceneMaker::SceneMaker(const world::TrackMap& track, const std::vector<CarShape>& bodies,
                        const SceneRules& rules)
-    : track_(&track), bodies_(bodies), rules_(rules), rays_(track_meshes(track)) {
-  CHECK(!bodies_.empty());
-  for (std::size_t car = 0; car < kSceneCarsMost; ++car) rays_.add_car(car_meshes(shape_of(car)));
-}
+    : track_(&track),
+      bodies_(bodies),
+      rules_(rules),
+      rays_(scene_with_cars(track_meshes(track), bodies)),
+      decoys_(rules.decoys, rays_) {}
 
 LidarScene SceneMaker::make(std::uint64_t seed) {
   Noise noise{seed, 0x11DA4};
@@ -70,15 +70,17 @@ LidarScene SceneMaker::make(std::uint64_t seed) {
   const std::vector<DustCloud> dust = draw_dust(*track_, drawn, rules_.dust, noise);
   const Moving body = sprung_body(*track_, drawn.ours, noise);
   for (std::size_t car = 0; car < kSceneCarsMost; ++car) rays_.hide(car);
+  decoys_.stand_anew(*track_, drawn, seed, rays_);
 
   LidarScene scene;
   const Moving then = after(body, kReference_s);
   for (std::size_t car = 0; car < cars.size(); ++car)
-    scene.cars.push_back(box_of(then, after(cars[car], kReference_s), shape_of(car)));
+    scene.cars.push_back(box_of(then, after(cars[car], kReference_s), shape_of(bodies_, car)));
   for (const LidarUnit& unit : av21_lidars()) {
     scene.sweeps.push_back({unit.mount, lidar_sweep(unit, rays_, {body, cars, dust}, noise)});
     for (const LidarReturn& back : scene.sweeps.back().returns)
-      if (back.car >= 0) ++scene.cars[static_cast<std::size_t>(back.car)].returns;
+      if (const auto car = static_cast<std::size_t>(back.car); car < scene.cars.size())
+        ++scene.cars[car].returns;
   }
   scene.x_m = then.at_m[0] + 0.05 * noise.normal();
   scene.y_m = then.at_m[1] + 0.05 * noise.normal();

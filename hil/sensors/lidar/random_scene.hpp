@@ -3,7 +3,8 @@
 //   in     track, bodies of the other cars, what is drawn how often, seed
 //   out    one sweep of each LiDAR; the true boxes at the reference time, in Body, with the number
 //          of returns; our place as localization would tell it
-//   drawn  cars and dust as drawn_cars.hpp; errors of our pose (0.05 m, 0.1 deg)
+//   drawn  cars and dust as drawn_cars.hpp, decoys as decoys.hpp; errors of our pose (0.05 m,
+//          0.1 deg)
 //   frames Map; Body of our car at the reference time
 //   law    the same seed gives the same scene
 //   cost   0.2 s a scene
@@ -15,6 +16,7 @@
 #include <vector>
 
 #include "hil/sensors/lidar/car_mesh.hpp"
+#include "hil/sensors/lidar/decoys.hpp"
 #include "hil/sensors/lidar/drawn_cars.hpp"
 #include "hil/sensors/lidar/lidar.hpp"
 #include "hil/sensors/lidar/ray_scene.hpp"
@@ -45,6 +47,7 @@ struct LidarScene {
 struct SceneRules {
   double dust = 1.0;        // density of the clouds; 0: there are none
   double spun_share = 0.0;  // of the others
+  DecoySet decoys = DecoySet::kNone;
 };
 
 // As many bodies like `shape`, other in length, width and height, in each of their parts, and in
@@ -59,12 +62,11 @@ class SceneMaker {
   LidarScene make(std::uint64_t seed);
 
  private:
-  const CarShape& shape_of(std::size_t car) const { return bodies_[car % bodies_.size()]; }
-
   const world::TrackMap* track_;
   std::vector<CarShape> bodies_;
   SceneRules rules_;
   RayScene rays_;
+  Decoys decoys_;
 };
 
 }  // namespace pitwall::sensors

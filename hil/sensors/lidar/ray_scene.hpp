@@ -44,6 +44,7 @@ class RayScene {
 
   // Returns its number: 0, 1, ...
   std::size_t add_car(std::span<const Mesh> meshes);
+  // Axes of another length than 1 stretch it.
   void place(std::size_t car, const Rotation& axes, const Vector3& at);
   void hide(std::size_t car);
   void commit();  // makes place() and hide() take effect

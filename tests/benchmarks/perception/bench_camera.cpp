@@ -39,6 +39,8 @@ int bench_camera(std::span<const std::string> args) {
       perception_bench::add_gates(perception_bench::measure_image_cost(set, *track, **detector),
                                   gates);
     }
+    if (set.rules.decoys != sensors::DecoySet::kNone)
+      perception_bench::add_decoy_gate(score, gates);
     text += perception_bench::to_text(set.name, score);
     rows.json(perception_bench::to_json(set.name, score));
   }

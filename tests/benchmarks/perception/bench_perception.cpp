@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tests/benchmarks/perception/bench_perception.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cstdio>
 #include <optional>
@@ -74,7 +75,11 @@ int bench_perception(std::span<const std::string> args) {
   const auto measured =
       perception_bench::measure_cost(sets.front().shape, *track, *std::move(network), seed);
   cost::CostGates gates = gates_of(measured);
-  if (!network_file.empty()) perception_bench::add_gates(rows->front().score, gates);
+  if (!network_file.empty()) {
+    perception_bench::add_gates(rows->front().score, gates);
+    const auto among_decoys = std::ranges::find(*rows, sets.back().name, &DetectorRow::set);
+    perception_bench::add_decoy_gate(among_decoys->score, gates);
+  }
   std::printf("%s%s%s%s\n", perception_bench::to_text(*rows).c_str(),
               perception_bench::to_text(measured).c_str(), gates.text().c_str(),
               cost::machine_name().c_str());

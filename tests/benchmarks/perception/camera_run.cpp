@@ -22,7 +22,10 @@ perception::Image image_of(sensors::CameraScene& scene) {
 sensors::CameraSceneMaker maker_of(const SceneSet& set, const world::TrackMap& track) {
   return {track,
           {set.shape},
-          {.dust = set.rules.dust, .spun_share = set.rules.spun_share, .varied = false}};
+          {.dust = set.rules.dust,
+           .spun_share = set.rules.spun_share,
+           .varied = false,
+           .decoys = set.rules.decoys}};
 }
 
 }  // namespace

@@ -88,6 +88,12 @@ void add_gates(const CameraScore& held_back, cost::CostGates& gates) {
        all.distance_rms_share() <= 0.08);
 }
 
+void add_decoy_gate(const CameraScore& among_decoys, cost::CostGates& gates) {
+  const double share = among_decoys.false_per_image();
+  gates.count(formatted("camera: false cars an image among decoys: %.4f of 0.0400", share),
+              share <= 0.04);
+}
+
 std::string to_text(const std::string& set, const CameraScore& score) {
   std::string text = formatted("%s, camera's network: %zu images, %.4f false cars an image\n",
                                set.c_str(), score.images, score.false_per_image());

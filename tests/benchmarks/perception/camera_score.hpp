@@ -53,6 +53,8 @@ void score(const sensors::CameraScene& scene, const world::DetectionFrame& frame
 // 60 m, 0.90 to 100 m; 0.02 false ones an image; to 100 m the bearing to 3 mrad rms and the
 // distance to 8 % rms.
 void add_gates(const CameraScore& held_back, cost::CostGates& gates);
+// Among decoys that it has not seen before: 0.04 false ones an image.
+void add_decoy_gate(const CameraScore& among_decoys, cost::CostGates& gates);
 
 std::string to_text(const std::string& set, const CameraScore& score);
 std::string to_json(const std::string& set, const CameraScore& score);

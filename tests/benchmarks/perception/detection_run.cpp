@@ -7,18 +7,23 @@
 namespace pitwall::perception_bench {
 
 std::vector<SceneSet> scene_sets(std::size_t scenes, std::uint64_t seed) {
-  return {{"held back: SF23 at IMS, dust x 2",
-           "vehicle/config/tracks/ims.yaml",
-           sensors::sf23_shape(),
-           {.dust = 2.0},
-           scenes,
-           seed},
+  const SceneSet held_back{"held back: SF23 at IMS, dust x 2",
+                           "vehicle/config/tracks/ims.yaml",
+                           sensors::sf23_shape(),
+                           {.dust = 2.0},
+                           scenes,
+                           seed};
+  SceneSet among_decoys = held_back;
+  among_decoys.name += ", decoys";
+  among_decoys.rules.decoys = sensors::DecoySet::kRare;
+  return {held_back,
           {"known: AV-21 at LVMS, dust",
            "vehicle/config/tracks/lvms.yaml",
            sensors::av21_shape(),
            {},
            scenes,
-           seed}};
+           seed},
+          among_decoys};
 }
 
 std::vector<DetectorRow> detect_scenes(const SceneSet& set, const world::TrackMap& track,

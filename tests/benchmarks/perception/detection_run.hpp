@@ -26,7 +26,8 @@ struct SceneSet {
   std::uint64_t seed = 0;
 };
 
-// Another body and track than those of the training, and more dust; then one of its kind.
+// Another body and track than those of the training, and more dust; one of its kind; the first
+// again, among things that are no cars.
 std::vector<SceneSet> scene_sets(std::size_t scenes, std::uint64_t seed);
 
 struct DetectorRow {

@@ -48,6 +48,12 @@ void add_gates(const DetectionScore& held_back, cost::CostGates& gates) {
   add("rms from 60 to 100 m", far.position_rms_m(), 0.30, far.position_rms_m() <= 0.30);
 }
 
+void add_decoy_gate(const DetectionScore& among_decoys, cost::CostGates& gates) {
+  const double share = among_decoys.false_per_sweep();
+  gates.count(formatted("network: false cars a sweep among decoys: %.3f of 0.020", share),
+              share <= 0.02);
+}
+
 std::string to_text(std::span<const DetectorRow> rows) {
   std::string text = formatted("%-15s %6s %8s %8s %8s %8s\n", "simulation", "cars", "recall",
                                "rms m", "worst m", "yaw deg");

@@ -41,5 +41,15 @@ TEST(DetectionTable, AGateIsMissedWhereTheFigureIsWorse) {
   EXPECT_FALSE(missed.held());
 }
 
+TEST(DetectionTable, DecoysMayLookLikeACarInTwoOfAHundredSweeps) {
+  cost::CostGates held, missed;
+  DetectionScore score{.sweeps = 100, .false_cars = 2};
+  add_decoy_gate(score, held);
+  EXPECT_TRUE(held.held()) << held.text();
+  score.false_cars = 3;
+  add_decoy_gate(score, missed);
+  EXPECT_FALSE(missed.held()) << missed.text();
+}
+
 }  // namespace
 }  // namespace pitwall::perception_bench

@@ -19,6 +19,7 @@ TEST_F(ScenesVerb, WrongUsageIsToldBeforeAnythingIsMade) {
   expect_refusal({"scenes", path("s"), "--track", kTrack, "--bodies", "truck"}, "truck");
   expect_refusal({"scenes", path("s"), "--track", kTrack, "--scenes", "0"}, "--scenes");
   expect_refusal({"scenes", path("s"), "--track", kTrack, "--dust", "-1"}, "--dust");
+  expect_refusal({"scenes", path("s"), "--track", kTrack, "--decoys", "cows"}, "cows");
   expect_refusal({"scenes", path("s"), "--track", kTrack, "--varied"}, "--camera");
   EXPECT_FALSE(exists("s"));
   expect_refusal({"scenes", "/proc/none", "--track", kTrack, "--scenes", "1"}, "/proc/none");

@@ -53,6 +53,18 @@ TEST(CameraScene, TheSameSeedGivesTheSameScene) {
   EXPECT_NE(first.unit.mount.at_m[1], other.unit.mount.at_m[1]) << "left and right in turn";
 }
 
+TEST(CameraScene, DecoysAreShownAndAreNoCars) {
+  CameraSceneMaker plain{traffic::oval(), {av21_shape()}, {}},
+      among{traffic::oval(), {av21_shape()}, {.decoys = DecoySet::kCommon}};
+  std::size_t differing = 0;
+  for (std::uint64_t seed = 0; seed < kImages; ++seed) {
+    const CameraScene without = plain.make(seed), with = among.make(seed);
+    differing += without.image.rgb != with.image.rgb;
+    EXPECT_LE(with.cars.size(), without.cars.size()) << "a decoy hides a car at most";
+  }
+  EXPECT_GT(differing, kImages / 4);
+}
+
 TEST(CameraScene, OnlyTheRulesVaryTheCamera) {
   CameraSceneMaker plain{traffic::oval(), {av21_shape()}, {}},
       varied{traffic::oval(), {av21_shape()}, {.varied = true}};

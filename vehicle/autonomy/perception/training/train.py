@@ -30,6 +30,8 @@ RATE = 3e-3
 DECAY = 1e-4
 SHARE = 0.9  # of a reference's figures
 FALSE_MORE = 0.005  # false cars a sweep: two in 400 are chance
+# Half precision, where the processor has units for it: three times as fast.
+HALF = "amx_bf16" in pathlib.Path("/proc/cpuinfo").read_text()
 
 
 def drawn_batch(scenes, indices, random):
@@ -81,13 +83,16 @@ def fit(trunk, count, args, batch_of, loss):
     steps = count // BATCH * args.epochs
     optimizer = torch.optim.AdamW(trunk.parameters(), RATE, weight_decay=DECAY)
     schedule = torch.optim.lr_scheduler.OneCycleLR(optimizer, RATE, total_steps=steps)
+    trunk.to(memory_format=torch.channels_last)
     begun = time.monotonic()
     for epoch in range(args.epochs):
         trunk.train()
         order, sum_of_losses = random.permutation(count), 0.0
         for k in range(count // BATCH):
             planes, wanted = batch_of(order[k * BATCH : (k + 1) * BATCH], random)
-            off = loss(trunk(planes), wanted)
+            with torch.autocast("cpu", torch.bfloat16, enabled=HALF):
+                out = trunk(planes.contiguous(memory_format=torch.channels_last))
+            off = loss(out.float(), wanted)
             optimizer.zero_grad()
             off.backward()
             torch.nn.utils.clip_grad_norm_(trunk.parameters(), 10.0)
@@ -96,6 +101,7 @@ def fit(trunk, count, args, batch_of, loss):
             sum_of_losses += off.item()
         mean = sum_of_losses / max(count // BATCH, 1)
         print(f"epoch {epoch + 1}: loss {mean:.3f}, {time.monotonic() - begun:.0f} s", flush=True)
+    trunk.to(memory_format=torch.contiguous_format)
 
 
 def write(trunk, shape, figures, args):
