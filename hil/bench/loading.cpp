@@ -119,7 +119,12 @@ std::string below(const std::string& folder, const std::string& path) {
 Result<Loaded, Problem> load(const std::string& scenario_file, const std::string& folder) {
   const auto text = transport::read_file(scenario_file);
   if (!text) return Unexpected{text.error()};
-  auto scenario = scenario::read_scenario(*text, scenario_file);
+  return load_text(*text, scenario_file, folder);
+}
+
+Result<Loaded, Problem> load_text(const std::string& text, const std::string& name,
+                                  const std::string& folder) {
+  auto scenario = scenario::read_scenario(text, name);
   if (!scenario) return Unexpected{scenario.error()};
   if (scenario->lidars == scenario::LidarKind::kMeasured) {
     auto errors = lidar_errors_in(below(folder, scenario::kLidarErrorFile));

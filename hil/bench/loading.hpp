@@ -33,5 +33,8 @@ std::string below(const std::string& folder, const std::string& path);
 
 // Track, car and plant files are named relative to `folder` unless they are absolute.
 Result<Loaded, Problem> load(const std::string& scenario_file, const std::string& folder);
+// Of a scenario that is no file; `name`: for messages.
+Result<Loaded, Problem> load_text(const std::string& text, const std::string& name,
+                                  const std::string& folder);
 
 }  // namespace pitwall::bench

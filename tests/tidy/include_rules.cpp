@@ -208,7 +208,8 @@ const std::vector<Part> kParts{
     {"hil/scenes", bench_and({"vehicle/autonomy/perception"}), {"files"}},
     // One module of the car by itself, on a public benchmark.
     {"hil/cli/kitti", bench_and({"vehicle/autonomy/tracking"}), {}},
-    {"hil/sweep", kBench, rim_and({})},
+    // Its results are a file for SQL.
+    {"hil/sweep", kBench, rim_and({"bags"})},
     {"tests", {"protocol", "vehicle", "basestation", "hil"}, {"*"}},
 };
 

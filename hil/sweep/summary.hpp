@@ -1,0 +1,26 @@
+// Summary of a sweep as text: verdicts, the margins of each expectation, the worst cases.
+//   in     cases, results by number; the command that runs one case again, without its number
+//   out    least margin, that of one case in twenty, the middle one; at most `kWorstShown` cases
+//          with their values, worst margin of a failed expectation first
+//   units  of a margin: those of its signal
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <string>
+
+#include "hil/sweep/case_result.hpp"
+#include "hil/sweep/cases.hpp"
+
+namespace pitwall::sweep {
+
+inline constexpr std::size_t kWorstShown = 5;
+
+std::string summary_of(const Cases& cases, std::span<const CaseResult> results,
+                       const std::string& one_case);
+
+// Whether every case passed.
+bool all_passed(std::span<const CaseResult> results);
+
+}  // namespace pitwall::sweep

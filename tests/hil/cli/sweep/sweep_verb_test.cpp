@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "hil/cli/sweep/sweep_verb.hpp"
+
+#include <gtest/gtest.h>
+
+#include "tests/hil/cli/program_run.hpp"
+
+namespace pitwall::cli {
+namespace {
+
+class SweepVerb : public ProgramRun {
+ protected:
+  // Four cases of two seconds; in two of them the car may not move from its place.
+  void SetUp() override {
+    ProgramRun::SetUp();
+    std::string text = text_in_tree("hil/scenarios/launch.yaml");
+    const std::size_t from = text.find("expect:");
+    ASSERT_NE(from, std::string::npos);
+    text = text.substr(0, from) +
+           "expect:\n  - {kind: always, signal: speed_mps, is: \"<\", value: 1}\n";
+    ASSERT_TRUE(transport::write_file(path("s.yaml"), text));
+    write_plan("[1, -1]");
+  }
+
+  static std::string text_in_tree(const std::string& file) {
+    return transport::read_file(std::string(PITWALL_SOURCE_DIR) + "/" + file).value_or("");
+  }
+
+  void write_plan(const std::string& limits) {
+    const std::string text = "schema: 1\nname: small\nscenario: " + path("s.yaml") +
+                             "\nseed: 1\ncombine: all\nparameters:\n"
+                             "  - {path: duration_s, values: [2]}\n"
+                             "  - {path: perturb.mass_kg, values: [0, 50]}\n"
+                             "  - {path: \"expect[0].value\", values: " +
+                             limits + "}\n";
+    ASSERT_TRUE(transport::write_file(path("plan.yaml"), text));
+  }
+
+  ProgramOutput sweep(const std::string& folder, const std::string& processes) {
+    return run({"sweep", path("plan.yaml"), "--out", path(folder), "--processes", processes});
+  }
+};
+
+TEST_F(SweepVerb, WrongUsageIsToldBeforeAnythingIsMade) {
+  expect_refusal({"sweep"}, "PLAN");
+  expect_refusal({"sweep", path("none.yaml")}, "none.yaml");
+  expect_refusal({"sweep", path("plan.yaml"), "--processes", "0"}, "--processes");
+  expect_refusal({"sweep", path("plan.yaml"), "--report", path("r")}, "--case");
+  expect_refusal({"sweep", path("plan.yaml"), "--case", "4"}, "4 cases");
+  write_plan("[1, nan]");
+  expect_refusal({"sweep", path("plan.yaml"), "--out", path("o")}, "expect[0].value");
+  EXPECT_FALSE(exists("o"));
+  write_plan("[1]");
+  expect_refusal({"sweep", path("plan.yaml"), "--out", "/proc/none"}, "/proc/none");
+}
+
+TEST_F(SweepVerb, TheResultFileIsTheSameOnAnyNumberOfProcesses) {
+  const ProgramOutput one = sweep("one", "1"), three = sweep("three", "3");
+  EXPECT_EQ(one.code, 1) << one.err;
+  EXPECT_NE(one.out.find("2 passed, 2 failed"), std::string::npos) << one.out;
+  EXPECT_FALSE(text_of("one/results.sqlite").empty());
+  EXPECT_TRUE(text_of("one/results.sqlite") == text_of("three/results.sqlite"));
+}
+
+TEST_F(SweepVerb, WhatIsDoneIsNotRunAgain) {
+  ASSERT_EQ(sweep("o", "1").code, 1);
+  const std::string whole = text_of("o/results.sqlite");
+  std::string first;
+  for (const auto& entry : std::filesystem::directory_iterator(path("o/cases"))) {
+    const std::string file = entry.path().filename();
+    if (first.empty()) first = file;
+  }
+  std::filesystem::remove(path("o/cases/" + first));  // as if this one had been interrupted
+  const ProgramOutput again = sweep("o", "2");
+  EXPECT_NE(again.out.find("3 of 4 cases were done before"), std::string::npos) << again.out;
+  EXPECT_TRUE(text_of("o/results.sqlite") == whole);
+}
+
+TEST_F(SweepVerb, AnotherPlanInTheFolderIsRefused) {
+  ASSERT_EQ(sweep("o", "1").code, 1);
+  write_plan("[1, 2]");
+  const ProgramOutput other = sweep("o", "1");
+  EXPECT_EQ(other.code, 2);
+  EXPECT_NE(other.err.find("another one"), std::string::npos) << other.err;
+}
+
+TEST_F(SweepVerb, OneCaseIsRunAsAScenarioIs) {
+  const ProgramOutput output = run({"sweep", path("plan.yaml"), "--case", "3"});
+  EXPECT_EQ(output.code, 1) << output.err;
+  EXPECT_NE(output.out.find("perturb.mass_kg = 50"), std::string::npos) << output.out;
+  EXPECT_NE(output.out.find("verdict: FAIL"), std::string::npos) << output.out;
+}
+
+}  // namespace
+}  // namespace pitwall::cli
