@@ -12,18 +12,19 @@
 namespace pitwall::perception {
 namespace {
 
-ImageBox box_at(const OutputPlanes& out, std::size_t row, std::size_t column) {
+ImageBox box_at(const OutputPlanes& out, const Cell& peak) {
   using enum CameraOutput;
-  const auto value = [&](CameraOutput o) {
-    return static_cast<double>(out.at(static_cast<std::size_t>(o), row, column));
-  };
+  constexpr auto plane = [](CameraOutput o) { return static_cast<std::size_t>(o); };
+  const AroundPeak around{out, peak};
+  const auto value = [&](CameraOutput o) { return around.mean(plane(o)); };
   constexpr double kStride = CameraTrunk::kStride;
-  return {.u_px = kStride * (static_cast<double>(column) + 0.5 + value(kRight)),
-          .v_px = kStride * (static_cast<double>(row) + 0.5 + value(kDown)),
+  return {.u_px = kStride * around.mean_column(plane(kRight)),
+          .v_px = kStride * around.mean_row(plane(kDown)),
           .width_px = kBoxWidth_px * std::exp(value(kWidth)),
           .height_px = kBoxHeight_px * std::exp(value(kHeight)),
           .upright_px = kUpright_px * std::exp(value(kUpright)),
-          .confidence = share_of_logit(value(kCar))};
+          .confidence =
+              share_of_logit(static_cast<double>(out.at(plane(kCar), peak.row, peak.column)))};
 }
 
 bool is_finite(const ImageBox& box) {
@@ -43,7 +44,7 @@ std::vector<ImageBox> decode_image(std::span<const float> planes, double confide
   const OutputPlanes out{planes, CameraTrunk::kOutRows, CameraTrunk::kOutColumns};
   std::vector<ImageBox> boxes;
   for (const Cell& cell : peaks_of(out, confidence_least)) {
-    const ImageBox box = box_at(out, cell.row, cell.column);
+    const ImageBox box = box_at(out, cell);
     if (is_finite(box)) boxes.push_back(box);
   }
   std::ranges::stable_sort(boxes, std::ranges::greater{}, &ImageBox::confidence);

@@ -19,6 +19,37 @@ bool is_peak(const OutputPlanes& out, const Cell& cell) {
 
 }  // namespace
 
+AroundPeak::AroundPeak(const OutputPlanes& out, const Cell& peak) : out_(out) {
+  double sum = 0.0;
+  for (std::size_t r = peak.row - std::min<std::size_t>(peak.row, 1);
+       r < std::min(peak.row + 2, out.rows); ++r)
+    for (std::size_t c = peak.column - std::min<std::size_t>(peak.column, 1);
+         c < std::min(peak.column + 2, out.columns); ++c) {
+      parts_.push_back({{r, c}, share_of_logit(static_cast<double>(out.at(0, r, c)))});
+      sum += parts_.back().share;
+    }
+  for (Part& part : parts_) part.share /= sum;
+}
+
+double AroundPeak::mean(std::size_t plane) const {
+  double sum = 0.0;
+  for (const auto& [cell, share] : parts_)
+    sum += share * static_cast<double>(out_.at(plane, cell.row, cell.column));
+  return sum;
+}
+
+double AroundPeak::mean_row(std::size_t plane) const {
+  double sum = mean(plane) + 0.5;
+  for (const auto& [cell, share] : parts_) sum += share * static_cast<double>(cell.row);
+  return sum;
+}
+
+double AroundPeak::mean_column(std::size_t plane) const {
+  double sum = mean(plane) + 0.5;
+  for (const auto& [cell, share] : parts_) sum += share * static_cast<double>(cell.column);
+  return sum;
+}
+
 std::vector<Cell> peaks_of(const OutputPlanes& out, double confidence_least) {
   const double logit_least = std::log(confidence_least / (1.0 - confidence_least));
   std::vector<Cell> peaks;

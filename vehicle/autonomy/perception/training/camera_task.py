@@ -9,7 +9,7 @@ import torch
 
 from camera_network import STRIDE
 from camera_scenes import COLUMNS, ROWS
-from decoding import peaks_of
+from decoding import around, peaks_of
 from targets import loss_of
 
 SIZE_PX = np.array([32.0, 16.0])  # of a box: its logarithm is 0
@@ -56,8 +56,8 @@ def decode(planes, confidence_least=0.5):
     """Rows of u_px, v_px, width_px, height_px, upright_px, confidence; the surest first."""
     boxes = []
     for row, column, confidence in peaks_of(planes[0], confidence_least):
-        _, u, v, width, height, upright = planes[:, row, column].astype(np.float64)
-        at = (np.array([column, row]) + 0.5 + (u, v)) * STRIDE
+        at, (_, u, v, width, height, upright) = around(planes, row, column)
+        at = (at[::-1] + 0.5 + (u, v)) * STRIDE
         size = SIZE_PX * np.exp([width, height])
         boxes.append([*at, *size, UPRIGHT_PX * np.exp(upright), confidence])
     kept = []

@@ -17,8 +17,8 @@ def decode(planes, confidence_least=0.5):
     """Rows of ahead_m, n_m, yaw_rad, length_m, width_m, confidence; the surest first."""
     boxes = []
     for row, column, confidence in peaks_of(planes[0], confidence_least):
-        _, ahead, left, length, width, sine, cosine = planes[:, row, column].astype(np.float64)
-        at = (np.array([row, column]) + 0.5 + (ahead, left)) * CELL + FIRST_M
+        at, (_, ahead, left, length, width, sine, cosine) = around(planes, row, column)
+        at = (at + 0.5 + (ahead, left)) * CELL + FIRST_M
         size = CAR_M * np.exp([length, width])
         boxes.append([*at, 0.5 * np.arctan2(sine, cosine), *size, confidence])
     kept = []
@@ -38,6 +38,16 @@ def peaks_of(logits, confidence_least):
     least = np.log(confidence_least / (1 - confidence_least))
     peaks = (logit >= around.max(axis=0)) & (logit >= least)
     return [(r, c, 1 / (1 + np.exp(-logit[r, c]))) for r, c in zip(*np.nonzero(peaks))]
+
+
+def around(planes, row, column):
+    """Means over the cell and those around it, by their confidence: row and column, the figures."""
+    part = (slice(max(row - 1, 0), row + 2), slice(max(column - 1, 0), column + 2))
+    of_cells = planes[(slice(None), *part)].astype(np.float64)
+    share = 1 / (1 + np.exp(-of_cells[0]))
+    share /= share.sum()
+    places = np.mgrid[: planes.shape[1], : planes.shape[2]][(slice(None), *part)]
+    return (places * share).sum(axis=(1, 2)), (of_cells * share).sum(axis=(1, 2))
 
 
 def is_same_place(car, other):

@@ -32,7 +32,7 @@ class Planes {
             row * CameraTrunk::kOutColumns + column] = static_cast<float>(value);
   }
 
-  std::vector<float> planes_ = std::vector<float>(kCameraOutputs * CameraTrunk::kOutCells, -9.0F);
+  std::vector<float> planes_ = std::vector<float>(kCameraOutputs * CameraTrunk::kOutCells, -30.0F);
 };
 
 TEST(ImageDecoder, ReadsTheBoxesTheSurestFirst) {

@@ -3,7 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <random>
+#include <vector>
 
 #include "tests/support/draw.hpp"
 
@@ -49,6 +51,39 @@ TEST(Peaks, TheConfidenceIsTheShareOfTheLogit) {
   EXPECT_NEAR(confidence, 0.7310585786, 1e-9);
   EXPECT_EQ(peaks_of(out, confidence - 1e-6).size(), 1U);
   EXPECT_TRUE(peaks_of(out, confidence + 1e-6).empty());
+}
+
+// A plane of logits, and one of figures.
+struct TwoPlanes {
+  std::vector<float> values = std::vector<float>(2 * kRows * kColumns, -30.0F);
+
+  void set(std::size_t row, std::size_t column, double confidence, float figure) {
+    values[row * kColumns + column] = static_cast<float>(std::log(confidence / (1.0 - confidence)));
+    values[kRows * kColumns + row * kColumns + column] = figure;
+  }
+  OutputPlanes out() const { return {values, kRows, kColumns}; }
+};
+
+TEST(AroundPeak, ACellThatIsSureAloneSaysItAll) {
+  for (const Cell& peak : {Cell{3, 4}, Cell{0, 0}, Cell{kRows - 1, kColumns - 1}}) {
+    TwoPlanes planes;
+    planes.set(peak.row, peak.column, 0.8, 0.25F);
+    const OutputPlanes out = planes.out();
+    const AroundPeak around{out, peak};
+    EXPECT_NEAR(around.mean(1), 0.25, 1e-6);
+    EXPECT_NEAR(around.mean_row(1), static_cast<double>(peak.row) + 0.75, 1e-6);
+    EXPECT_NEAR(around.mean_column(1), static_cast<double>(peak.column) + 0.75, 1e-6);
+  }
+}
+
+// Those beside say the same place from where they are.
+TEST(AroundPeak, TheMeanGoesByConfidenceAndThePlaceIsThatOfTheThing) {
+  TwoPlanes planes;
+  planes.set(3, 4, 0.8, 0.25F), planes.set(3, 5, 0.4, -0.75F), planes.set(3, 6, 0.9, 7.0F);
+  const OutputPlanes out = planes.out();
+  const AroundPeak around{out, {3, 4}};
+  EXPECT_NEAR(around.mean(1), (0.8 * 0.25 - 0.4 * 0.75) / 1.2, 1e-6) << "none two cells off";
+  EXPECT_NEAR(around.mean_column(1), 4.75, 1e-6);
 }
 
 TEST(Peaks, OfThoseThatAreOneThingTheFirstIsKept) {

@@ -17,19 +17,18 @@ namespace {
 constexpr double kCellLength_m = PillarTrunk::kStride * PillarGrid::kLength_m;
 constexpr double kCellWidth_m = PillarTrunk::kStride * PillarGrid::kWidth_m;
 
-RoadBox box_at(const OutputPlanes& out, std::size_t row, std::size_t column) {
+RoadBox box_at(const OutputPlanes& out, const Cell& peak) {
   using enum PillarOutput;
-  const auto value = [&](PillarOutput o) {
-    return static_cast<double>(out.at(static_cast<std::size_t>(o), row, column));
-  };
-  return {.ahead_m = (static_cast<double>(row) + 0.5 + value(kAhead)) * kCellLength_m -
-                     PillarGrid::kBehind_m,
-          .n_m = (static_cast<double>(column) + 0.5 + value(kLeft)) * kCellWidth_m -
-                 PillarGrid::kRight_m,
+  constexpr auto plane = [](PillarOutput o) { return static_cast<std::size_t>(o); };
+  const AroundPeak around{out, peak};
+  const auto value = [&](PillarOutput o) { return around.mean(plane(o)); };
+  return {.ahead_m = around.mean_row(plane(kAhead)) * kCellLength_m - PillarGrid::kBehind_m,
+          .n_m = around.mean_column(plane(kLeft)) * kCellWidth_m - PillarGrid::kRight_m,
           .yaw_rad = 0.5 * std::atan2(value(kSin), value(kCos)),
           .length_m = kCarLength_m * std::exp(value(kLength)),
           .width_m = kCarWidth_m * std::exp(value(kWidth)),
-          .confidence = share_of_logit(value(kCar))};
+          .confidence =
+              share_of_logit(static_cast<double>(out.at(plane(kCar), peak.row, peak.column)))};
 }
 
 bool is_finite(const RoadBox& box) {
@@ -54,7 +53,7 @@ std::vector<RoadBox> decode(std::span<const float> planes, double confidence_lea
   const OutputPlanes out{planes, PillarTrunk::kOutRows, PillarTrunk::kOutColumns};
   std::vector<RoadBox> boxes;
   for (const Cell& cell : peaks_of(out, confidence_least)) {
-    const RoadBox box = box_at(out, cell.row, cell.column);
+    const RoadBox box = box_at(out, cell);
     if (is_finite(box)) boxes.push_back(box);
   }
   std::ranges::stable_sort(boxes, std::ranges::greater{}, &RoadBox::confidence);
