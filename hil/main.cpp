@@ -24,6 +24,7 @@
 #include "hil/cli/run_verb.hpp"
 #include "hil/cli/scenes_verb.hpp"
 #include "hil/cli/serve_verb.hpp"
+#include "hil/cli/sweep/falsify_verb.hpp"
 #include "hil/cli/sweep/sweep_verb.hpp"
 #include "hil/cli/track_verb.hpp"
 #include "hil/replay/replay_verb.hpp"
@@ -39,6 +40,7 @@ struct Verb {
 constexpr std::array kVerbs{
     Verb{"run", "run SCENARIO in lockstep or live (--live)", cli::run_verb},
     Verb{"sweep", "many cases of a scenario, with other values in it (PLAN)", cli::sweep_verb},
+    Verb{"falsify", "values at which a scenario misses an expectation (PLAN)", cli::falsify_verb},
     Verb{"demo", "the whole system: car, bench and base station on real SocketCAN", cli::demo_verb},
     Verb{"serve", "starts scenarios for who asks at a socket, and tells how they go",
          cli::serve_verb},

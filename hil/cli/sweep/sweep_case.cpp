@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "hil/bench/loading.hpp"
-#include "hil/bench/lockstep/lockstep.hpp"
 #include "hil/scenario/scenario.hpp"
 #include "protocol/transport/clock.hpp"
+#include "protocol/transport/file.hpp"
 #include "protocol/vocabulary/text.hpp"
 #include "protocol/yaml/edited.hpp"
 
@@ -21,14 +21,16 @@ CaseVerdict verdict_of(const bench::RunResult& result) {
   return result.failed_by_contact() ? CaseVerdict::kContact : CaseVerdict::kFailed;
 }
 
-Result<bench::RunResult, Problem> run(const std::string& scenario_text, const std::string& name,
-                                      const sweep::Case& of) {
-  const auto text = yaml::with_settings(scenario_text, name, of.settings);
+Result<bench::RunResult, Problem> run(const SweepInputs& inputs, const sweep::Case& of,
+                                      const bench::StepFunction& step) {
+  const std::string& name = inputs.cases.plan().scenario_file;
+  const auto text = yaml::with_settings(inputs.scenario_text, name, of.settings);
   if (!text) return Unexpected{text.error()};
   const auto loaded = bench::load_text(*text, name, "");
   if (!loaded) return Unexpected{loaded.error()};
   // The log is made for its digest, which names the run.
-  return bench::run_lockstep(*loaded, {.log = [](std::span<const std::uint8_t>) { return true; }});
+  return bench::run_lockstep(
+      *loaded, {.log = [](std::span<const std::uint8_t>) { return true; }, .step = step});
 }
 
 // The listed values, or both ends of the range.
@@ -39,10 +41,21 @@ std::vector<std::string> ends_of(const sweep::Parameter& parameter) {
 
 }  // namespace
 
-CaseResult run_case(const std::string& scenario_text, const std::string& name,
-                    const sweep::Case& of) {
+Result<SweepInputs, Problem> read_sweep(const std::string& plan_file) {
+  auto plan_text = transport::read_file(plan_file);
+  if (!plan_text) return Unexpected{plan_text.error()};
+  auto plan = sweep::read_plan(*plan_text, plan_file);
+  if (!plan) return Unexpected{plan.error()};
+  auto scenario_text = transport::read_file(plan->scenario_file);
+  if (!scenario_text) return Unexpected{scenario_text.error()};
+  return SweepInputs{sweep::Cases{*std::move(plan)}, *std::move(plan_text),
+                     *std::move(scenario_text)};
+}
+
+CaseResult run_case(const SweepInputs& inputs, const sweep::Case& of,
+                    const bench::StepFunction& step) {
   const Instant begun = transport::monotonic_now();
-  const auto result = run(scenario_text, name, of);
+  const auto result = run(inputs, of, step);
   CaseResult out{.number = of.number, .verdict = CaseVerdict::kRefused};
   out.wall_s = (transport::monotonic_now() - begun).seconds();
   if (!result) {

@@ -34,39 +34,20 @@ struct Options {
   std::vector<std::size_t> cases;  // of a process of the sweep
 };
 
-struct Sweep {
-  sweep::Cases cases;
-  std::string plan_text, scenario_text;
-};
-
-Result<Sweep, Problem> read_sweep(const std::string& plan_file) {
-  auto plan_text = transport::read_file(plan_file);
-  if (!plan_text) return Unexpected{plan_text.error()};
-  auto plan = sweep::read_plan(*plan_text, plan_file);
-  if (!plan) return Unexpected{plan.error()};
-  auto scenario_text = transport::read_file(plan->scenario_file);
-  if (!scenario_text) return Unexpected{scenario_text.error()};
-  return Sweep{sweep::Cases{*std::move(plan)}, *std::move(plan_text), *std::move(scenario_text)};
-}
-
-sweep::CaseResult result_of(const Sweep& of, std::size_t number) {
-  return run_case(of.scenario_text, of.cases.plan().scenario_file, of.cases.at(number));
-}
-
 // The work of a process of the sweep. Slurm starts one again whose node was lost: what it has done
 // is not run twice.
-int work(const Options& options, const Sweep& of, const sweep::SweepFolder& folder) {
+int work(const Options& options, const SweepInputs& of, const sweep::SweepFolder& folder) {
   const auto done = folder.read_of(options.worker, of.cases.size());
   if (!done) return refuse(done.error());
   for (const std::size_t number : options.cases) {
     if (std::ranges::binary_search(*done, number, {}, &sweep::CaseResult::number)) continue;
-    const auto written = folder.append(options.worker, result_of(of, number));
+    const auto written = folder.append(options.worker, run_case(of, of.cases.at(number)));
     if (!written) return refuse(written.error());
   }
   return kExitPass;
 }
 
-int run_one(const Options& options, const Sweep& of) {
+int run_one(const Options& options, const SweepInputs& of) {
   if (options.one_case >= of.cases.size())
     return refuse(Problem{"--case", formatted("the sweep has %zu cases", of.cases.size())});
   const sweep::Case one = of.cases.at(options.one_case);
@@ -112,7 +93,7 @@ std::string joined(const std::vector<std::size_t>& numbers) {
   return text;
 }
 
-Result<bool, Problem> run_missing(const Options& options, const Sweep& of,
+Result<bool, Problem> run_missing(const Options& options, const SweepInputs& of,
                                   const sweep::SweepFolder& folder) {
   const std::size_t all = of.cases.size();
   const auto before = folder.read(all);
@@ -141,7 +122,7 @@ Result<bool, Problem> run_missing(const Options& options, const Sweep& of,
   return sweep::run_here(missing, all, folder, engine);
 }
 
-int run_all(const Options& options, const Sweep& of, const sweep::SweepFolder& folder) {
+int run_all(const Options& options, const SweepInputs& of, const sweep::SweepFolder& folder) {
   if (const auto ran = run_missing(options, of, folder); !ran) return refuse(ran.error());
   const auto results = folder.read(of.cases.size());
   if (!results) return refuse(results.error());
@@ -156,7 +137,7 @@ int run_all(const Options& options, const Sweep& of, const sweep::SweepFolder& f
 }
 
 // What there is to refuse before anything is started.
-Result<bool, Problem> check(const Options& options, const Sweep& of) {
+Result<bool, Problem> check(const Options& options, const SweepInputs& of) {
   if (options.engine == "slurm")
     if (auto found = sweep::find_slurm(); !found) return found;
   return check_values(of.scenario_text, of.cases.plan());

@@ -37,8 +37,9 @@ TEST(SweepCase, ValuesThatTheBenchDoesNotTakeAreToldBeforeAnyRun) {
 }
 
 TEST(SweepCase, WhatTheBenchRefusesIsARefusedCase) {
-  const auto result =
-      run_case(text(), kScenario, {.number = 5, .settings = {{"track", "no/such.yaml"}}});
+  const SweepInputs inputs{
+      sweep::Cases{sweep::Plan{.name = "x", .scenario_file = kScenario, .cases = 9}}, "", text()};
+  const auto result = run_case(inputs, {.number = 5, .settings = {{"track", "no/such.yaml"}}});
   EXPECT_EQ(result.number, 5U);
   EXPECT_EQ(result.verdict, CaseVerdict::kRefused);
   EXPECT_NE(result.why.find("no/such.yaml"), std::string::npos) << result.why;
