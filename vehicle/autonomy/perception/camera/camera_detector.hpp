@@ -3,7 +3,7 @@
 //   out    a frame of detections in Body, with bearing and inverse depth: of a car of the height H,
 //          upright h pixels high with the focal length f, the depth is f H / h (pinhole)
 //   errors read(): Problem with the file: it cannot be read, or as Network::load(). counts()
-//   cost   25 ms of one processor for an image of the network's size. Allocates
+//   cost   28 ms of one processor for an image of the network's size. Allocates
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -34,7 +34,7 @@ struct CameraMounting {
 
 // Standard deviations of what it says, as measured on drawn images of a track and a body that it
 // had not seen (`bench camera`).
-inline constexpr double kCameraBearingSigma_rad = 0.0025, kCameraDistanceSigma = 0.12;
+inline constexpr double kCameraBearingSigma_rad = 0.0027, kCameraDistanceSigma = 0.10;
 
 struct CameraCounts {
   std::size_t images = 0;

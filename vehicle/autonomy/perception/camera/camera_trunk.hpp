@@ -2,7 +2,7 @@
 //   in     planes_of() an image
 //   out    kCameraOutputs planes of kOutRows x kOutColumns, see CameraOutput
 //   errors as Network::load()
-//   cost   25 ms of one processor
+//   cost   28 ms of one processor
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
