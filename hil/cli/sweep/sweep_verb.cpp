@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <filesystem>
 #include <thread>
 #include <utility>
 #include <vector>
@@ -12,6 +13,7 @@
 #include "hil/cli/live/programs.hpp"
 #include "hil/cli/run_verb.hpp"
 #include "hil/cli/sweep/sweep_case.hpp"
+#include "hil/sweep/baseline.hpp"
 #include "hil/sweep/local_engine.hpp"
 #include "hil/sweep/results_file.hpp"
 #include "hil/sweep/slurm_engine.hpp"
@@ -24,10 +26,12 @@
 namespace pitwall::cli {
 namespace {
 
+namespace fs = std::filesystem;
+
 constexpr int kProcessesMost = 1'024;
 
 struct Options {
-  std::string plan_file, folder, report_folder, worker, engine = "local";
+  std::string plan_file, folder, report_folder, worker, engine = "local", baseline;
   std::vector<std::string> sbatch;
   unsigned processes = std::max(1U, std::thread::hardware_concurrency());
   std::size_t one_case = 0;
@@ -122,6 +126,16 @@ Result<bool, Problem> run_missing(const Options& options, const SweepInputs& of,
   return sweep::run_here(missing, all, folder, engine);
 }
 
+// Of an earlier sweep with the same plan and scenario.
+Result<std::vector<sweep::CaseResult>, Problem> baseline_of(const Options& options,
+                                                            const SweepInputs& of) {
+  if (!fs::exists(options.baseline + "/cases"))
+    return Unexpected{Problem{options.baseline, "is no folder of a sweep"}};
+  const auto folder = sweep::SweepFolder::open(options.baseline, of.plan_text, of.scenario_text);
+  if (!folder) return Unexpected{folder.error()};
+  return folder->read(of.cases.size());
+}
+
 int run_all(const Options& options, const SweepInputs& of, const sweep::SweepFolder& folder) {
   if (const auto ran = run_missing(options, of, folder); !ran) return refuse(ran.error());
   const auto results = folder.read(of.cases.size());
@@ -133,6 +147,13 @@ int run_all(const Options& options, const SweepInputs& of, const sweep::SweepFol
       "%s%s\n",
       sweep::summary_of(of.cases, *results, "pitwall-hil sweep " + options.plan_file).c_str(),
       folder.results_file().c_str());
+  if (!options.baseline.empty()) {
+    const auto before = baseline_of(options, of);
+    if (!before) return refuse(before.error());
+    const sweep::Difference difference = sweep::difference(*before, *results);
+    std::printf("%s", to_text(difference).c_str());
+    return difference.worse.empty() ? kExitPass : kExitFailed;
+  }
   return sweep::all_passed(*results) ? kExitPass : kExitFailed;
 }
 
@@ -140,6 +161,8 @@ int run_all(const Options& options, const SweepInputs& of, const sweep::SweepFol
 Result<bool, Problem> check(const Options& options, const SweepInputs& of) {
   if (options.engine == "slurm")
     if (auto found = sweep::find_slurm(); !found) return found;
+  if (!options.baseline.empty())
+    if (const auto before = baseline_of(options, of); !before) return Unexpected{before.error()};
   return check_values(of.scenario_text, of.cases.plan());
 }
 
@@ -155,6 +178,8 @@ int sweep_verb(std::span<const std::string> args) {
   app.option("--engine", options.engine, "local, or slurm: array jobs of a cluster")
       .shows_default();
   app.option("--sbatch", options.sbatch, "an option for sbatch, such as --sbatch=--partition=long");
+  app.option("--baseline", options.baseline,
+             "folder of an earlier sweep of this plan: what passed there has to pass");
   const VerbOption one = app.option("--case", options.one_case, "run this case alone, as `run`");
   app.option("--report", options.report_folder, "of that case: log, result and page").needs(one);
   const VerbOption worker =

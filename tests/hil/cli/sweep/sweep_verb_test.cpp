@@ -84,6 +84,26 @@ TEST_F(SweepVerb, AnotherPlanInTheFolderIsRefused) {
   EXPECT_NE(other.err.find("another one"), std::string::npos) << other.err;
 }
 
+TEST_F(SweepVerb, ABaselineHasOnlyToBeReachedAgain) {
+  ASSERT_EQ(sweep("before", "1").code, 1) << "two cases fail";
+  const std::vector<std::string> words{"sweep",     path("plan.yaml"), "--out",
+                                       path("now"), "--baseline",      path("before")};
+  const ProgramOutput now = run(words);
+  EXPECT_EQ(now.code, 0) << now.err;
+  EXPECT_NE(now.out.find("4 cases, 4 of them the same run"), std::string::npos) << now.out;
+  // A case of the baseline that passed where it does not now.
+  for (const auto& entry : std::filesystem::directory_iterator(path("before/cases"))) {
+    std::string text = transport::read_file(entry.path()).value_or("");
+    const std::size_t at = text.find("\"failed\"");
+    if (at == std::string::npos) continue;
+    ASSERT_TRUE(transport::write_file(entry.path(), text.replace(at, 8, "\"passed\"")));
+  }
+  const ProgramOutput worse = run(words);
+  EXPECT_EQ(worse.code, 1);
+  EXPECT_NE(worse.out.find("2 passed before and do not now"), std::string::npos) << worse.out;
+  expect_refusal({"sweep", path("plan.yaml"), "--baseline", path("none")}, "no folder of a sweep");
+}
+
 TEST_F(SweepVerb, OneCaseIsRunAsAScenarioIs) {
   const ProgramOutput output = run({"sweep", path("plan.yaml"), "--case", "3"});
   EXPECT_EQ(output.code, 1) << output.err;
