@@ -62,7 +62,7 @@ constexpr std::array kVerbs{
     Verb{"faults", "every fault of the catalogue: who notices it, how fast, and the outcome",
          cli::faults_verb},
     Verb{"track", "tracks: check, import from a CSV, picture", cli::track_verb},
-    Verb{"scenes", "drawn scenes for the training of the LiDAR's network", cli::scenes_verb},
+    Verb{"scenes", "drawn scenes for the training of the networks", cli::scenes_verb},
     Verb{"track-kitti", "the tracker of other cars on a sequence of KITTI", cli::track_kitti_verb},
 };
 

@@ -17,36 +17,36 @@ namespace {
 constexpr std::string_view kSeedPath = "seed";
 constexpr std::uint64_t kSeeds = 1'000'000'000;
 
-// Which values of two parameters have met already.
-class Meetings {
+// Which pairs of values of two parameters stand in a case already.
+class PairCoverage {
  public:
-  explicit Meetings(const std::vector<Parameter>& parameters) : parameters_(parameters) {
+  explicit PairCoverage(const std::vector<Parameter>& parameters) : parameters_(parameters) {
     for (std::size_t a = 0; a < parameters.size(); ++a)
       for (std::size_t b = 0; b < a; ++b) {
         const std::size_t pairs = parameters[a].values.size() * parameters[b].values.size();
-        met_.emplace_back(pairs, false);
-        left_ += pairs;
+        covered_.emplace_back(pairs, false);
+        uncovered_ += pairs;
       }
   }
 
-  std::size_t left() const { return left_; }
-  bool have_met(std::size_t a, std::size_t value_a, std::size_t b, std::size_t value_b) const {
-    return met_[table(a, b)][value_a * parameters_[b].values.size() + value_b];
+  std::size_t uncovered() const { return uncovered_; }
+  bool is_covered(std::size_t a, std::size_t value_a, std::size_t b, std::size_t value_b) const {
+    return covered_[table(a, b)][value_a * parameters_[b].values.size() + value_b];
   }
-  void meet(const std::vector<std::size_t>& row) {
+  void cover(const std::vector<std::size_t>& row) {
     for (std::size_t a = 0; a < row.size(); ++a)
       for (std::size_t b = 0; b < a; ++b) {
-        auto met = met_[table(a, b)].begin() +
+        auto met = covered_[table(a, b)].begin() +
                    static_cast<std::ptrdiff_t>(row[a] * parameters_[b].values.size() + row[b]);
-        if (!*met) --left_;
+        if (!*met) --uncovered_;
         *met = true;
       }
   }
-  // The first two values that have not. Those before never will be again.
-  std::array<std::size_t, 4> first_left() {
+  // The first pair that does not; those before it do for good.
+  std::array<std::size_t, 4> first_uncovered() {
     for (; a_ < parameters_.size(); ++a_, b_ = 0)
       for (; b_ < a_; ++b_, at_ = 0) {
-        const std::vector<bool>& met = met_[table(a_, b_)];
+        const std::vector<bool>& met = covered_[table(a_, b_)];
         while (at_ < met.size() && met[at_]) ++at_;
         const std::size_t of_b = parameters_[b_].values.size();
         if (at_ < met.size()) return {a_, at_ / of_b, b_, at_ % of_b};
@@ -58,9 +58,9 @@ class Meetings {
   static std::size_t table(std::size_t a, std::size_t b) { return a * (a - 1) / 2 + b; }
 
   const std::vector<Parameter>& parameters_;
-  std::vector<std::vector<bool>> met_;
-  std::size_t left_ = 0;
-  std::size_t a_ = 1, b_ = 0, at_ = 0;  // where first_left() goes on
+  std::vector<std::vector<bool>> covered_;
+  std::size_t uncovered_ = 0;
+  std::size_t a_ = 1, b_ = 0, at_ = 0;  // where first_uncovered() goes on
 };
 
 std::string drawn_value(const Parameter& parameter, Random& random) {
@@ -71,15 +71,15 @@ std::string drawn_value(const Parameter& parameter, Random& random) {
 constexpr std::size_t kOpen = std::numeric_limits<std::size_t>::max();
 
 // The value of parameter `a` that meets most new ones of those that are settled.
-std::size_t best_value(const Meetings& meetings, const std::vector<Parameter>& parameters,
+std::size_t best_value(const PairCoverage& coverage, const std::vector<Parameter>& parameters,
                        const std::vector<std::size_t>& row, std::size_t a) {
   std::size_t best = 0, most = 0;
   for (std::size_t value = 0; value < parameters[a].values.size(); ++value) {
     std::size_t fresh = 0;
     for (std::size_t b = 0; b < row.size(); ++b) {
       if (b == a || row[b] == kOpen) continue;
-      fresh +=
-          a > b ? !meetings.have_met(a, value, b, row[b]) : !meetings.have_met(b, row[b], a, value);
+      fresh += a > b ? !coverage.is_covered(a, value, b, row[b])
+                     : !coverage.is_covered(b, row[b], a, value);
     }
     if (fresh > most) best = value, most = fresh;
   }
@@ -93,14 +93,14 @@ std::vector<std::vector<std::size_t>> pairs_of(const std::vector<Parameter>& par
       rows.push_back({value});
     return rows;
   }
-  Meetings meetings{parameters};
-  while (meetings.left() > 0) {
+  PairCoverage coverage{parameters};
+  while (coverage.uncovered() > 0) {
     std::vector<std::size_t> row(parameters.size(), kOpen);
-    const auto [a, value_a, b, value_b] = meetings.first_left();
+    const auto [a, value_a, b, value_b] = coverage.first_uncovered();
     row[a] = value_a, row[b] = value_b;
     for (std::size_t k = 0; k < row.size(); ++k)
-      if (row[k] == kOpen) row[k] = best_value(meetings, parameters, row, k);
-    meetings.meet(row);
+      if (row[k] == kOpen) row[k] = best_value(coverage, parameters, row, k);
+    coverage.cover(row);
     rows.push_back(std::move(row));
   }
   return rows;

@@ -81,10 +81,7 @@ class Engine {
   Result<bool, Problem> settle(const CaseNumbers& cases, const std::string& name) {
     const auto results = folder_.read_of(name, all_);
     if (!results) return Unexpected{results.error()};
-    CaseNumbers left;
-    for (const std::size_t number : cases)
-      if (!std::ranges::binary_search(*results, number, {}, &CaseResult::number))
-        left.push_back(number);
+    CaseNumbers left = without_result(cases, *results);
     if (!left.empty()) {
       const std::size_t ended_at = left.front();
       if (again_.insert(ended_at).second) {

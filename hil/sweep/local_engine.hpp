@@ -19,8 +19,6 @@
 
 namespace pitwall::sweep {
 
-using CaseNumbers = std::vector<std::size_t>;
-
 struct LocalEngine {
   unsigned processes = 1;  // at a time
   // A process that appends the results of these cases to the folder under this name.

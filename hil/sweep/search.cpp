@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <numeric>
 
@@ -118,10 +119,6 @@ class Search {
 
 std::vector<Evaluated> search(const SearchPlan& plan, const Evaluate& evaluate) {
   return Search{plan, evaluate}.run();
-}
-
-double least_of(const Evaluated& point, std::span<const Evaluated> among) {
-  return least_by(point, spreads(among));
 }
 
 }  // namespace pitwall::sweep

@@ -17,7 +17,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
-#include <limits>
 #include <span>
 #include <vector>
 
@@ -44,8 +43,5 @@ inline constexpr std::size_t kBatch = 10;
 using Evaluate = std::function<std::vector<Margins>(std::span<const Point>)>;
 
 std::vector<Evaluated> search(const SearchPlan& plan, const Evaluate& evaluate);
-
-// Its least margin, each in units of its own spread over all of `among`.
-double least_of(const Evaluated& point, std::span<const Evaluated> among);
 
 }  // namespace pitwall::sweep

@@ -35,11 +35,13 @@ Result<std::string, Problem> output_of(const Words& command, const std::string& 
   return output;
 }
 
-std::string quoted_for_shell(const std::string& word) {
-  std::string text = "'";
-  for (const char c : word) text += c == '\'' ? std::string{"'\\''"} : std::string{c};
-  return text + "'";
-}
+// Of the array job's task: the file of shares, then a process of the sweep.
+constexpr std::string_view kTaskScript = R"sh(#!/bin/sh
+shares=$1
+shift
+exec "$@" --worker "slurm-$SLURM_ARRAY_JOB_ID-$SLURM_ARRAY_TASK_ID" \
+  --cases "$(sed -n "$((SLURM_ARRAY_TASK_ID + 1))p" "$shares")"
+)sh";
 
 // One line a task.
 std::string shares_text(const CaseNumbers& cases, std::size_t share) {
@@ -91,7 +93,7 @@ class Cluster {
     }
     const auto left = still_missing(cases, all);
     if (!left) return Unexpected{left.error()};
-    return call_crashed(*left);
+    return record_crashed(*left);
   }
 
  private:
@@ -100,11 +102,7 @@ class Cluster {
   Result<CaseNumbers, Problem> still_missing(const CaseNumbers& cases, std::size_t all) const {
     const auto results = folder_.read(all);
     if (!results) return Unexpected{results.error()};
-    CaseNumbers left;
-    for (const std::size_t number : cases)
-      if (!std::ranges::binary_search(*results, number, {}, &CaseResult::number))
-        left.push_back(number);
-    return left;
+    return without_result(cases, *results);
   }
 
   // As many jobs as the tasks need, one after the other.
@@ -124,18 +122,13 @@ class Cluster {
     const std::string shares =
         own_ + formatted("/shares-%lld", static_cast<long long>(transport::monotonic_now().ns));
     auto written = transport::write_file(shares, shares_text(cases, share));
-    std::string script = "#!/bin/sh\nexec";
-    for (const std::string& word : engine_.command) script += " " + quoted_for_shell(word);
-    script +=
-        " --worker \"slurm-$SLURM_ARRAY_JOB_ID-$SLURM_ARRAY_TASK_ID\" --cases \"$(sed -n "
-        "\"$((SLURM_ARRAY_TASK_ID + 1))p\" " +
-        quoted_for_shell(shares) + ")\"\n";
-    if (written) written = transport::write_file(own_ + "/task.sh", script);
+    if (written) written = transport::write_file(own_ + "/task.sh", kTaskScript);
     if (!written) return Unexpected{written.error()};
     Words command{"sbatch", "--parsable", "--requeue", "--array=0-" + std::to_string(job.tasks - 1),
                   "--output=" + own_ + "/%A_%a.out"};
     command.insert(command.end(), engine_.options.begin(), engine_.options.end());
-    command.push_back(own_ + "/task.sh");
+    command.insert(command.end(), {own_ + "/task.sh", shares});
+    command.insert(command.end(), engine_.command.begin(), engine_.command.end());
     auto number = output_of(command, own_ + "/output");
     if (!number) return Unexpected{number.error()};
     job.number = number->substr(0, number->find(';'));  // a cluster's name may follow
@@ -175,7 +168,7 @@ class Cluster {
     }
   }
 
-  Result<bool, Problem> call_crashed(const CaseNumbers& cases) const {
+  Result<bool, Problem> record_crashed(const CaseNumbers& cases) const {
     for (const std::size_t number : cases) {
       const auto written =
           folder_.append("crashed", {.number = number,

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <numeric>
 #include <string_view>
 #include <utility>
 
@@ -86,16 +87,18 @@ Result<std::vector<CaseResult>, Problem> SweepFolder::read_of(const std::string&
   return in_order(std::move(results));
 }
 
-std::vector<std::size_t> missing_cases(const std::vector<CaseResult>& results, std::size_t cases) {
-  std::vector<std::size_t> missing;
-  auto next = results.begin();
-  for (std::size_t number = 0; number < cases; ++number) {
-    if (next != results.end() && next->number == number)
-      ++next;
-    else
-      missing.push_back(number);
-  }
-  return missing;
+CaseNumbers without_result(const CaseNumbers& numbers, const std::vector<CaseResult>& results) {
+  CaseNumbers left;
+  for (const std::size_t number : numbers)
+    if (!std::ranges::binary_search(results, number, {}, &CaseResult::number))
+      left.push_back(number);
+  return left;
+}
+
+CaseNumbers missing_cases(const std::vector<CaseResult>& results, std::size_t cases) {
+  CaseNumbers all(cases);
+  std::iota(all.begin(), all.end(), std::size_t{0});
+  return without_result(all, results);
 }
 
 }  // namespace pitwall::sweep

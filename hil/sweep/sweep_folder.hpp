@@ -38,7 +38,11 @@ class SweepFolder {
   std::string path_;
 };
 
+using CaseNumbers = std::vector<std::size_t>;
+
+// Those of the numbers that have no result; `results` in order.
+CaseNumbers without_result(const CaseNumbers& numbers, const std::vector<CaseResult>& results);
 // Numbers below `cases` that have no result; `results` in order.
-std::vector<std::size_t> missing_cases(const std::vector<CaseResult>& results, std::size_t cases);
+CaseNumbers missing_cases(const std::vector<CaseResult>& results, std::size_t cases);
 
 }  // namespace pitwall::sweep

@@ -43,8 +43,7 @@ struct Options {
 int work(const Options& options, const SweepInputs& of, const sweep::SweepFolder& folder) {
   const auto done = folder.read_of(options.worker, of.cases.size());
   if (!done) return refuse(done.error());
-  for (const std::size_t number : options.cases) {
-    if (std::ranges::binary_search(*done, number, {}, &sweep::CaseResult::number)) continue;
+  for (const std::size_t number : sweep::without_result(options.cases, *done)) {
     const auto written = folder.append(options.worker, run_case(of, of.cases.at(number)));
     if (!written) return refuse(written.error());
   }

@@ -79,7 +79,7 @@ CameraScene CameraSceneMaker::make(std::uint64_t seed) {
   const std::vector<DustCloud> dust = draw_dust(*track_, drawn, rules_.dust, noise);
   const Moving body = sprung_body(*track_, drawn.ours, noise);
   for (std::size_t car = 0; car < kSceneCarsMost; ++car) rays_.hide(car);
-  decoys_.stand_anew(*track_, drawn, seed, rays_);
+  decoys_.place_drawn(*track_, drawn, seed, rays_);
   place_cars(drawn.others, rays_);
   CameraScene scene{.unit = drawn_unit(seed, rules_.varied, noise), .image = {}, .cars = {}};
   const Look look = draw_look(kSceneCarsMost, noise);

@@ -96,8 +96,8 @@ Decoys::Decoys(DecoySet set, RayScene& rays) : set_(set) {
   }
 }
 
-void Decoys::stand_anew(const world::TrackMap& track, const DrawnCars& cars, std::uint64_t seed,
-                        RayScene& rays) const {
+void Decoys::place_drawn(const world::TrackMap& track, const DrawnCars& cars, std::uint64_t seed,
+                         RayScene& rays) const {
   Noise noise{seed, 0xDEC0};
   for (const std::size_t number : numbers_) {
     const auto decoy = drawn_place(track, cars, noise);

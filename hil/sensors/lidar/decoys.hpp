@@ -36,8 +36,8 @@ class Decoys {
   Decoys(DecoySet set, RayScene& rays);
 
   // Takes effect at the scene's next commit().
-  void stand_anew(const world::TrackMap& track, const DrawnCars& cars, std::uint64_t seed,
-                  RayScene& rays) const;
+  void place_drawn(const world::TrackMap& track, const DrawnCars& cars, std::uint64_t seed,
+                   RayScene& rays) const;
 
  private:
   DecoySet set_;

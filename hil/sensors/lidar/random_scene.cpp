@@ -70,7 +70,7 @@ LidarScene SceneMaker::make(std::uint64_t seed) {
   const std::vector<DustCloud> dust = draw_dust(*track_, drawn, rules_.dust, noise);
   const Moving body = sprung_body(*track_, drawn.ours, noise);
   for (std::size_t car = 0; car < kSceneCarsMost; ++car) rays_.hide(car);
-  decoys_.stand_anew(*track_, drawn, seed, rays_);
+  decoys_.place_drawn(*track_, drawn, seed, rays_);
 
   LidarScene scene;
   const Moving then = after(body, kReference_s);

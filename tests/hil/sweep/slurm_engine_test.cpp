@@ -16,15 +16,17 @@ namespace {
 
 constexpr const char* kSbatch = R"(#!/bin/sh
 [ "$1" = --version ] && exit 0
-for word; do
-  case $word in --array=0-*) last=${word#--array=0-} ;; esac
+all="$*"
+while [ "${1%/task.sh}" = "$1" ]; do
+  case $1 in --array=0-*) last=${1#--array=0-} ;; esac
+  shift
 done
 export SLURM_ARRAY_JOB_ID=7 SLURM_ARRAY_TASK_ID=0
 while [ $SLURM_ARRAY_TASK_ID -le $last ]; do
-  sh "$word" || true
+  sh "$@" || true
   SLURM_ARRAY_TASK_ID=$((SLURM_ARRAY_TASK_ID + 1))
 done
-echo "$*" >> "$(dirname "$0")/submitted"
+echo "$all" >> "$(dirname "$0")/submitted"
 echo '7;cluster'
 )";
 constexpr const char* kForgotten = R"(#!/bin/sh
