@@ -4,7 +4,8 @@
 # SPDX-License-Identifier: Apache-2.0
 flags=$("$(dirname "$0")/own_network")
 if unshare "$flags" ip link set lo up 2>/dev/null; then
-  exec env PITWALL_OFFLINE=1 unshare "$flags" sh -c 'ip link set lo up && exec "$@"' sh "$@"
+  exec env PITWALL_OFFLINE=1 unshare "$flags" sh -c '
+    mount -t tmpfs tmpfs /dev/shm && ip link set lo up && exec "$@"' sh "$@"
 fi
 echo 'no network namespace on this kernel: the network is there during this test' >&2
 exec "$@"

@@ -88,7 +88,7 @@ class Envelope:
         def carried(v):
             return np.abs(self.lateral(v, curvature, bank)) <= self.largest(v, curvature, bank)
         everywhere = carried(bad)
-        for _ in range(60):
+        for _ in range(45):
             middle = 0.5 * (good + bad)
             is_good = carried(middle)
             good, bad = np.where(is_good, middle, good), np.where(is_good, bad, middle)

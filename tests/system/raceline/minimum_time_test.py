@@ -26,7 +26,7 @@ COARSE_M, EVERY = 4.0, 3  # stations of the search, and from one variable to the
 CAR_WIDTH_M, CLEARANCE_M = 2.0, 0.3
 SHARE = 0.01              # that ours may take longer
 SECONDS_MOST = 60.0       # of the program
-MOVE_M = 1e-4             # of the differences
+MOVE_M = 1e-5             # of the differences
 ROUNDS = 40  # after 100 its lap is 55.434 s, 0.16 % faster than after 40
 
 
@@ -46,19 +46,23 @@ def shape_of(x, y, yaw, offsets):
 
 
 def lap_times(envelope, curvature, step):
-    """Laps of many lines at once, without shifts, on a level road; two times around each way."""
+    """Laps of many lines at once, without shifts, on a level road.
+
+    Lines that are nearly one: once around each way from the slowest corner, whose speed nothing
+    lowers.
+    """
     count = curvature.shape[1]
     level = np.zeros_like(curvature)
     limit = envelope.corner_speeds(curvature, level)
     start = int(np.argmin(limit[0]))
     flat = np.zeros(len(curvature))
-    for k in range(2 * count, 0, -1):
+    for k in range(count, 0, -1):
         i, after = (start + k - 1) % count, (start + k) % count
         v = limit[:, after]
         brake = envelope.limits(v, curvature[:, after], flat)[1]
         limit[:, i] = np.minimum(limit[:, i], np.sqrt(v * v + 2.0 * step[:, i] * brake))
     speed = limit.copy()
-    for k in range(2 * count):
+    for k in range(count):
         i, after = (start + k) % count, (start + k + 1) % count
         v = speed[:, i]
         accel = envelope.limits(v, curvature[:, i], flat)[0]
@@ -85,10 +89,8 @@ class Search:
         return lap_times(self.envelope, *shape_of(self.x, self.y, self.yaw, rows @ self.matrix.T))
 
     def value_and_slope(self, offsets):
-        rows = np.vstack([offsets, offsets + MOVE_M * np.eye(len(offsets)),
-                          offsets - MOVE_M * np.eye(len(offsets))])
-        times, n = self.times(rows), len(offsets)
-        return times[0], (times[1:n + 1] - times[n + 1:]) / (2.0 * MOVE_M)
+        times = self.times(np.vstack([offsets, offsets + MOVE_M * np.eye(len(offsets))]))
+        return times[0], (times[1:] - times[0]) / MOVE_M
 
     def best(self, begin, low, high):
         found = minimize(self.value_and_slope, begin, jac=True, method="L-BFGS-B",
