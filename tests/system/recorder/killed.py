@@ -60,8 +60,11 @@ def newest_on_disk(path):
 
 def lost_by_a_kill(folder, after_s):
     """A base is killed while its car speaks: seconds between what is kept and the kill."""
+    written = len(recordings(folder))
     base = start(folder, "--record", str(folder / "rec"))
     address = address_of(base)
+    while len(recordings(folder)) == written:  # the machine may be slow to begin
+        time.sleep(0.01)
     began = test_clock.calendar_s()
     car = subprocess.Popen([CAR, str(folder / "keys/car.keys"), address, "4"],
                            stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
@@ -77,6 +80,10 @@ def lost_by_a_kill(folder, after_s):
 
 def segments(folder):
     return sorted((folder / "rec").glob("*.mcap"))
+
+
+def recordings(folder):
+    return [path for path in segments(folder) if path.stat().st_size > 0]
 
 
 def read_by_oracle(paths):
