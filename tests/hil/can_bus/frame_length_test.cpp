@@ -66,7 +66,7 @@ can::Frame random_frame(RandomWords& rng) {
 
 TEST(FrameLength, EqualsTheFrameWrittenOutBitByBit) {
   RandomWords rng{std::mt19937{1}};
-  for (int i = 0; i < 20'000; ++i) {
+  for (int i = 0; i < 100'000; ++i) {
     const can::Frame f = random_frame(rng);
     const std::string bits = header_and_data(f);
     const std::string crc = crc_by_long_division(bits);
@@ -115,7 +115,7 @@ TEST(ArbitrationKey, OrdersAsTheWiredAndOfTheBitsDoes) {
                       : binary(f.id, 11) + r + "0" + std::string(19, '0');
   };
   RandomWords rng{std::mt19937{3}};
-  for (int i = 0; i < 20'000; ++i) {
+  for (int i = 0; i < 100'000; ++i) {
     can::Frame a = random_frame(rng), b = random_frame(rng);
     if (rng() % 2 == 0) b.id = b.extended ? (a.id << 18) & can::kMaxExtendedId : a.id & 0x7FF;
     a.remote = rng() % 2 == 0;

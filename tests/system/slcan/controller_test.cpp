@@ -8,8 +8,10 @@
 #include <string>
 #include <vector>
 
+#include "hil/can_bus/memory_bus.hpp"
 #include "protocol/transport/can/can_interface.hpp"
 #include "protocol/transport/can/can_socket.hpp"
+#include "protocol/vocabulary/text.hpp"
 #include "tests/support/comes_true.hpp"
 #include "tests/system/slcan/scripted_controller.hpp"
 
@@ -187,6 +189,64 @@ TEST_F(Controller, ARestartEndsBusOffWhereTheDriverCannotRestart) {
   EXPECT_EQ(status().state, BusState::kActive);
   EXPECT_TRUE(status().up && status().running);
   EXPECT_TRUE(comes_true([&] { return controller_->opened() == 2; }));
+}
+
+// Letter of slcan and the state of the kernel for a state of the bench's node.
+struct ModelledState {
+  char letter;
+  BusState state;
+};
+ModelledState modelled(can_bus::ErrorState state) {
+  switch (state) {
+    case can_bus::ErrorState::kActive:
+      return {'a', BusState::kActive};
+    case can_bus::ErrorState::kWarning:
+      return {'w', BusState::kWarning};
+    case can_bus::ErrorState::kPassive:
+      return {'p', BusState::kPassive};
+    case can_bus::ErrorState::kBusOff:
+      break;
+  }
+  return {'b', BusState::kBusOff};
+}
+
+// The bench's bus in memory and the kernel hear of the same errors: they come to the same
+// states, neither sends in bus-off, and both are back after a restart alone.
+TEST_F(Controller, TheBenchsNodeGoesThroughTheStatesOfTheKernels) {
+  can_bus::MemoryBus bus{{.ports = 2}};
+  bus.damage_transmitter(0, 1.0);
+  can::Frame frame;
+  frame.id = 0x100;
+  Instant now = Instant{} + seconds(1);
+  ASSERT_TRUE(bus.offer(0, frame, now));
+  std::vector<can_bus::ErrorState> passed{bus.status(0).state};
+  while (passed.back() != can_bus::ErrorState::kBusOff && now < Instant{} + seconds(2)) {
+    bus.advance(now += microseconds(2));
+    const can_bus::PortStatus node = bus.status(0);
+    if (node.state == passed.back()) continue;
+    passed.push_back(node.state);
+    const ModelledState reported = modelled(node.state);
+    controller_->say(
+        formatted("s%c%03u%03u\r", reported.letter, node.receive_errors, node.send_errors));
+    EXPECT_TRUE(comes_true([&] { return status().state == reported.state; })) << reported.letter;
+  }
+  EXPECT_EQ(passed.size(), 4U) << "active, warning, passive, bus-off";
+  EXPECT_FALSE(bus.offer(0, frame, now));
+  EXPECT_FALSE(status().running) << "without a carrier the kernel sends nothing either";
+  bus.damage_transmitter(0, 0.0);
+  bus.advance(now += seconds(1));
+  EXPECT_EQ(bus.status(0).state, can_bus::ErrorState::kBusOff) << "nobody restarted it";
+  EXPECT_EQ(status().state, BusState::kBusOff);
+  EXPECT_TRUE(bus.restart(0, now));
+  const auto problem = interface_->restart();
+  EXPECT_FALSE(problem) << to_string(*problem);
+  bus.advance(now += milliseconds(10));
+  EXPECT_EQ(bus.status(0).state, can_bus::ErrorState::kActive);
+  EXPECT_EQ(status().state, BusState::kActive);
+  EXPECT_TRUE(bus.offer(0, frame, now));
+  EXPECT_TRUE(comes_true([&] { return controller_->opened() == 2; }));
+  EXPECT_TRUE(comes_true([&] { return socket_->send(frame); }));
+  EXPECT_TRUE(comes_true([&] { return controller_->take_frames().size() == 1; }));
 }
 
 TEST_F(Controller, AnUnpluggedOneIsGone) {
