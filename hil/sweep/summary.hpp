@@ -20,6 +20,9 @@ inline constexpr std::size_t kWorstShown = 5;
 std::string summary_of(const Cases& cases, std::span<const CaseResult> results,
                        const std::string& one_case);
 
+// "197 passed, 3 failed, ...": how many of each verdict.
+std::string verdicts_text(std::span<const CaseResult> results);
+
 // Whether every case passed.
 bool all_passed(std::span<const CaseResult> results);
 
