@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
+#include <optional>
 #include <thread>
 #include <utility>
 #include <vector>
@@ -12,7 +13,9 @@
 #include "hil/cli/exit_code.hpp"
 #include "hil/cli/live/programs.hpp"
 #include "hil/cli/run_verb.hpp"
+#include "hil/cli/sweep/case_pages.hpp"
 #include "hil/cli/sweep/sweep_case.hpp"
+#include "hil/report/sweep/sweep_page.hpp"
 #include "hil/sweep/baseline.hpp"
 #include "hil/sweep/local_engine.hpp"
 #include "hil/sweep/results_file.hpp"
@@ -28,13 +31,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kProcessesMost = 1'024;
+constexpr int kProcessesMost = 1'024, kPagesMost = 1'000;
 
 struct Options {
   std::string plan_file, folder, report_folder, worker, engine = "local", baseline;
   std::vector<std::string> sbatch;
   unsigned processes = std::max(1U, std::thread::hardware_concurrency());
-  std::size_t one_case = 0;
+  std::size_t one_case = 0, pages = sweep::kWorstShown;
   std::vector<std::size_t> cases;  // of a process of the sweep
 };
 
@@ -50,22 +53,18 @@ int work(const Options& options, const SweepInputs& of, const sweep::SweepFolder
   return kExitPass;
 }
 
+// Under the name that the scenario has in the sweep, so that the event log is the same.
 int run_one(const Options& options, const SweepInputs& of) {
   if (options.one_case >= of.cases.size())
     return refuse(Problem{"--case", formatted("the sweep has %zu cases", of.cases.size())});
   const sweep::Case one = of.cases.at(options.one_case);
-  const auto text =
-      yaml::with_settings(of.scenario_text, of.cases.plan().scenario_file, one.settings);
+  RunOptions run;
+  run.scenario = of.cases.plan().scenario_file, run.report_folder = options.report_folder;
+  auto text = yaml::with_settings(of.scenario_text, run.scenario, one.settings);
   if (!text) return refuse(text.error());
-  const auto folder = transport::TemporaryFolder::create("pitwall-case");
-  if (!folder) return refuse(folder.error());
+  run.text = *std::move(text);
   for (const yaml::Setting& setting : one.settings)
     std::printf("%s = %s\n", setting.path.c_str(), setting.value.c_str());
-  const std::string file = folder->path() + formatted("/case_%zu.yaml", one.number);
-  if (const auto written = transport::write_file(file, *text); !written)
-    return refuse(written.error());
-  RunOptions run;
-  run.scenario = file, run.report_folder = options.report_folder;
   return run_as_told(std::move(run));
 }
 
@@ -96,6 +95,10 @@ std::string joined(const std::vector<std::size_t>& numbers) {
   return text;
 }
 
+std::vector<std::string> command_of(const Options& options) {
+  return {own_program(), "sweep", options.plan_file};
+}
+
 Result<bool, Problem> run_missing(const Options& options, const SweepInputs& of,
                                   const sweep::SweepFolder& folder) {
   const std::size_t all = of.cases.size();
@@ -103,8 +106,8 @@ Result<bool, Problem> run_missing(const Options& options, const SweepInputs& of,
   if (!before) return Unexpected{before.error()};
   const sweep::CaseNumbers missing = sweep::missing_cases(*before, all);
   if (!before->empty()) std::printf("%zu of %zu cases were done before\n", before->size(), all);
-  const std::vector<std::string> command{own_program(), "sweep", options.plan_file, "--out",
-                                         folder.path()};
+  std::vector<std::string> command = command_of(options);
+  command.insert(command.end(), {"--out", folder.path()});
   if (options.engine == "slurm") {
     return sweep::run_on_cluster(missing, all, folder,
                                  {.command = command,
@@ -135,25 +138,68 @@ Result<std::vector<sweep::CaseResult>, Problem> baseline_of(const Options& optio
   return folder->read(of.cases.size());
 }
 
+using Results = std::vector<sweep::CaseResult>;
+
+// The worst cases, and the first of those whose verdict is another than in the baseline.
+std::vector<const sweep::CaseResult*> with_page(const Results& results,
+                                                const sweep::Difference& difference,
+                                                std::size_t most) {
+  std::vector<const sweep::CaseResult*> cases = report::worst_of(results);
+  cases.resize(std::min(cases.size(), most));
+  for (const std::vector<std::size_t>* numbers : {&difference.worse, &difference.better})
+    for (const std::size_t number : std::span{*numbers}.first(std::min(numbers->size(), most)))
+      cases.push_back(&*std::ranges::lower_bound(results, number, {}, &sweep::CaseResult::number));
+  std::ranges::sort(cases, {}, &sweep::CaseResult::number);
+  const auto twice = std::ranges::unique(cases);
+  cases.erase(twice.begin(), twice.end());
+  return cases;
+}
+
+// The page of the sweep and those of its worst cases.
+Result<bool, Problem> write_pages(const Options& options, const SweepInputs& of,
+                                  const sweep::SweepFolder& folder, const Results& results,
+                                  const std::optional<Results>& before) {
+  const sweep::Difference difference =
+      before ? sweep::difference(*before, results) : sweep::Difference{};
+  const auto pages = make_case_pages(with_page(results, difference, options.pages),
+                                     {.folder = folder.pages_folder(),
+                                      .command = command_of(options),
+                                      .processes = options.processes});
+  if (!pages) return Unexpected{pages.error()};
+  report::SweepRun run{.cases = of.cases,
+                       .results = results,
+                       .command = "pitwall-hil sweep " + options.plan_file,
+                       .pages = *pages};
+  if (before) {
+    run.command += " --baseline " + options.baseline;
+    run.baseline = *before;
+  }
+  return transport::write_file(folder.report_file(), report::sweep_page(run));
+}
+
 int run_all(const Options& options, const SweepInputs& of, const sweep::SweepFolder& folder) {
   if (const auto ran = run_missing(options, of, folder); !ran) return refuse(ran.error());
   const auto results = folder.read(of.cases.size());
   if (!results) return refuse(results.error());
-  const auto written =
-      sweep::write_results(folder.results_file(), of.cases, of.plan_text, *results);
+  std::optional<Results> before;
+  if (!options.baseline.empty()) {
+    auto read = baseline_of(options, of);
+    if (!read) return refuse(read.error());
+    before = *std::move(read);
+  }
+  auto written = sweep::write_results(folder.results_file(), of.cases, of.plan_text, *results);
   if (!written) return refuse(written.error());
   std::printf(
       "%s%s\n",
       sweep::summary_of(of.cases, *results, "pitwall-hil sweep " + options.plan_file).c_str(),
       folder.results_file().c_str());
-  if (!options.baseline.empty()) {
-    const auto before = baseline_of(options, of);
-    if (!before) return refuse(before.error());
-    const sweep::Difference difference = sweep::difference(*before, *results);
-    std::printf("%s", to_text(difference).c_str());
-    return difference.worse.empty() ? kExitPass : kExitFailed;
-  }
-  return sweep::all_passed(*results) ? kExitPass : kExitFailed;
+  written = write_pages(options, of, folder, *results, before);
+  if (!written) return refuse(written.error());
+  std::printf("%s\n", folder.report_file().c_str());
+  if (!before) return sweep::all_passed(*results) ? kExitPass : kExitFailed;
+  const sweep::Difference difference = sweep::difference(*before, *results);
+  std::printf("%s", to_text(difference).c_str());
+  return difference.worse.empty() ? kExitPass : kExitFailed;
 }
 
 // What there is to refuse before anything is started.
@@ -179,6 +225,9 @@ int sweep_verb(std::span<const std::string> args) {
   app.option("--sbatch", options.sbatch, "an option for sbatch, such as --sbatch=--partition=long");
   app.option("--baseline", options.baseline,
              "folder of an earlier sweep of this plan: what passed there has to pass");
+  app.option("--pages", options.pages, "how many of the worst cases get a page of their own")
+      .range(0, kPagesMost)
+      .shows_default();
   const VerbOption one = app.option("--case", options.one_case, "run this case alone, as `run`");
   app.option("--report", options.report_folder, "of that case: log, result and page").needs(one);
   const VerbOption worker =
