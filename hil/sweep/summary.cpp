@@ -8,10 +8,17 @@
 
 #include "hil/sweep/margins.hpp"
 #include "hil/sweep/worst_cases.hpp"
+#include "protocol/json/json_text.hpp"
 #include "protocol/vocabulary/text.hpp"
 
 namespace pitwall::sweep {
 namespace {
+
+std::array<std::size_t, kCaseVerdicts> verdict_counts(std::span<const CaseResult> results) {
+  std::array<std::size_t, kCaseVerdicts> counts{};
+  for (const CaseResult& result : results) ++counts[static_cast<std::size_t>(result.verdict)];
+  return counts;
+}
 
 std::string margins_text(std::span<const CaseResult> results) {
   const std::vector<MarginSpread> spreads = margin_spreads(results);
@@ -47,13 +54,21 @@ std::string worst_text(const Cases& cases, std::span<const CaseResult> results,
 }  // namespace
 
 std::string verdicts_text(std::span<const CaseResult> results) {
-  std::array<std::size_t, kCaseVerdicts> counts{};
-  for (const CaseResult& result : results) ++counts[static_cast<std::size_t>(result.verdict)];
+  const auto counts = verdict_counts(results);
   std::string text;
   for (std::size_t k = 0; k < kCaseVerdicts; ++k)
     text +=
         formatted("%s%zu %s", k == 0 ? "" : ", ", counts[k], name_of(static_cast<CaseVerdict>(k)));
   return text;
+}
+
+std::string summary_json(const Plan& plan, std::span<const CaseResult> results) {
+  json::Object out;
+  out.text("name", plan.name).text("scenario", plan.scenario_file).number("cases", results.size());
+  const auto counts = verdict_counts(results);
+  for (std::size_t k = 0; k < kCaseVerdicts; ++k)
+    out.number(name_of(static_cast<CaseVerdict>(k)), counts[k]);
+  return out.str();
 }
 
 std::string summary_of(const Cases& cases, std::span<const CaseResult> results,

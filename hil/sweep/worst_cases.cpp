@@ -86,6 +86,7 @@ std::string failure_text(const CaseResult& result) {
     if (!of.pass && (worst == nullptr || order_of(of.margin) < order_of(worst->margin)))
       worst = &of;
   if (worst == nullptr) return "a contact that the scenario does not expect";
+  if (!std::isfinite(worst->margin)) return "not judged: " + worst->text;
   return formatted("margin %.4g: %s", worst->margin, worst->text.c_str());
 }
 

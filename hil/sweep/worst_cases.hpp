@@ -21,7 +21,7 @@ namespace pitwall::sweep {
 std::vector<const CaseResult*> failed_cases(std::span<const CaseResult> results);
 std::vector<const CaseResult*> nearest_cases(std::span<const CaseResult> results, std::size_t most);
 
-// Why a case did not pass: its reason, or the worst margin with its expectation.
+// Why a case did not pass: its reason, or the expectation with the worst margin.
 std::string failure_text(const CaseResult& result);
 
 }  // namespace pitwall::sweep

@@ -155,7 +155,7 @@ std::vector<const sweep::CaseResult*> with_page(const Results& results,
   return cases;
 }
 
-// The page of the sweep and those of its worst cases.
+// The page of the sweep, those of its worst cases, and the summary by which others find them.
 Result<bool, Problem> write_pages(const Options& options, const SweepInputs& of,
                                   const sweep::SweepFolder& folder, const Results& results,
                                   const std::optional<Results>& before) {
@@ -174,7 +174,10 @@ Result<bool, Problem> write_pages(const Options& options, const SweepInputs& of,
     run.command += " --baseline " + options.baseline;
     run.baseline = *before;
   }
-  return transport::write_file(folder.report_file(), report::sweep_page(run));
+  auto written = transport::write_file(folder.report_file(), report::sweep_page(run));
+  if (!written) return written;
+  return transport::write_file(folder.summary_file(),
+                               sweep::summary_json(of.cases.plan(), results) + "\n");
 }
 
 int run_all(const Options& options, const SweepInputs& of, const sweep::SweepFolder& folder) {

@@ -125,7 +125,7 @@ class Histogram {
 
   std::vector<Plot::Name> names() const {
     std::vector<Plot::Name> names{{0.0, "0"}};
-    for (double count = 1.0; count <= most_; count *= 10.0)
+    for (double count = 10.0; count <= most_; count *= 10.0)
       names.push_back({height_of(count), number(count, 0)});
     return names;
   }

@@ -46,6 +46,8 @@ TEST(WorstCases, TheNearestAreTheLeastOfEachExpectationInTurn) {
 
 TEST(WorstCases, AFailureSaysWhichMarginOrWhatElse) {
   EXPECT_EQ(failure_text(with_margins(0, -1.0, -30.0)), "margin -30: deg");
+  EXPECT_EQ(failure_text(with_margins(0, -std::numeric_limits<double>::infinity(), -30.0)),
+            "not judged: m");
   EXPECT_EQ(failure_text({.verdict = CaseVerdict::kCrashed, .why = "it ended"}), "it ended");
   EXPECT_NE(failure_text({.verdict = CaseVerdict::kContact, .margins = {{"m", 1.0, true}}})
                 .find("contact"),

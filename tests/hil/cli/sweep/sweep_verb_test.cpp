@@ -83,6 +83,8 @@ TEST_F(SweepVerb, AFinishedSweepMakesItsPageAgainAndRunsNothing) {
   const ProgramOutput again = sweep("o", "1");
   EXPECT_NE(again.out.find("4 of 4 cases were done before"), std::string::npos) << again.out;
   EXPECT_TRUE(text_of("o/report.html") == page);
+  EXPECT_NE(text_of("o/summary.json").find("\"cases\": 4, \"passed\": 2, \"failed\": 2"),
+            std::string::npos);
   EXPECT_EQ(std::filesystem::last_write_time(path("o/pages/2/events.mcap")), made);
 }
 
