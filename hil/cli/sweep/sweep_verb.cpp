@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
-#include <optional>
 #include <thread>
 #include <utility>
 #include <vector>
@@ -16,7 +15,6 @@
 #include "hil/cli/sweep/case_pages.hpp"
 #include "hil/cli/sweep/sweep_case.hpp"
 #include "hil/report/sweep/sweep_page.hpp"
-#include "hil/sweep/baseline.hpp"
 #include "hil/sweep/local_engine.hpp"
 #include "hil/sweep/results_file.hpp"
 #include "hil/sweep/slurm_engine.hpp"
@@ -138,17 +136,16 @@ Result<std::vector<sweep::CaseResult>, Problem> baseline_of(const Options& optio
   return folder->read(of.cases.size());
 }
 
-using Results = std::vector<sweep::CaseResult>;
-
 // The worst cases, and the first of those whose verdict is another than in the baseline.
-std::vector<const sweep::CaseResult*> with_page(const Results& results,
-                                                const sweep::Difference& difference,
-                                                std::size_t most) {
-  std::vector<const sweep::CaseResult*> cases = report::worst_of(results);
+std::vector<const sweep::CaseResult*> with_page(const report::SweepRun& run, std::size_t most) {
+  std::vector<const sweep::CaseResult*> cases = report::worst_of(run.results);
   cases.resize(std::min(cases.size(), most));
+  const sweep::Difference difference =
+      run.baseline ? run.baseline->difference : sweep::Difference{};
   for (const std::vector<std::size_t>* numbers : {&difference.worse, &difference.better})
     for (const std::size_t number : std::span{*numbers}.first(std::min(numbers->size(), most)))
-      cases.push_back(&*std::ranges::lower_bound(results, number, {}, &sweep::CaseResult::number));
+      cases.push_back(
+          &*std::ranges::lower_bound(run.results, number, {}, &sweep::CaseResult::number));
   std::ranges::sort(cases, {}, &sweep::CaseResult::number);
   const auto twice = std::ranges::unique(cases);
   cases.erase(twice.begin(), twice.end());
@@ -156,53 +153,43 @@ std::vector<const sweep::CaseResult*> with_page(const Results& results,
 }
 
 // The page of the sweep, those of its worst cases, and the summary by which others find them.
-Result<bool, Problem> write_pages(const Options& options, const SweepInputs& of,
-                                  const sweep::SweepFolder& folder, const Results& results,
-                                  const std::optional<Results>& before) {
-  const sweep::Difference difference =
-      before ? sweep::difference(*before, results) : sweep::Difference{};
-  const auto pages = make_case_pages(with_page(results, difference, options.pages),
-                                     {.folder = folder.pages_folder(),
-                                      .command = command_of(options),
-                                      .processes = options.processes});
+Result<bool, Problem> write_pages(const Options& options, const sweep::SweepFolder& folder,
+                                  report::SweepRun run) {
+  auto pages = make_case_pages(with_page(run, options.pages), {.folder = folder.pages_folder(),
+                                                               .command = command_of(options),
+                                                               .processes = options.processes});
   if (!pages) return Unexpected{pages.error()};
-  report::SweepRun run{.cases = of.cases,
-                       .results = results,
-                       .command = "pitwall-hil sweep " + options.plan_file,
-                       .pages = *pages};
-  if (before) {
-    run.command += " --baseline " + options.baseline;
-    run.baseline = *before;
-  }
+  run.pages = *std::move(pages);
   auto written = transport::write_file(folder.report_file(), report::sweep_page(run));
   if (!written) return written;
   return transport::write_file(folder.summary_file(),
-                               sweep::summary_json(of.cases.plan(), results) + "\n");
+                               sweep::summary_json(run.cases.plan(), run.results) + "\n");
 }
 
 int run_all(const Options& options, const SweepInputs& of, const sweep::SweepFolder& folder) {
   if (const auto ran = run_missing(options, of, folder); !ran) return refuse(ran.error());
   const auto results = folder.read(of.cases.size());
   if (!results) return refuse(results.error());
-  std::optional<Results> before;
+  const std::string command = "pitwall-hil sweep " + options.plan_file;
+  report::SweepRun run{.cases = of.cases, .results = *results, .command = command};
+  std::vector<sweep::CaseResult> before;
   if (!options.baseline.empty()) {
     auto read = baseline_of(options, of);
     if (!read) return refuse(read.error());
     before = *std::move(read);
+    run.baseline = {.results = before, .difference = sweep::difference(before, *results)};
+    run.command += " --baseline " + options.baseline;
   }
   auto written = sweep::write_results(folder.results_file(), of.cases, of.plan_text, *results);
   if (!written) return refuse(written.error());
-  std::printf(
-      "%s%s\n",
-      sweep::summary_of(of.cases, *results, "pitwall-hil sweep " + options.plan_file).c_str(),
-      folder.results_file().c_str());
-  written = write_pages(options, of, folder, *results, before);
+  std::printf("%s%s\n", sweep::summary_of(of.cases, *results, command).c_str(),
+              folder.results_file().c_str());
+  written = write_pages(options, folder, run);
   if (!written) return refuse(written.error());
   std::printf("%s\n", folder.report_file().c_str());
-  if (!before) return sweep::all_passed(*results) ? kExitPass : kExitFailed;
-  const sweep::Difference difference = sweep::difference(*before, *results);
-  std::printf("%s", to_text(difference).c_str());
-  return difference.worse.empty() ? kExitPass : kExitFailed;
+  if (!run.baseline) return sweep::all_passed(*results) ? kExitPass : kExitFailed;
+  std::printf("%s", to_text(run.baseline->difference).c_str());
+  return run.baseline->difference.worse.empty() ? kExitPass : kExitFailed;
 }
 
 // What there is to refuse before anything is started.

@@ -35,8 +35,8 @@ std::string changed_cases(const SweepRun& run, const std::string& name, const st
          case_table(run, cases);
 }
 
-std::string fall_row(const SweepRun& run, const MarginSpread& now, const MarginSpread& before,
-                     const sweep::Difference& difference) {
+std::string fall_row(const SweepRun& run, const MarginSpread& now, const MarginSpread& before) {
+  const sweep::Difference& difference = run.baseline->difference;
   std::string row = "<tr>" + cell(escaped(now.text), "word") +
                     cell(std::to_string(before.failures)) + cell(std::to_string(now.failures)) +
                     from_to(before.least(), now.least()) + from_to(before.median(), now.median());
@@ -49,9 +49,9 @@ std::string fall_row(const SweepRun& run, const MarginSpread& now, const MarginS
 
 }  // namespace
 
-std::string difference_section(const SweepRun& run, const sweep::Difference& difference,
-                               const std::vector<MarginSpread>& now,
+std::string difference_section(const SweepRun& run, const std::vector<MarginSpread>& now,
                                const std::vector<MarginSpread>& before) {
+  const sweep::Difference& difference = run.baseline->difference;
   std::string out = note(formatted(
       "%zu cases are in both sweeps; %zu of them are the same run, with the same event log.",
       difference.compared, difference.unchanged));
@@ -65,7 +65,7 @@ std::string difference_section(const SweepRun& run, const sweep::Difference& dif
       "<th>from, to</th><th>in case</th></tr></thead><tbody>";
   for (std::size_t i = 0; i < std::min(now.size(), kExpectationsShown); ++i)
     if (const MarginSpread* same = spread_of(before, now[i].text))
-      out += fall_row(run, now[i], *same, difference);
+      out += fall_row(run, now[i], *same);
   return out + "</tbody></table>\n";
 }
 

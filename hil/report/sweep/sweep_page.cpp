@@ -11,7 +11,6 @@
 #include "hil/report/sweep/margin_charts.hpp"
 #include "hil/report/sweep/parameter_charts.hpp"
 #include "hil/report/text.hpp"
-#include "hil/sweep/baseline.hpp"
 #include "hil/sweep/summary.hpp"
 #include "hil/sweep/worst_cases.hpp"
 #include "protocol/vocabulary/text.hpp"
@@ -68,16 +67,19 @@ std::string header_of(const SweepRun& run) {
 }
 
 // With a baseline only what has become worse fails.
-std::string banner_of(const SweepRun& run, const sweep::Difference& difference) {
-  const bool passed = run.baseline ? difference.worse.empty() : sweep::all_passed(run.results);
-  return std::string("<section class=\"banner ") + (passed ? "pass" : "fail") +
-         "\" id=\"verdict\"><strong>" + (passed ? "PASS" : "FAIL") + "</strong> " +
-         sweep::verdicts_text(run.results) +
-         (run.baseline ? formatted("<p>Against the baseline: %zu passed before and do not now, "
-                                   "%zu pass now and did not before.</p>",
-                                   difference.worse.size(), difference.better.size())
-                       : std::string()) +
-         "</section>\n";
+std::string banner_of(const SweepRun& run) {
+  const sweep::Difference* difference = run.baseline ? &run.baseline->difference : nullptr;
+  const bool passed =
+      difference != nullptr ? difference->worse.empty() : sweep::all_passed(run.results);
+  std::string out = std::string("<section class=\"banner ") + (passed ? "pass" : "fail") +
+                    "\" id=\"verdict\"><strong>" + (passed ? "PASS" : "FAIL") + "</strong> " +
+                    sweep::verdicts_text(run.results);
+  if (difference != nullptr)
+    out += formatted(
+        "<p>Against the baseline: %zu passed before and do not now, %zu pass now and "
+        "did not before.</p>",
+        difference->worse.size(), difference->better.size());
+  return out + "</section>\n";
 }
 
 }  // namespace
@@ -89,16 +91,11 @@ std::vector<const sweep::CaseResult*> worst_of(CaseResults results) {
 
 std::string sweep_page(const SweepRun& run) {
   const std::vector<MarginSpread> spreads = spreads_by_failures(run.results);
-  sweep::Difference difference;
   std::vector<MarginSpread> before;
-  if (run.baseline) {
-    difference = sweep::difference(*run.baseline, run.results);
-    before = sweep::margin_spreads(*run.baseline);
-  }
-  std::string out = header_of(run) + banner_of(run, difference);
+  if (run.baseline) before = sweep::margin_spreads(run.baseline->results);
+  std::string out = header_of(run) + banner_of(run);
   if (run.baseline)
-    out +=
-        section("Difference to the baseline", difference_section(run, difference, spreads, before));
+    out += section("Difference to the baseline", difference_section(run, spreads, before));
   const bool passed = sweep::all_passed(run.results);
   out += section(passed ? "Cases nearest to failing" : "Worst cases",
                  note("A number with a link leads to the page of that case.") +

@@ -12,9 +12,11 @@ namespace {
 std::string section_of(double least_before, double least_now) {
   const sweep::Cases cases = some_cases();
   const auto before = some_results(cases, least_before), now = some_results(cases, least_now);
-  return difference_section(
-      {.cases = cases, .results = now, .command = "", .baseline = CaseResults{before}},
-      sweep::difference(before, now), spreads_by_failures(now), spreads_by_failures(before));
+  return difference_section({.cases = cases,
+                             .results = now,
+                             .command = "",
+                             .baseline = Baseline{before, sweep::difference(before, now)}},
+                            spreads_by_failures(now), spreads_by_failures(before));
 }
 
 TEST(DifferenceSection, NamesTheCasesWhoseVerdictChanged) {

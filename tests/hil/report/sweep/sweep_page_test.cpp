@@ -9,12 +9,11 @@ namespace pitwall::report {
 namespace {
 
 std::string page_of(const std::vector<sweep::CaseResult>& results,
-                    std::optional<CaseResults> baseline = {}) {
+                    const std::vector<sweep::CaseResult>& before = {}) {
   const sweep::Cases cases = some_cases();
-  return sweep_page({.cases = cases,
-                     .results = results,
-                     .command = "pitwall-hil sweep <p.yaml>",
-                     .baseline = baseline});
+  SweepRun run{.cases = cases, .results = results, .command = "pitwall-hil sweep <p.yaml>"};
+  if (!before.empty()) run.baseline = {before, sweep::difference(before, results)};
+  return sweep_page(run);
 }
 
 TEST(SweepPage, SaysWhatWasRunAndThatItIsASimulation) {
