@@ -40,7 +40,8 @@ h3 { margin: 16px 0 4px; font-size: 14px; overflow-wrap: anywhere; }
 
 constexpr std::string_view kCoverageNote =
     "A cell: how many cases were run with this combination of values; after the cross, how many of "
-    "them did not pass. A range has eight equal parts.";
+    "them did not pass. A range has eight equal parts, a list of more than eight values eight "
+    "groups.";
 
 const char* combination_of(sweep::Combine combine) {
   switch (combine) {
