@@ -123,9 +123,14 @@ Result<bool, Problem> cut(scenario::Scenario& scenario) {
   return Unexpected{Problem{"--duration", "ends before there is anything to judge"}};
 }
 
+Result<bench::Loaded, Problem> load(const RunOptions& options) {
+  if (options.text) return bench::load_text(*options.text, options.scenario, "");
+  return bench::load(options.scenario, "");
+}
+
 // The exit code; the files that were asked for are written.
 Result<int, Problem> run_once(const RunOptions& options) {
-  auto loaded = bench::load(options.scenario, "");
+  auto loaded = load(options);
   if (!loaded) return Unexpected{loaded.error()};
   if (options.duration) {
     loaded->scenario.duration = *options.duration;
@@ -150,7 +155,7 @@ Result<int, Problem> run_once(const RunOptions& options) {
 
 // As many runs as fill the hours; the exit code of the first that failed.
 Result<int, Problem> run_hours(RunOptions options) {
-  const auto loaded = bench::load(options.scenario, "");
+  const auto loaded = load(options);
   if (!loaded) return Unexpected{loaded.error()};
   const double each_s = options.duration.value_or(loaded->scenario.duration).seconds();
   const std::uint64_t first = options.seed.value_or(loaded->scenario.seed);

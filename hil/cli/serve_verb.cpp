@@ -47,14 +47,18 @@ std::vector<std::string> run_command(const LiveOptions& words, const bench_serve
 }  // namespace
 
 int serve_verb(std::span<const std::string> args) {
-  bench_server::ServerPlan plan{
-      .socket = {}, .scenarios = "hil/scenarios", .runs = "out/bench", .command = {}};
+  bench_server::ServerPlan plan{.socket = {},
+                                .scenarios = "hil/scenarios",
+                                .runs = "out/bench",
+                                .sweeps = "out/sweeps",
+                                .command = {}};
   LiveOptions words;
   CommandLine app{"pitwall-hil serve: starts scenarios for who asks at a socket"};
   app.option("--socket", plan.socket, "where clients connect").required();
   app.option("--scenarios", plan.scenarios, "folder of scenario files").shows_default();
   app.option("--runs", plan.runs, "each run leaves its files in a folder of this one")
       .shows_default();
+  app.option("--sweeps", plan.sweeps, "folder of sweeps, which are listed").shows_default();
   app.option("--interface", words.interface, "live runs: CAN interface").shows_default();
   app.option("--radio-port", words.radio_port, "live runs: the car's datagrams go on to this port");
   app.option("--uplink-port", words.uplink_port, "live runs: answers of the base come here");

@@ -162,7 +162,8 @@ void Plot::bars(std::span<const Bar> bars, const Mark& mark) {
     marks_ += opening("rect", mark) + " fill=\"" + css_of(mark.colour) + "\"" +
               formatted(" x=\"%.1f\" y=\"%.1f\" width=\"%.1f\" height=\"%.1f\"", px(bar.from), top,
                         std::max(px(bar.to) - px(bar.from), 0.5), std::max(foot - top, 0.0)) +
-              "><title>" + escaped(mark.name + " " + significant(bar.value, 4) + " " + mark.unit) +
+              "><title>" +
+              escaped(trimmed(mark.name + " " + significant(bar.value, 4) + " " + mark.unit)) +
               "</title></rect>";
     if (bar.value > y_.to)  // cut off: then it says how tall it is
       marks_ += text_at(0.5 * (px(bar.from) + px(bar.to)), kTop + 14.0, "middle", "cut",

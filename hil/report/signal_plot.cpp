@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "hil/report/html.hpp"
 #include "hil/report/page_assets.hpp"
 #include "hil/report/plot.hpp"
 #include "hil/report/text.hpp"
@@ -232,18 +233,10 @@ std::string signal_svg(const SignalPlot& plot) {
 }
 
 std::string signal_page(const SignalPlot& plot) {
-  const std::string title = escaped(plot.title);
-  std::string out = "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><title>" +
-                    title + "</title>\n<link rel=\"icon\" href=\"data:,\">\n<style>";
-  out += kPlotStyle;
-  out += kStyle;
-  out += "</style></head>\n<body>\n<h1>" + title + "</h1>\n";
-  for (const std::string& line : plot.caption)
-    out += "<p class=\"note\">" + escaped(line) + "</p>\n";
+  std::string out = "<h1>" + escaped(plot.title) + "</h1>\n";
+  for (const std::string& line : plot.caption) out += note(line);
   for (const Panel& panel : panels_of(plot.series)) out += draw(panel, plot).svg;
-  out += "<script>";
-  out += kScript;
-  return out + "</script>\n</body></html>\n";
+  return document(plot.title, out);
 }
 
 }  // namespace pitwall::report

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "hil/report/absent.hpp"
+#include "hil/report/html.hpp"
 #include "hil/report/plot.hpp"
 #include "hil/report/text.hpp"
 #include "protocol/can/av21.hpp"
@@ -14,16 +15,6 @@ namespace pitwall::report {
 namespace {
 
 constexpr std::size_t kRowsMax = 400;  // of events and of losses; the rest is counted
-
-std::string cell(const std::string& html, const char* style = "") {
-  return std::string("<td") + (*style != '\0' ? std::string(" class=\"") + style + "\"" : "") +
-         ">" + html + "</td>";
-}
-
-std::string fact(const std::string& name, const std::string& value) {
-  return "<div><dt>" + name + "</dt><dd>" + (value.empty() ? "not recorded" : escaped(value)) +
-         "</dd></div>";
-}
 
 std::string left_out(std::size_t rows) {
   return rows > kRowsMax
@@ -70,9 +61,9 @@ std::string header(const RunData& run) {
   const Facts& f = run.facts;
   const bool simulated = f.source == "simulation";
   return "<header><p class=\"simulation\">" +
-         std::string(simulated ? "SIMULATION: no car was driven" : "source not recorded") +
-         "</p><h1>" + escaped(f.scenario.empty() ? "run without a name" : f.scenario) +
-         "</h1>\n<dl>" + fact("mode", f.mode) + fact("seed", f.seed) +
+         std::string(simulated ? kSimulated : "source not recorded") + "</p><h1>" +
+         escaped(f.scenario.empty() ? "run without a name" : f.scenario) + "</h1>\n<dl>" +
+         fact("mode", f.mode) + fact("seed", f.seed) +
          fact("duration", std::isfinite(f.duration_s) ? number(f.duration_s, 1) + " s" : "") +
          fact("CAN database", f.database + " " + f.revision) + fact("fingerprint", f.fingerprint) +
          fact("bus spoke", f.bus) + fact("track file", f.track_file) +

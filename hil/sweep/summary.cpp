@@ -4,82 +4,39 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
-#include <map>
 #include <vector>
 
+#include "hil/sweep/margins.hpp"
+#include "hil/sweep/worst_cases.hpp"
+#include "protocol/json/json_text.hpp"
 #include "protocol/vocabulary/text.hpp"
 
 namespace pitwall::sweep {
 namespace {
 
-struct OfExpectation {
-  std::vector<double> margins;  // that are finite
-  std::size_t failed = 0;
-};
-
-// What is not finite sorts before all: it failed without having been judged.
-double order_of(double margin) {
-  return std::isfinite(margin) ? margin : -std::numeric_limits<double>::infinity();
-}
-
-// Of what failed; a case without an expectation that failed was refused or crashed.
-double worst_margin(const CaseResult& result) {
-  double worst = std::numeric_limits<double>::infinity();
-  for (const ExpectationMargin& of : result.margins)
-    if (!of.pass) worst = std::min(worst, order_of(of.margin));
-  return result.margins.empty() ? -std::numeric_limits<double>::infinity() : worst;
-}
-
-std::string verdicts_text(std::span<const CaseResult> results) {
+std::array<std::size_t, kCaseVerdicts> verdict_counts(std::span<const CaseResult> results) {
   std::array<std::size_t, kCaseVerdicts> counts{};
   for (const CaseResult& result : results) ++counts[static_cast<std::size_t>(result.verdict)];
-  std::string text;
-  for (std::size_t k = 0; k < kCaseVerdicts; ++k)
-    text +=
-        formatted("%s%zu %s", k == 0 ? "" : ", ", counts[k], name_of(static_cast<CaseVerdict>(k)));
-  return text;
+  return counts;
 }
 
 std::string margins_text(std::span<const CaseResult> results) {
-  std::map<std::string, OfExpectation> by_text;
-  for (const CaseResult& result : results)
-    for (const ExpectationMargin& of : result.margins) {
-      OfExpectation& all = by_text[of.text];
-      all.failed += !of.pass;
-      if (std::isfinite(of.margin)) all.margins.push_back(of.margin);
-    }
-  if (by_text.empty()) return {};
+  const std::vector<MarginSpread> spreads = margin_spreads(results);
+  if (spreads.empty()) return {};
   std::string text =
       formatted("%10s %10s %10s %7s  margin of\n", "least", "1 in 20", "median", "failed");
-  for (auto& [expectation, all] : by_text) {
-    std::ranges::sort(all.margins);
-    const std::size_t count = all.margins.size();
-    const auto cell = [&](std::size_t place) {
-      return formatted("%10s", count == 0 ? "-" : formatted("%.4g", all.margins[place]).c_str());
-    };
-    text += cell(0) + " " + cell(count / 20) + " " + cell(count / 2) +
-            formatted(" %7zu  %s\n", all.failed, expectation.c_str());
-  }
+  const auto shown = [](double margin) {
+    return std::isfinite(margin) ? formatted("%10.4g", margin) : formatted("%10s", "-");
+  };
+  for (const MarginSpread& of : spreads)
+    text += shown(of.least()) + " " + shown(of.one_in_twenty()) + " " + shown(of.median()) +
+            formatted(" %7zu  %s\n", of.failures, of.text.c_str());
   return text;
-}
-
-std::string failure_text(const CaseResult& result) {
-  if (!result.why.empty()) return result.why;
-  const ExpectationMargin* worst = nullptr;
-  for (const ExpectationMargin& of : result.margins)
-    if (!of.pass && (worst == nullptr || order_of(of.margin) < order_of(worst->margin)))
-      worst = &of;
-  if (worst == nullptr) return "a contact that the scenario does not expect";
-  return formatted("margin %.4g: %s", worst->margin, worst->text.c_str());
 }
 
 std::string worst_text(const Cases& cases, std::span<const CaseResult> results,
                        const std::string& one_case) {
-  std::vector<const CaseResult*> failed;
-  for (const CaseResult& result : results)
-    if (result.verdict != CaseVerdict::kPassed) failed.push_back(&result);
-  std::ranges::stable_sort(failed, {}, [](const CaseResult* of) { return worst_margin(*of); });
+  const std::vector<const CaseResult*> failed = failed_cases(results);
   std::string text;
   for (std::size_t i = 0; i < std::min(failed.size(), kWorstShown); ++i) {
     const CaseResult& result = *failed[i];
@@ -95,6 +52,24 @@ std::string worst_text(const Cases& cases, std::span<const CaseResult> results,
 }
 
 }  // namespace
+
+std::string verdicts_text(std::span<const CaseResult> results) {
+  const auto counts = verdict_counts(results);
+  std::string text;
+  for (std::size_t k = 0; k < kCaseVerdicts; ++k)
+    text +=
+        formatted("%s%zu %s", k == 0 ? "" : ", ", counts[k], name_of(static_cast<CaseVerdict>(k)));
+  return text;
+}
+
+std::string summary_json(const Plan& plan, std::span<const CaseResult> results) {
+  json::Object out;
+  out.text("name", plan.name).text("scenario", plan.scenario_file).number("cases", results.size());
+  const auto counts = verdict_counts(results);
+  for (std::size_t k = 0; k < kCaseVerdicts; ++k)
+    out.number(name_of(static_cast<CaseVerdict>(k)), counts[k]);
+  return out.str();
+}
 
 std::string summary_of(const Cases& cases, std::span<const CaseResult> results,
                        const std::string& one_case) {

@@ -20,6 +20,12 @@ inline constexpr std::size_t kWorstShown = 5;
 std::string summary_of(const Cases& cases, std::span<const CaseResult> results,
                        const std::string& one_case);
 
+// "197 passed, 3 failed, ...": how many of each verdict.
+std::string verdicts_text(std::span<const CaseResult> results);
+
+// The same in short, for programs: name, scenario, cases and how many of each verdict.
+std::string summary_json(const Plan& plan, std::span<const CaseResult> results);
+
 // Whether every case passed.
 bool all_passed(std::span<const CaseResult> results);
 

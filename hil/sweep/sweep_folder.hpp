@@ -1,6 +1,7 @@
 // Folder of a sweep: its plan and scenario as they were when it began, and a file of results of
 // each process that worked on it. Several processes, on several machines, may write at once.
-//   format plan.yaml, scenario.yaml; cases/NAME.jsonl (case_result.hpp); results.sqlite at the end
+//   format plan.yaml, scenario.yaml; cases/NAME.jsonl (case_result.hpp); at the end results.sqlite,
+//          report.html, summary.json (summary.hpp), and pages/NUMBER with the report of that case
 //   errors open(): Problem if the folder has another plan or scenario, or cannot be made
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
@@ -22,6 +23,9 @@ class SweepFolder {
 
   const std::string& path() const { return path_; }
   std::string results_file() const { return path_ + "/results.sqlite"; }
+  std::string report_file() const { return path_ + "/report.html"; }
+  std::string summary_file() const { return path_ + "/summary.json"; }
+  std::string pages_folder() const { return path_ + "/pages"; }
   // Appends to the file of a process of that name.
   Result<bool, Problem> append(const std::string& name, const CaseResult& result) const;
   // Of all processes, by number; of two of one case the one that is no crash. Lines that are cut

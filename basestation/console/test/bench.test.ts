@@ -6,9 +6,17 @@
 import { describe, expect, test } from "vitest";
 import { findScenarios, seedOf } from "../src/pages/hil/chooser";
 import { causeText } from "../src/pages/hil/contact";
+import { hasPassed, otherVerdicts } from "../src/pages/hil/sweeps";
 import { axisOf, happened, lanesOf, percent, progressOf } from "../src/pages/hil/lanes";
 import { Bench, kKeptEvents } from "../src/store/bench";
-import type { BenchEvent, BenchPlan, BenchRun, BenchScenario, CarContact } from "../src/wire/bench";
+import type {
+  BenchEvent,
+  BenchPlan,
+  BenchRun,
+  BenchScenario,
+  BenchSweep,
+  CarContact,
+} from "../src/wire/bench";
 
 const event = (run: number, t_s: number, kind = "flag"): BenchEvent => ({
   run,
@@ -57,7 +65,34 @@ test("the cause of a contact is one car, both or neither", () => {
   expect(words).toEqual(["THIS CAR", "slow (2)", "BOTH CARS", "NEITHER"]);
 });
 
+const sweep: BenchSweep = {
+  name: "grip",
+  scenario: "s.yaml",
+  cases: 9,
+  passed: 6,
+  failed: 2,
+  contact: 1,
+  refused: 0,
+  crashed: 0,
+  report: "out/sweeps/grip/report.html",
+};
+
+test("a sweep passed if every case did, and else says what the others came to", () => {
+  expect(hasPassed(sweep)).toBe(false);
+  expect(hasPassed({ ...sweep, passed: 9 })).toBe(true);
+  expect(otherVerdicts(sweep)).toBe("2 failed, 1 contact");
+  expect(otherVerdicts({ ...sweep, failed: 0, contact: 0 })).toBe("");
+});
+
 describe("what is kept of a server", () => {
+  test("the newest list of sweeps", () => {
+    const bench = new Bench();
+    bench.texts.bench_sweeps({ server: "d", of: { sweeps: [sweep] } });
+    expect(bench.sweeps.value).toEqual([sweep]);
+    bench.texts.bench_sweeps({ server: "d", of: { sweeps: [] } });
+    expect(bench.sweeps.value).toEqual([]);
+  });
+
   test("events of the newest run only", () => {
     const bench = new Bench();
     bench.texts.bench_run({ server: "d", of: run(1) });

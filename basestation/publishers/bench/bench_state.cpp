@@ -20,8 +20,8 @@ struct Shape {
   std::string_view type;
   std::vector<std::string_view> numbers, texts, lists;
 };
-const std::array<Shape, 8>& shapes() {
-  static const std::array<Shape, 8> kShapes{
+const std::array<Shape, 9>& shapes() {
+  static const std::array<Shape, 9> kShapes{
       {{"hello", {"protocol", "scenarios", "unreadable"}, {"server"}, {}},
        {"scenario", {}, {"id", "name"}, {"faults", "expect"}},
        {"run", {"run", "seed"}, {"state", "scenario", "name", "mode"}, {}},
@@ -29,6 +29,7 @@ const std::array<Shape, 8>& shapes() {
        {"event", {"run", "t_s"}, {"kind"}, {}},
        {"at", {"run", "t_s"}, {}, {"cross_track", "expect", "reactions"}},
        {"result", {"run"}, {}, {"reactions"}},
+       {"sweeps", {}, {}, {"sweeps"}},
        {"error", {}, {"place", "what"}, {}}}};
   return kShapes;
 }
@@ -74,6 +75,7 @@ Result<bool, Problem> BenchState::keep(const JsonValue& value, std::string_view 
   }
   if (server_.empty()) return refuse("type", "expected hello first");
   if (type == "scenario") return keep_scenario(line);
+  if (type == "sweeps") return keep_sweeps(line);
   if (type == "run") return keep_run(value, line);
   if (value.number("run") != run_) return refuse("run", "expected the number of the newest run");
   if (type == "event") return keep_event(value, line);
@@ -107,6 +109,11 @@ Result<bool, Problem> BenchState::keep_scenario(std::string_view line) {
   list_ += line;
   complete_ = ++scenarios_ == announced_;
   if (complete_) publish("bench_list", "[" + std::exchange(list_, {}) + "]");
+  return true;
+}
+
+Result<bool, Problem> BenchState::keep_sweeps(std::string_view line) {
+  publish("bench_sweeps", line);
   return true;
 }
 

@@ -1,4 +1,4 @@
-// Newest state of a bench server for consoles: scenarios and current run, line by line. The
+// Newest state of a bench server for consoles: scenarios, sweeps and current run, line by line. The
 // protocol: hil/cli/bench_server/PROTOCOL.md.
 //   in     lines of the server; the start of a connection to it
 //   out    texts for consoles: states that replace each other, and a log of events
@@ -53,6 +53,7 @@ class BenchState {
   Result<bool, Problem> keep(const json::JsonValue& value, std::string_view line);
   Result<bool, Problem> keep_hello(const json::JsonValue& value);
   Result<bool, Problem> keep_scenario(std::string_view line);
+  Result<bool, Problem> keep_sweeps(std::string_view line);
   Result<bool, Problem> keep_run(const json::JsonValue& value, std::string_view line);
   Result<bool, Problem> keep_event(const json::JsonValue& value, std::string_view line);
   void publish(const std::string& type, std::string_view of, bool line = false);

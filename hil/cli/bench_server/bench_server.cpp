@@ -76,6 +76,7 @@ std::vector<std::string> BenchServer::greeting() const {
                                      .number("unreadable", broken)
                                      .str()};
   for (const Listed& row : scenarios_) lines.push_back(scenario_text(row));
+  if (!sweeps_.empty()) lines.push_back(sweeps_);
   if (!run_) return lines;
   lines.push_back(run_text());
   if (!run_->plan.empty()) lines.push_back(run_->plan);
@@ -188,6 +189,12 @@ std::vector<std::string> BenchServer::ended(const Ending& ending) {
   if (ending.signal != 0 && run_->stopped_by.empty())
     run_->why = "signal " + std::to_string(ending.signal) + " ended it";
   return {run_text()};
+}
+
+std::vector<std::string> BenchServer::swept(std::string line) {
+  if (line == sweeps_) return {};
+  sweeps_ = std::move(line);
+  return {sweeps_};
 }
 
 std::string BenchServer::run_text() const {

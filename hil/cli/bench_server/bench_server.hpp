@@ -5,7 +5,7 @@
 //   invariants
 //          one run at a time; a second start is refused with a reason
 //          a new client receives everything that the others have: the scenarios, the newest run,
-//          its plan, its events, its newest state, its result
+//          its plan, its events, its newest state, its result; the sweeps
 //          a process that ends without a result counts as crashed, and the reason says so
 //   bound  the newest kEventsKept events of a run are kept for new clients
 //   errors client errors are sent to that client and counted
@@ -66,6 +66,8 @@ class BenchServer {
   // Takes one progress line of the run; returns no line if it is malformed.
   std::vector<std::string> progressed(std::string_view line);
   std::vector<std::string> ended(const Ending& ending);
+  // Takes the sweeps that there are (sweep_list.hpp); returns no line if they are as before.
+  std::vector<std::string> swept(std::string line);
 
   bool running() const { return run_ && run_->state == "running"; }
   const std::vector<Listed>& scenarios() const { return scenarios_; }
@@ -87,6 +89,7 @@ class BenchServer {
 
   std::vector<Listed> scenarios_;
   std::string identity_;
+  std::string sweeps_;
   std::optional<Run> run_;
   std::uint64_t runs_ = 0;
   BenchServerCounters counters_;

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <system_error>
 
+#include "hil/cli/bench_server/sweep_list.hpp"
 #include "protocol/transport/clock.hpp"
 #include "protocol/transport/readiness.hpp"
 #include "protocol/vocabulary/fixed_vector.hpp"
@@ -45,6 +46,7 @@ void BenchSocket::serve(Instant deadline, int stop) {
                        });
   const Instant next = turning ? transport::monotonic_now() + kTurn : deadline;
   static_cast<void>(transport::wait_readable(watched.span(), std::min(deadline, next)));
+  follow_sweeps(transport::monotonic_now());
   greet_new_clients();
   receive();
   follow_run(transport::monotonic_now());
@@ -103,6 +105,12 @@ void BenchSocket::follow_run(Instant now) {
   if (!status) return;
   running_.reset();
   publish(server_.ended({.code = status->code, .signal = status->signal}));
+}
+
+void BenchSocket::follow_sweeps(Instant now) {
+  if (now < sweeps_due_) return;
+  sweeps_due_ = now + kSweepsPeriod;
+  publish(server_.swept(sweeps_line(plan_.sweeps)));
 }
 
 void BenchSocket::publish(const std::vector<std::string>& lines) {

@@ -1,5 +1,6 @@
 // Socket of the bench server: serves clients and runs each scenario as a child process.
-//   in     socket path; the command that runs a scenario; the output folder of the runs
+//   in     socket path; the command that runs a scenario; the output folder of the runs; the folder
+//          of sweeps, which is read again every kSweepsPeriod
 //   out    messages of PROTOCOL.md
 //   invariants
 //          each run is a process of its own: its crash does not affect the server and its clients.
@@ -29,6 +30,7 @@ inline constexpr std::size_t kMaxClients = 16;
 
 struct ServerPlan {
   std::string socket, scenarios, runs;
+  std::string sweeps = {};  // folder of sweeps
   // Program and arguments of a run, with its report folder and its progress file.
   std::function<std::vector<std::string>(const Start&, const std::string& report,
                                          const std::string& progress)>
@@ -38,6 +40,7 @@ struct ServerPlan {
 class BenchSocket {
  public:
   static constexpr Duration kTurn = milliseconds(50), kStopLimit = seconds(5);
+  static constexpr Duration kSweepsPeriod = seconds(2);
 
   static Result<BenchSocket, Problem> open(ServerPlan plan);
 
@@ -57,6 +60,7 @@ class BenchSocket {
   void greet_new_clients();
   void receive();
   void follow_run(Instant now);
+  void follow_sweeps(Instant now);
   void begin(const Start& start);
   void publish(const std::vector<std::string>& lines);
 
@@ -65,6 +69,7 @@ class BenchSocket {
   transport::LineListener listener_;
   std::list<transport::LineSocket> clients_;
   std::optional<Running> running_;
+  Instant sweeps_due_{};
 };
 
 }  // namespace pitwall::bench_server

@@ -12,6 +12,7 @@ namespace pitwall::cli {
 
 struct RunOptions {
   std::string scenario, log_file, json_file, folder = "out/run";
+  std::optional<std::string> text;    // lockstep: of the scenario, instead of what its file has
   std::string report_folder;          // empty: no report
   std::string progress_file;          // progress lines; empty: none
   std::string record_folder;          // live: folder of the car's own recording; empty: none

@@ -12,8 +12,9 @@
 #include "hil/cli/exit_code.hpp"
 #include "hil/cli/live/programs.hpp"
 #include "hil/cli/run_verb.hpp"
+#include "hil/cli/sweep/case_pages.hpp"
 #include "hil/cli/sweep/sweep_case.hpp"
-#include "hil/sweep/baseline.hpp"
+#include "hil/report/sweep/sweep_page.hpp"
 #include "hil/sweep/local_engine.hpp"
 #include "hil/sweep/results_file.hpp"
 #include "hil/sweep/slurm_engine.hpp"
@@ -28,13 +29,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kProcessesMost = 1'024;
+constexpr int kProcessesMost = 1'024, kPagesMost = 1'000;
 
 struct Options {
   std::string plan_file, folder, report_folder, worker, engine = "local", baseline;
   std::vector<std::string> sbatch;
   unsigned processes = std::max(1U, std::thread::hardware_concurrency());
-  std::size_t one_case = 0;
+  std::size_t one_case = 0, pages = sweep::kWorstShown;
   std::vector<std::size_t> cases;  // of a process of the sweep
 };
 
@@ -50,22 +51,18 @@ int work(const Options& options, const SweepInputs& of, const sweep::SweepFolder
   return kExitPass;
 }
 
+// Under the name that the scenario has in the sweep, so that the event log is the same.
 int run_one(const Options& options, const SweepInputs& of) {
   if (options.one_case >= of.cases.size())
     return refuse(Problem{"--case", formatted("the sweep has %zu cases", of.cases.size())});
   const sweep::Case one = of.cases.at(options.one_case);
-  const auto text =
-      yaml::with_settings(of.scenario_text, of.cases.plan().scenario_file, one.settings);
+  RunOptions run;
+  run.scenario = of.cases.plan().scenario_file, run.report_folder = options.report_folder;
+  auto text = yaml::with_settings(of.scenario_text, run.scenario, one.settings);
   if (!text) return refuse(text.error());
-  const auto folder = transport::TemporaryFolder::create("pitwall-case");
-  if (!folder) return refuse(folder.error());
+  run.text = *std::move(text);
   for (const yaml::Setting& setting : one.settings)
     std::printf("%s = %s\n", setting.path.c_str(), setting.value.c_str());
-  const std::string file = folder->path() + formatted("/case_%zu.yaml", one.number);
-  if (const auto written = transport::write_file(file, *text); !written)
-    return refuse(written.error());
-  RunOptions run;
-  run.scenario = file, run.report_folder = options.report_folder;
   return run_as_told(std::move(run));
 }
 
@@ -96,6 +93,10 @@ std::string joined(const std::vector<std::size_t>& numbers) {
   return text;
 }
 
+std::vector<std::string> command_of(const Options& options) {
+  return {own_program(), "sweep", options.plan_file};
+}
+
 Result<bool, Problem> run_missing(const Options& options, const SweepInputs& of,
                                   const sweep::SweepFolder& folder) {
   const std::size_t all = of.cases.size();
@@ -103,8 +104,8 @@ Result<bool, Problem> run_missing(const Options& options, const SweepInputs& of,
   if (!before) return Unexpected{before.error()};
   const sweep::CaseNumbers missing = sweep::missing_cases(*before, all);
   if (!before->empty()) std::printf("%zu of %zu cases were done before\n", before->size(), all);
-  const std::vector<std::string> command{own_program(), "sweep", options.plan_file, "--out",
-                                         folder.path()};
+  std::vector<std::string> command = command_of(options);
+  command.insert(command.end(), {"--out", folder.path()});
   if (options.engine == "slurm") {
     return sweep::run_on_cluster(missing, all, folder,
                                  {.command = command,
@@ -135,25 +136,60 @@ Result<std::vector<sweep::CaseResult>, Problem> baseline_of(const Options& optio
   return folder->read(of.cases.size());
 }
 
+// The worst cases, and the first of those whose verdict is another than in the baseline.
+std::vector<const sweep::CaseResult*> with_page(const report::SweepRun& run, std::size_t most) {
+  std::vector<const sweep::CaseResult*> cases = report::worst_of(run.results);
+  cases.resize(std::min(cases.size(), most));
+  const sweep::Difference difference =
+      run.baseline ? run.baseline->difference : sweep::Difference{};
+  for (const std::vector<std::size_t>* numbers : {&difference.worse, &difference.better})
+    for (const std::size_t number : std::span{*numbers}.first(std::min(numbers->size(), most)))
+      cases.push_back(
+          &*std::ranges::lower_bound(run.results, number, {}, &sweep::CaseResult::number));
+  std::ranges::sort(cases, {}, &sweep::CaseResult::number);
+  const auto twice = std::ranges::unique(cases);
+  cases.erase(twice.begin(), twice.end());
+  return cases;
+}
+
+// The page of the sweep, those of its worst cases, and the summary by which others find them.
+Result<bool, Problem> write_pages(const Options& options, const sweep::SweepFolder& folder,
+                                  report::SweepRun run) {
+  auto pages = make_case_pages(with_page(run, options.pages), {.folder = folder.pages_folder(),
+                                                               .command = command_of(options),
+                                                               .processes = options.processes});
+  if (!pages) return Unexpected{pages.error()};
+  run.pages = *std::move(pages);
+  auto written = transport::write_file(folder.report_file(), report::sweep_page(run));
+  if (!written) return written;
+  return transport::write_file(folder.summary_file(),
+                               sweep::summary_json(run.cases.plan(), run.results) + "\n");
+}
+
 int run_all(const Options& options, const SweepInputs& of, const sweep::SweepFolder& folder) {
   if (const auto ran = run_missing(options, of, folder); !ran) return refuse(ran.error());
   const auto results = folder.read(of.cases.size());
   if (!results) return refuse(results.error());
-  const auto written =
-      sweep::write_results(folder.results_file(), of.cases, of.plan_text, *results);
-  if (!written) return refuse(written.error());
-  std::printf(
-      "%s%s\n",
-      sweep::summary_of(of.cases, *results, "pitwall-hil sweep " + options.plan_file).c_str(),
-      folder.results_file().c_str());
+  const std::string command = "pitwall-hil sweep " + options.plan_file;
+  report::SweepRun run{.cases = of.cases, .results = *results, .command = command};
+  std::vector<sweep::CaseResult> before;
   if (!options.baseline.empty()) {
-    const auto before = baseline_of(options, of);
-    if (!before) return refuse(before.error());
-    const sweep::Difference difference = sweep::difference(*before, *results);
-    std::printf("%s", to_text(difference).c_str());
-    return difference.worse.empty() ? kExitPass : kExitFailed;
+    auto read = baseline_of(options, of);
+    if (!read) return refuse(read.error());
+    before = *std::move(read);
+    run.baseline = {.results = before, .difference = sweep::difference(before, *results)};
+    run.command += " --baseline " + options.baseline;
   }
-  return sweep::all_passed(*results) ? kExitPass : kExitFailed;
+  auto written = sweep::write_results(folder.results_file(), of.cases, of.plan_text, *results);
+  if (!written) return refuse(written.error());
+  std::printf("%s%s\n", sweep::summary_of(of.cases, *results, command).c_str(),
+              folder.results_file().c_str());
+  written = write_pages(options, folder, run);
+  if (!written) return refuse(written.error());
+  std::printf("%s\n", folder.report_file().c_str());
+  if (!run.baseline) return sweep::all_passed(*results) ? kExitPass : kExitFailed;
+  std::printf("%s", to_text(run.baseline->difference).c_str());
+  return run.baseline->difference.worse.empty() ? kExitPass : kExitFailed;
 }
 
 // What there is to refuse before anything is started.
@@ -179,6 +215,9 @@ int sweep_verb(std::span<const std::string> args) {
   app.option("--sbatch", options.sbatch, "an option for sbatch, such as --sbatch=--partition=long");
   app.option("--baseline", options.baseline,
              "folder of an earlier sweep of this plan: what passed there has to pass");
+  app.option("--pages", options.pages, "how many of the worst cases get a page of their own")
+      .range(0, kPagesMost)
+      .shows_default();
   const VerbOption one = app.option("--case", options.one_case, "run this case alone, as `run`");
   app.option("--report", options.report_folder, "of that case: log, result and page").needs(one);
   const VerbOption worker =

@@ -7,6 +7,7 @@
 //   --engine slurm on a cluster (hil/sweep/slurm_engine.hpp); --sbatch=OPTION for its sbatch
 //   --baseline FOLDER  of an earlier sweep of the same plan: not every case has to pass, but those
 //                  that passed there
+//   --pages N      of so many of the worst cases a page of their own; default 5
 //   --case N       this case alone, as `pitwall-hil run` does it
 //   --report FOLDER  of that case: log and result with their page
 //   out    exit code 0 every case passed, 1 one did not, 2 bad input or the bench failed

@@ -6,6 +6,7 @@
 #include <limits>
 #include <vector>
 
+#include "protocol/json/json_value.hpp"
 #include "tests/hil/sweep/plan_text.hpp"
 
 namespace pitwall::sweep {
@@ -73,6 +74,19 @@ TEST(SweepSummary, AMarginThatIsNotFiniteIsNoQuantile) {
   const std::string text = summary(results);
   EXPECT_NE(text.find("         2          2          2       1  always a < 1"), std::string::npos)
       << text;
+}
+
+TEST(SweepSummary, ProgramsReadTheCounts) {
+  const std::vector<CaseResult> results{with_margin(0, 2.0), with_margin(1, -3.0),
+                                        with_margin(2, 1.0)};
+  const auto json = json::JsonValue::parse(summary_json(cases().plan(), results), "summary");
+  ASSERT_TRUE(json);
+  EXPECT_EQ(json->text("name"), "some");
+  EXPECT_EQ(json->text("scenario"), "hil/scenarios/grip_low.yaml");
+  EXPECT_EQ(json->number("cases"), 3.0);
+  EXPECT_EQ(json->number("passed"), 2.0);
+  EXPECT_EQ(json->number("failed"), 1.0);
+  EXPECT_EQ(json->number("crashed"), 0.0);
 }
 
 }  // namespace

@@ -13,6 +13,18 @@ const kCopied = ["launch_and_stop.yaml", "red_flag_stop.yaml"];
 /** And the one of writeParked(). */
 export const kScenarios = [...kCopied, "parked_car.yaml"];
 
+/** A sweep that has ended, as the bench leaves it. */
+const kSweep = {
+  name: "grip_and_wind",
+  scenario: "hil/scenarios/grip_low.yaml",
+  cases: 200,
+  passed: 197,
+  failed: 2,
+  contact: 1,
+  refused: 0,
+  crashed: 0,
+};
+
 /** A car that stands on our line, which nothing avoids yet. */
 function writeParked(path) {
   const ghosts = readFileSync(join(kRoot, "hil/scenarios/five_ghosts.yaml"), "utf8");
@@ -36,9 +48,23 @@ export function startBenchServer(programs, ...more) {
   for (const name of kCopied) cpSync(join(kRoot, "hil/scenarios", name), join(scenarios, name));
   writeParked(join(scenarios, "parked_car.yaml"));
   const runs = join(programs.folder, "runs");
+  const sweeps = join(programs.folder, "sweeps");
+  mkdirSync(join(sweeps, "grip"), { recursive: true });
+  writeFileSync(join(sweeps, "grip/summary.json"), JSON.stringify(kSweep));
   programs.bench = spawn(
     kBench,
-    ["serve", "--socket", socketOf(programs), "--scenarios", scenarios, "--runs", runs, ...more],
+    [
+      "serve",
+      "--socket",
+      socketOf(programs),
+      "--scenarios",
+      scenarios,
+      "--runs",
+      runs,
+      "--sweeps",
+      sweeps,
+      ...more,
+    ],
     { cwd: kRoot, stdio: ["ignore", "ignore", "inherit"] },
   );
   programs.others = ["bench"];

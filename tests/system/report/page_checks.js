@@ -11,8 +11,9 @@
   for (const svg of document.querySelectorAll('svg[data-plot]')) {
     const marks = [...svg.querySelectorAll('.mark')];
     const drawn = marks.filter((mark) => {
-      const box = mark.getBBox();
-      return box.width + box.height > 0;
+      const box = mark.getBBox();  // of dots their middles
+      const isDots = mark.getAttribute('stroke-linecap') === 'round' && mark.getAttribute('d');
+      return isDots || box.width + box.height > 0;
     });
     plots[svg.dataset.plot] = drawn.length;
     if (marks.length !== drawn.length) complaints.push(`${svg.dataset.plot}: an empty mark`);

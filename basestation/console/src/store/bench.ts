@@ -1,6 +1,7 @@
 /**
- * What this console knows of the bench server: its scenarios and its newest run. The base tells all
- * of it anew to a console that connects; events of another server or another run are not kept.
+ * What this console knows of the bench server: its scenarios, its sweeps and its newest run. The
+ * base tells all of it anew to a console that connects; events of another server or another run are
+ * not kept.
  */
 // SPDX-License-Identifier: Apache-2.0
 import { signal } from "@preact/signals";
@@ -12,6 +13,7 @@ export class Bench {
   /** Null: this base was given no server. */
   readonly link = signal<Wire.BenchLink | null>(null);
   readonly scenarios = signal<readonly Wire.BenchScenario[]>([]);
+  readonly sweeps = signal<readonly Wire.BenchSweep[]>([]);
   readonly run = signal<Wire.BenchRun | null>(null);
   readonly plan = signal<Wire.BenchPlan | null>(null);
   readonly at = signal<Wire.BenchAt | null>(null);
@@ -24,6 +26,8 @@ export class Bench {
   readonly texts = {
     bench: (m: Wire.BenchLink) => (this.link.value = m),
     bench_list: (m: Wire.OfServer<Wire.BenchScenario[]>) => (this.scenarios.value = m.of),
+    bench_sweeps: (m: Wire.OfServer<{ sweeps: Wire.BenchSweep[] }>) =>
+      (this.sweeps.value = m.of.sweeps),
     bench_run: (m: Wire.OfServer<Wire.BenchRun>) => {
       this.ofRun(m.server, m.of.run);
       this.run.value = m.of;

@@ -144,6 +144,19 @@ export interface BenchResult {
   result?: { car_contact?: CarContact | null };
 }
 
+/** Of a sweep that has ended: how many of its cases had each verdict, and the file of its page. */
+export interface BenchSweep {
+  name: string;
+  scenario: string;
+  cases: number;
+  passed: number;
+  failed: number;
+  contact: number;
+  refused: number;
+  crashed: number;
+  report: string;
+}
+
 export interface OfServer<T> {
   server: string;
   of: T;

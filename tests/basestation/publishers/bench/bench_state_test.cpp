@@ -152,5 +152,14 @@ TEST(BenchState, ARefusalIsHandedOnOnce) {
   EXPECT_FALSE(reading.bench.refusal());
 }
 
+TEST(BenchState, SweepsAreToldAsTheyCome) {
+  Reading reading;
+  EXPECT_EQ(reading.place_of(R"({"type": "sweeps", "sweeps": []})"), "type") << "before hello";
+  reading.says(hello(0));
+  reading.says(R"({"type": "sweeps", "sweeps": [{"name": "grip"}]})");
+  EXPECT_EQ(reading.news(), "bench_list bench_sweeps");
+  EXPECT_EQ(reading.place_of(R"({"type": "sweeps", "sweeps": 3})"), "sweeps");
+}
+
 }  // namespace
 }  // namespace pitwall::publishers::bench

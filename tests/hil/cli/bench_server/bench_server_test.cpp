@@ -191,5 +191,16 @@ TEST(BenchServer, AFailureOfTheBenchIsTheReason) {
   EXPECT_FALSE(other.server.running());
 }
 
+TEST(BenchServer, SweepsAreToldOnceAndToWhoComesLater) {
+  Table table;
+  const std::size_t before = table.server.greeting().size();
+  EXPECT_EQ(table.server.swept("a"), std::vector<std::string>{"a"});
+  EXPECT_TRUE(table.server.swept("a").empty()) << "nothing has changed";
+  EXPECT_EQ(table.server.swept("b"), std::vector<std::string>{"b"});
+  const auto greeting = table.server.greeting();
+  EXPECT_EQ(greeting.size(), before + 1);
+  EXPECT_EQ(greeting.back(), "b");
+}
+
 }  // namespace
 }  // namespace pitwall::bench_server

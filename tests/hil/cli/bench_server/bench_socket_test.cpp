@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <csignal>
+#include <filesystem>
 #include <functional>
 
 #include "protocol/json/json_value.hpp"
@@ -28,6 +29,7 @@ class BenchSocketTest : public ::testing::Test {
         {.socket = folder_.path() + "/server",
          .scenarios = folder_.path(),
          .runs = folder_.path() + "/runs",
+         .sweeps = folder_.path() + "/sweeps",
          .command = [script](const Start&, const std::string& report, const std::string& progress) {
            return std::vector<std::string>{"sh", "-c", script, "run", report, progress};
          }});
@@ -97,6 +99,24 @@ TEST_F(BenchSocketTest, ARunThatIgnoresTheStopIsKilled) {
   ASSERT_TRUE(until([&] { return has("run", "state", "running"); }));
   client_->send(R"({"do": "stop"})");
   ASSERT_TRUE(until([&] { return has("run", "state", "stopped"); }));
+}
+
+TEST_F(BenchSocketTest, ASweepThatEndsIsToldToWhoIsThere) {
+  open("exit 0");
+  ASSERT_TRUE(until([&] { return has("sweeps", "type", "sweeps"); }));
+  const auto count = [&] {
+    std::size_t sweeps = 0;
+    for (const JsonValue& value : received_)
+      if (value.text("type") == "sweeps") sweeps = value.items("sweeps").size();
+    return sweeps;
+  };
+  EXPECT_EQ(count(), 0U);
+  std::filesystem::create_directories(folder_.path() + "/sweeps/grip");
+  ASSERT_TRUE(transport::write_file(
+      folder_.path() + "/sweeps/grip/summary.json",
+      R"({"name": "grip", "scenario": "s.yaml", "cases": 9, "passed": 9, "failed": 0,)"
+      R"( "contact": 0, "refused": 0, "crashed": 0})"));
+  ASSERT_TRUE(until([&] { return count() == 1; }));
 }
 
 TEST_F(BenchSocketTest, NonsenseIsAnsweredAndTheServerGoesOn) {

@@ -60,6 +60,63 @@ TEST_F(SweepVerb, TheResultFileIsTheSameOnAnyNumberOfProcesses) {
   EXPECT_NE(one.out.find("2 passed, 2 failed"), std::string::npos) << one.out;
   EXPECT_FALSE(text_of("one/results.sqlite").empty());
   EXPECT_TRUE(text_of("one/results.sqlite") == text_of("three/results.sqlite"));
+  EXPECT_FALSE(text_of("one/report.html").empty());
+  EXPECT_TRUE(text_of("one/report.html") == text_of("three/report.html"));
+}
+
+TEST_F(SweepVerb, TheWorstCasesHavePagesOfTheSameRun) {
+  ASSERT_EQ(sweep("o", "1").code, 1);
+  for (const char* number : {"2", "3"}) {
+    const std::string page = std::string("pages/") + number + "/report.html";
+    EXPECT_NE(text_of("o/report.html").find("<a href=\"" + page + "\">"), std::string::npos)
+        << number;
+    EXPECT_NE(text_of("o/" + page).find("VIOLATED"), std::string::npos) << number;
+  }
+  EXPECT_FALSE(exists("o/pages/0")) << "it passed";
+}
+
+TEST_F(SweepVerb, AFinishedSweepMakesItsPageAgainAndRunsNothing) {
+  ASSERT_EQ(sweep("o", "1").code, 1);
+  const std::string page = text_of("o/report.html");
+  const auto made = std::filesystem::last_write_time(path("o/pages/2/events.mcap"));
+  std::filesystem::remove(path("o/report.html"));
+  const ProgramOutput again = sweep("o", "1");
+  EXPECT_NE(again.out.find("4 of 4 cases were done before"), std::string::npos) << again.out;
+  EXPECT_TRUE(text_of("o/report.html") == page);
+  EXPECT_NE(text_of("o/summary.json").find("\"cases\": 4, \"passed\": 2, \"failed\": 2"),
+            std::string::npos);
+  EXPECT_EQ(std::filesystem::last_write_time(path("o/pages/2/events.mcap")), made);
+}
+
+TEST_F(SweepVerb, ThereAreAsManyPagesAsAreAskedFor) {
+  const std::vector<std::string> words{"sweep", path("plan.yaml"), "--out", path("o"), "--pages"};
+  const auto with = [&words](const char* count) {
+    std::vector<std::string> all = words;
+    all.emplace_back(count);
+    return all;
+  };
+  EXPECT_EQ(run(with("0")).code, 1);
+  EXPECT_FALSE(exists("o/pages"));
+  EXPECT_EQ(text_of("o/report.html").find("<a href"), std::string::npos);
+  const ProgramOutput one = run(with("1"));
+  EXPECT_LT(one.out.find("case 3 failed"), one.out.find("case 2 failed")) << one.out;
+  EXPECT_TRUE(exists("o/pages/3/report.html"));
+  EXPECT_FALSE(exists("o/pages/2"));
+  expect_refusal(with("1001"), "--pages");
+}
+
+TEST_F(SweepVerb, ACaseOfAnotherBuildHasNoPage) {
+  ASSERT_EQ(run({"sweep", path("plan.yaml"), "--out", path("o"), "--pages", "0"}).code, 1);
+  for (const auto& entry : std::filesystem::directory_iterator(path("o/cases"))) {
+    std::string text = transport::read_file(entry.path()).value_or("");
+    const std::size_t at = text.find("\"digest\": \"");
+    ASSERT_NE(at, std::string::npos) << text;
+    text[at + 11] = text[at + 11] == '0' ? '1' : '0';
+    ASSERT_TRUE(transport::write_file(entry.path(), text));
+  }
+  const ProgramOutput other = sweep("o", "1");
+  EXPECT_EQ(other.code, 2);
+  EXPECT_NE(other.err.find("another run of case 2"), std::string::npos) << other.err;
 }
 
 TEST_F(SweepVerb, WhatIsDoneIsNotRunAgain) {
@@ -101,6 +158,7 @@ TEST_F(SweepVerb, ABaselineHasOnlyToBeReachedAgain) {
   const ProgramOutput worse = run(words);
   EXPECT_EQ(worse.code, 1);
   EXPECT_NE(worse.out.find("2 passed before and do not now"), std::string::npos) << worse.out;
+  EXPECT_NE(text_of("now/report.html").find("Passed before and do not now: 2"), std::string::npos);
   expect_refusal({"sweep", path("plan.yaml"), "--baseline", path("none")}, "no folder of a sweep");
 }
 

@@ -11,6 +11,7 @@ import { speedUnit } from "../../view/speed_unit";
 import { ChooserPanel } from "./chooser";
 import { ContactPanel } from "./contact";
 import { ErrorPanel, ExpectationPanel, ReactionPanel } from "./grades";
+import { SweepsPanel } from "./sweeps";
 import { TimelinePanel } from "./timeline";
 import "./hil.css";
 
@@ -129,6 +130,7 @@ export function HilPage() {
       </div>
       <div class="column wide">
         <Newest />
+        <SweepsPanel />
       </div>
     </main>
   );

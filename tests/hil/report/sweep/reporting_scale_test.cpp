@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "hil/report/sweep/sweep_page.hpp"
 #include "hil/sweep/baseline.hpp"
 #include "hil/sweep/results_file.hpp"
 #include "hil/sweep/summary.hpp"
@@ -15,10 +16,13 @@
 #include "protocol/vocabulary/random.hpp"
 #include "tests/hil/sweep/plan_text.hpp"
 
-namespace pitwall::sweep {
+namespace pitwall::report {
 namespace {
 
+using namespace sweep;
+
 constexpr double kRatioMost = 12.0;  // of ten times as many
+constexpr std::size_t kPageMost = 1'000'000;
 
 std::vector<CaseResult> synthetic(std::size_t count) {
   Random random{count};
@@ -40,7 +44,7 @@ struct Cost {
   double seconds = 0.0, megabytes = 0.0;
 };
 
-// Of lines read, file written, table and comparison made.
+// Of lines read, file written, table, comparison and page made.
 Cost cost_of(std::size_t count, const std::string& file) {
   const Cases cases{
       *read_plan(spoilt(drawn_plan(), "cases: 40", "cases: " + std::to_string(count)), "p.yaml")};
@@ -52,7 +56,13 @@ Cost cost_of(std::size_t count, const std::string& file) {
   for (const std::string& line : lines) results.push_back(*parse_case_result(line));
   EXPECT_TRUE(write_results(file, cases, "plan", results));
   EXPECT_FALSE(summary_of(cases, results, "again").empty());
-  EXPECT_EQ(difference(results, results).compared, count);
+  const Difference same = difference(results, results);
+  EXPECT_EQ(same.compared, count);
+  const SweepRun run{
+      .cases = cases, .results = results, .command = "again", .baseline = Baseline{results, same}};
+  const std::size_t page_size = sweep_page(run).size();
+  EXPECT_GT(page_size, 20'000U);
+  EXPECT_LT(page_size, kPageMost) << count;
   const Duration took = transport::thread_time() - before;
   return {took.seconds(), static_cast<double>(::mallinfo2().uordblks - held_before) / 1'048'576.0};
 }
@@ -73,4 +83,4 @@ TEST(ReportingScale, TimeAndMemoryAreLinearInTheNumberOfResults) {
 }
 
 }  // namespace
-}  // namespace pitwall::sweep
+}  // namespace pitwall::report
