@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "hil/can_bus/bus_verb.hpp"
-#include "hil/cli/dbc_verb.hpp"
+#include "hil/cli/dbc/dbc_verb.hpp"
 #include "hil/cli/demo/demo_verb.hpp"
 #include "hil/cli/exit_code.hpp"
 #include "hil/cli/faults_verb.hpp"
