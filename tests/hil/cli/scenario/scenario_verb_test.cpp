@@ -41,6 +41,15 @@ TEST_F(ScenarioVerb, ANewScenarioIsAcceptedAndPasses) {
   EXPECT_NE(ran.out.find("verdict: PASS"), std::string::npos) << ran.out;
 }
 
+TEST_F(ScenarioVerb, ANewScenarioNamesTheSchemaFromItsFolder) {
+  const ProgramOutput written = run({"scenario", "new", path("n.yaml")});
+  ASSERT_EQ(written.code, 0) << written.err;
+  const std::string text = text_of("n.yaml"), key = "$schema=";
+  const std::size_t at = text.find(key) + key.size();
+  const std::string schema = text.substr(at, text.find('\n', at) - at);
+  EXPECT_TRUE(std::filesystem::exists(path(schema))) << schema;
+}
+
 TEST_F(ScenarioVerb, WhatExistsIsNeverReplaced) {
   const std::string mine = file("mine.yaml", "my work\n");
   expect_refusal({"scenario", "new", mine}, "exists already");
