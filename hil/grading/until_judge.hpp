@@ -3,7 +3,7 @@
 //   margin sup over ticks t of min(margin of the release at t, inf over earlier ticks of the margin
 //          of the condition), up to the limit; -infinity without a tick
 //   errors a NaN before the release fails; so does a run that ends before the release
-//   source robustness of the until operator: Fainekos and Pappas 2009, definition 12
+//   source robust semantics of the until operator: Fainekos and Pappas 2009
 //   cost   constant for each tick
 // SPDX-License-Identifier: Apache-2.0
 #pragma once

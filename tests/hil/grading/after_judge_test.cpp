@@ -7,7 +7,6 @@
 #include <cmath>
 #include <random>
 
-#include "tests/hil/grading/infinity.hpp"
 #include "tests/hil/grading/judged.hpp"
 #include "tests/support/instants.hpp"
 
@@ -30,6 +29,23 @@ TEST(AfterJudge, AfterFailsWhenTheTriggerNeverComes) {
   EXPECT_FALSE(v.pass);
   EXPECT_EQ(v.triggers, 0U);
   EXPECT_EQ(v.reason, "the trigger never came");
+}
+
+TEST(AfterJudge, OnlyWhatBecomesTrueInTheWindowIsATrigger) {
+  Expectation e = reaction(seconds(1));
+  e.from = at_s(3.0);
+  e.to = at_s(6.0);
+  const auto triggered = [&e](double begins_s, double ends_s) {
+    const Signal trigger = [=](double t) { return t > begins_s - 1e-9 && t < ends_s ? 1.0 : 0.0; };
+    return judge(
+        e, [](double) { return 0.0; }, 10.0, trigger);
+  };
+  EXPECT_EQ(triggered(2.0, 2.5).triggers, 0U) << "before it";
+  EXPECT_EQ(triggered(2.0, 9.0).triggers, 0U) << "a level that held before it";
+  EXPECT_EQ(triggered(6.01, 9.0).triggers, 0U) << "after it";
+  const Verdict last = triggered(6.0, 9.0);
+  EXPECT_EQ(last.triggers, 1U);
+  EXPECT_EQ(last.first_violation, at_s(7.0)) << "the answer may come after the window";
 }
 
 TEST(AfterJudge, AfterJudgesEveryRisingEdge) {

@@ -3,9 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/hil/grading/infinity.hpp"
 #include "tests/hil/grading/judged.hpp"
-#include "tests/support/instants.hpp"
 
 namespace pitwall::grading {
 namespace {

@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include "protocol/vocabulary/units.hpp"
-#include "tests/hil/grading/infinity.hpp"
 #include "tests/hil/grading/judged.hpp"
 #include "tests/support/instants.hpp"
 

@@ -3,7 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/hil/grading/infinity.hpp"
 #include "tests/hil/grading/judged.hpp"
 #include "tests/support/instants.hpp"
 

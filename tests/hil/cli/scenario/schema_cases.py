@@ -106,7 +106,8 @@ class Cases:
             if rule.get("minItems", 0) > 0:
                 yield value[: rule["minItems"] - 1]
             if "maxItems" in rule:
-                yield (value * (rule["maxItems"] + 1))[: rule["maxItems"] + 1]
+                yield value[:1] * rule["maxItems"]
+                yield value[:1] * (rule["maxItems"] + 1)
 
     def walk_mapping(self, document, path, value, rules):
         name = "/".join(str(step) for step in path)
