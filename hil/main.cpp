@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "hil/can_bus/bus_verb.hpp"
-#include "hil/cli/dbc_verb.hpp"
+#include "hil/cli/dbc/dbc_verb.hpp"
 #include "hil/cli/demo/demo_verb.hpp"
 #include "hil/cli/exit_code.hpp"
 #include "hil/cli/faults_verb.hpp"
@@ -19,9 +19,9 @@
 #include "hil/cli/recordings/info_verb.hpp"
 #include "hil/cli/recordings/plot_verb.hpp"
 #include "hil/cli/recordings/rival_verb.hpp"
-#include "hil/cli/recordings/scenario_verb.hpp"
 #include "hil/cli/report_verb.hpp"
 #include "hil/cli/run_verb.hpp"
+#include "hil/cli/scenario/scenario_verb.hpp"
 #include "hil/cli/scenes_verb.hpp"
 #include "hil/cli/serve_verb.hpp"
 #include "hil/cli/sweep/falsify_verb.hpp"
@@ -48,7 +48,7 @@ constexpr std::array kVerbs{
     Verb{"replay", "replay a CAN log onto CAN interfaces", replay::replay_verb},
     Verb{"compare", "a car's recording driven again by this build: what it says otherwise",
          cli::compare_verb},
-    Verb{"scenario", "a scenario file made of a car's recording (scenario from RECORDING)",
+    Verb{"scenario", "scenario files: new, check, list; from a car's recording (from)",
          cli::scenario_verb},
     Verb{"rival", "where the other car of a race was, by the recordings of both cars",
          cli::rival_verb},

@@ -15,13 +15,13 @@ namespace {
 void end_judging(const scenario::Scenario& scenario, RunResult& result, Instant at,
                  const char* what) {
   CHECK(result.verdicts.size() == scenario.expect.size());
-  const Duration end = at - Instant{};
   std::vector<grading::Verdict> shown;
   for (std::size_t i = 0; i < result.verdicts.size(); ++i) {
     grading::Verdict& verdict = result.verdicts[i];
-    const bool at_once = scenario.expect[i].kind == scenario::ExpectKind::kWithin ||
-                         scenario.expect[i].kind == scenario::ExpectKind::kDetects;
-    if ((at_once && verdict.pass) || scenario::is_shown_by(scenario.expect[i], end))
+    const grading::Expectation& asked = scenario.expect[i];
+    const bool is_final =
+        verdict.pass ? grading::is_met_once(asked.kind) : verdict.first_violation.has_value();
+    if (is_final || grading::is_shown_by(asked, at))
       shown.push_back(std::move(verdict));
     else
       result.remarks.push_back(std::string{"not judged, the car "} + what +

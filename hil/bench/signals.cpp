@@ -64,19 +64,7 @@ double side_slip_deg(const plant::Truth& truth) {
   return std::abs(to_deg(std::atan2(truth.vy_mps, truth.vx_mps)));
 }
 
-grading::Kind kind_of(scenario::ExpectKind kind) {
-  switch (kind) {
-    case scenario::ExpectKind::kAlways:
-      return grading::Kind::kAlways;
-    case scenario::ExpectKind::kNever:
-      return grading::Kind::kNever;
-    case scenario::ExpectKind::kWithin:
-      return grading::Kind::kWithin;
-    case scenario::ExpectKind::kDetects:
-      return grading::Kind::kDetects;
-  }
-  CHECK(false);
-}
+bool is_seen(const grading::Condition& condition) { return condition.signal.starts_with(kSeen); }
 
 }  // namespace
 
@@ -162,9 +150,9 @@ std::vector<std::string> signal_names() {
 
 std::optional<Problem> unjudged_by(BenchMode mode, const scenario::Scenario& scenario) {
   if (mode == BenchMode::kLockstep) return std::nullopt;
-  for (const scenario::Expectation& row : scenario.expect)
-    if (row.signal.starts_with(kSeen))
-      return Problem{row.place, "signals seen.* exist in lockstep only: run without --live"};
+  for (const grading::Expectation& row : scenario.expect)
+    if (std::ranges::any_of(grading::conditions_of(row), is_seen))
+      return Problem{row.name, "signals seen.* exist in lockstep only: run without --live"};
   if (scenario.lidars == scenario::LidarKind::kRaysClusters)
     return Problem{scenario.name,
                    "\"lidars: rays_clusters\" is for lockstep only: live the sensor "
@@ -175,25 +163,16 @@ std::optional<Problem> unjudged_by(BenchMode mode, const scenario::Scenario& sce
 Result<std::vector<grading::Expectation>, Problem> expectations_of(
     const scenario::Scenario& scenario) {
   const std::vector<std::string> names = signal_names();
-  std::vector<grading::Expectation> out;
-  for (const scenario::Expectation& row : scenario.expect) {
-    const auto op = grading::op_of(row.relation);
-    if (!op)
-      return Unexpected{
-          Problem{row.place, "\"" + row.relation + "\" is not one of: < <= > >= == !="}};
-    if (std::find(names.begin(), names.end(), row.signal) == names.end())
-      return Unexpected{Problem{row.place, "unknown signal \"" + row.signal + "\""}};
-    grading::Expectation e;
-    e.name = row.place;
-    e.kind = kind_of(row.kind);
-    e.condition = {.signal = row.signal, .op = *op, .number = row.value};
-    e.from = Instant{} + row.from;
-    const Duration end = row.until.ns != 0 ? row.until : scenario.duration;
-    if (end <= row.from)
-      return Unexpected{Problem{row.place, "the run ends before this window begins"}};
-    e.to = Instant{} + end;
-    e.limit = end - row.from;
-    out.push_back(e);
+  std::vector<grading::Expectation> out = scenario.expect;
+  for (grading::Expectation& e : out) {
+    for (const grading::Condition& condition : grading::conditions_of(e))
+      if (std::ranges::find(names, condition.signal) == names.end())
+        return refuse(e.name, "unknown signal \"" + condition.signal + "\"");
+    e.from = e.from.value_or(Instant{});
+    e.to = e.to.value_or(Instant{} + scenario.duration);
+    if (*e.to <= *e.from) return refuse(e.name, "the run ends before this window begins");
+    if (*e.to - *e.from < e.span) return refuse(e.name, "its window is shorter than over_s");
+    if (e.kind == grading::Kind::kWithin) e.limit = *e.to - *e.from;
   }
   return out;
 }

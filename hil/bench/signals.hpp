@@ -144,7 +144,7 @@ std::vector<std::string> signal_names();
 // Problem of the first expectation that this mode of the bench cannot evaluate.
 std::optional<Problem> unjudged_by(BenchMode mode, const scenario::Scenario& scenario);
 
-// The expectations of a scenario in the form of the grader.
+// The expectations of a scenario with their windows complete, for the grader.
 Result<std::vector<grading::Expectation>, Problem> expectations_of(
     const scenario::Scenario& scenario);
 

@@ -111,12 +111,12 @@ Result<bench::RunResult, Problem> followed(const RunOptions& options, const benc
 
 // Each expectation that the run is too short for is told and left out.
 Result<bool, Problem> cut(scenario::Scenario& scenario) {
-  const Duration end = scenario.duration;
+  const Instant end = Instant{} + scenario.duration;
   if (scenario.match) scenario.match->is_cut = true;
-  std::erase_if(scenario.expect, [&](const scenario::Expectation& expectation) {
+  std::erase_if(scenario.expect, [&](const grading::Expectation& expectation) {
     if (is_shown_by(expectation, end)) return false;
     std::printf("not judged, the run is cut at %.1f s: %s: %s\n", end.seconds(),
-                expectation.place.c_str(), expectation.signal.c_str());
+                expectation.name.c_str(), expectation.condition.signal.c_str());
     return true;
   });
   if (!scenario.expect.empty()) return true;
@@ -132,11 +132,12 @@ Result<bench::Loaded, Problem> load(const RunOptions& options) {
 Result<int, Problem> run_once(const RunOptions& options) {
   auto loaded = load(options);
   if (!loaded) return Unexpected{loaded.error()};
+  const Duration planned = loaded->scenario.duration;
   if (options.duration) {
     loaded->scenario.duration = *options.duration;
     for (bench::LoadedStack& other : loaded->stacks) other.scenario.duration = *options.duration;
   }
-  if (options.cut) {
+  if (options.cut && loaded->scenario.duration < planned) {
     if (const auto left = cut(loaded->scenario); !left) return Unexpected{left.error()};
   }
   if (options.seed) loaded->scenario.seed = *options.seed;

@@ -1,48 +1,33 @@
-// Grader of a run, tick by tick, against a list of expectations.
+// Grader of a run, tick by tick, against a list of expectations. Each kind has a judge in a file of
+// its own, which states its rules.
 //   in     create(expectations, names of the signals); observe(now, one value per name) at each
 //          tick, in order of time
 //   out    finish(): one verdict per expectation, in order
-//   rules  always, never: a window without a tick fails, because it proves nothing
-//          within: fails at the first tick after the limit, or at the end if it never held
-//          detects: likewise; a tick exactly at the time of the fault counts as before it, and a
-//          condition that held at any tick of the kQuiet before the fault fails
-//          after: fails without any trigger. A trigger whose limit has not passed at the end of the
-//          run does not count, unless it is the only one
-//   margin the smallest over ticks (always, never) or over triggers (after), of the best within the
-//          time limit (within, after); +-infinity without a tick
 //   errors create(): a Problem that names the expectation: unknown signal, number that is not
 //          finite, missing limit, window that ends before it begins
-//   cost   observe() does not allocate
+//   cost   observe() does not allocate, but for a `quantile` (quantile_judge.hpp)
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <cstdint>
-#include <optional>
+#include <cstddef>
 #include <span>
 #include <string>
+#include <variant>
 #include <vector>
 
+#include "hil/grading/after_judge.hpp"
+#include "hil/grading/always_judge.hpp"
+#include "hil/grading/detects_judge.hpp"
 #include "hil/grading/expectation.hpp"
+#include "hil/grading/quantile_judge.hpp"
+#include "hil/grading/rate_judge.hpp"
+#include "hil/grading/until_judge.hpp"
+#include "hil/grading/verdict.hpp"
+#include "hil/grading/within_judge.hpp"
 #include "protocol/vocabulary/result.hpp"
 #include "protocol/vocabulary/time.hpp"
 
 namespace pitwall::grading {
-
-struct Verdict {
-  std::string name, text;  // name and sentence of the expectation
-  std::string reason;      // empty when passed
-  bool pass = false;
-  double margin = 0.0;                // in the unit of the signal; negative is a violation
-  std::optional<Duration> time_left;  // within, after: smallest time left between success and limit
-  std::optional<Instant> first_violation;
-  std::uint64_t ticks = 0;        // graded
-  std::uint64_t undefined = 0;    // of these, ticks with a NaN
-  std::uint64_t triggers = 0;     // after: number of triggers
-  std::optional<Duration> delay;  // detects: from the fault to the first tick that detects it
-};
-
-// State of an expectation during the run: undecided, held so far, failed for good.
-enum class ExpectationState : std::uint8_t { kOpen, kHolds, kFailed };
 
 class Grader {
  public:
@@ -54,27 +39,19 @@ class Grader {
   std::vector<ExpectationState> expectation_states() const;  // in order; an undecided one is kOpen
 
  private:
-  struct Track {
-    std::size_t signal = 0, trigger_signal = 0;
-    double worst = 0.0;  // always, never: smallest so far; after: smallest over decided triggers
-    double best = 0.0;   // within, after: best since the window or trigger opened
-    bool held = false, failed = false, pending = false, trigger_was = false;
-    bool held_before = false;
-    Instant deadline{};
-    std::optional<Duration> time_left;
-    std::optional<Instant> first_violation;
-    std::uint64_t ticks = 0, undefined = 0, triggers = 0, decided = 0;
+  using Judge = std::variant<AlwaysJudge, WithinJudge, DetectsJudge, AfterJudge, UntilJudge,
+                             RateJudge, QuantileJudge>;
+  struct Judged {
+    Expectation expectation;
+    std::size_t signal;        // index of the condition's
+    std::size_t other_signal;  // of trigger or release; else that of the condition
+    Judge judge;
   };
 
   Grader() = default;
-  void observe_one(const Expectation& e, Track& t, Instant now, std::span<const double> values);
-  void observe_within(const Expectation& e, Track& t, Instant now, double value);
-  void observe_after(const Expectation& e, Track& t, Instant now, double value, bool rises);
-  static Verdict verdict(const Expectation& e, const Track& t);
-  static ExpectationState state_of(const Expectation& e, const Track& t);
+  static Judge judge_of(const Expectation& expectation);
 
-  std::vector<Expectation> expectations_;
-  std::vector<Track> tracks_;
+  std::vector<Judged> judged_;
   std::size_t signals_ = 0;
 };
 

@@ -5,6 +5,7 @@
 #include <string_view>
 #include <utility>
 
+#include "hil/scenario/expect_section.hpp"
 #include "protocol/yaml/strict_map.hpp"
 
 namespace pitwall::scenario {
@@ -71,13 +72,6 @@ constexpr std::array kReceiverKinds = {
 };
 
 constexpr double kFastestImpact_mps = 100.0;
-
-constexpr std::array kExpectKinds = {
-    Named<ExpectKind>{"always", ExpectKind::kAlways},
-    Named<ExpectKind>{"never", ExpectKind::kNever},
-    Named<ExpectKind>{"within", ExpectKind::kWithin},
-    Named<ExpectKind>{"detects", ExpectKind::kDetects},
-};
 
 template <class T, std::size_t N>
 T one_of(const yaml::StrictMap& map, const char* key, const std::string& word,
@@ -180,49 +174,6 @@ Fault read_fault(yaml::StrictMap& map) {
   return fault;
 }
 
-// `monitor: NAME` says that a monitor of the car sees something; else any signal may tell.
-void read_condition(yaml::StrictMap& map, Expectation& expectation) {
-  if (expectation.kind == ExpectKind::kDetects && map.has("monitor")) {
-    expectation.signal = "seen_" + map.text("monitor");
-    expectation.relation = "==";
-    expectation.value = 1.0;
-    return;
-  }
-  expectation.signal = map.text("signal");
-  expectation.relation = map.text("is");
-  expectation.value = map.number("value", -1e12, 1e12);
-}
-
-// The faults are counted from 1, as a person counts them.
-void read_detection(yaml::StrictMap& map, Expectation& expectation,
-                    const std::vector<Fault>& faults) {
-  const auto number = map.integer_or("fault", 1, 1, static_cast<std::int64_t>(kMaxListed));
-  expectation.fault = static_cast<std::size_t>(number - 1);
-  if (expectation.fault >= faults.size())
-    map.fail("fault", "expected the number of an entry of faults, counted from 1");
-  expectation.from = faults[expectation.fault].at;
-  const Duration within = from_seconds(map.number("within_s", 0.001, kLongest_s));
-  expectation.until = expectation.from + within;
-  map.finish();
-}
-
-Expectation read_expectation(yaml::StrictMap& map, const std::vector<Fault>& faults) {
-  Expectation expectation;
-  expectation.place = map.place("kind");
-  expectation.kind = one_of(map, "kind", kExpectKinds);
-  read_condition(map, expectation);
-  if (expectation.kind == ExpectKind::kDetects) {
-    read_detection(map, expectation, faults);
-    return expectation;
-  }
-  expectation.from = time_at(map, "from_s", 0.0);
-  expectation.until = time_at(map, "until_s", 0.0);
-  if (expectation.until.ns != 0 && expectation.until <= expectation.from)
-    map.fail("until_s", "the window ends before it begins");
-  map.finish();
-  return expectation;
-}
-
 template <class T, class Read>
 void read_list(yaml::StrictMap& map, const char* key, std::vector<T>& out, Read read_one) {
   if (!map.has(key)) return;
@@ -275,9 +226,10 @@ Scenario read_root(yaml::StrictMap& map) {
   scenario.radio = read_radio(map);
   scenario.operator_texts = read_operator(map);
   read_list(map, "faults", scenario.faults, read_fault);
-  read_list(map, "expect", scenario.expect, [&scenario](yaml::StrictMap& entry) {
-    return read_expectation(entry, scenario.faults);
-  });
+  std::vector<Instant> faults;
+  for (const Fault& fault : scenario.faults) faults.push_back(Instant{} + fault.at);
+  read_list(map, "expect", scenario.expect,
+            [&faults](yaml::StrictMap& entry) { return read_expectation(entry, faults); });
   if (auto contact = map.optional_map("contact")) scenario.contact = read_contact(*contact);
   check_order(map, scenario);
   map.finish();
@@ -290,11 +242,6 @@ Result<Scenario, Problem> read_scenario(const std::string& text, const std::stri
   const auto document = yaml::load_text(text, name);
   if (!document) return Unexpected{document.error()};
   return yaml::read(*document, [](yaml::StrictMap& map) { return read_root(map); });
-}
-
-bool is_shown_by(const Expectation& e, Duration end) {
-  const bool at_once = e.kind == ExpectKind::kWithin || e.kind == ExpectKind::kDetects;
-  return e.from < end && (!at_once || e.until <= end);
 }
 
 const char* name_of(world::TrackFlag flag) { return word_of(kTrackFlags, flag); }

@@ -13,6 +13,7 @@
 #include <string>
 #include <vector>
 
+#include "hil/grading/expectation.hpp"
 #include "hil/plant/params.hpp"
 #include "hil/scenario/cars_section.hpp"
 #include "hil/scenario/match_section.hpp"
@@ -77,22 +78,6 @@ struct Fault {
 // messages with checksums, which the car is configured to check.
 enum class BusRevision : std::uint8_t { kV14, kV9, kV12, kAv24, kProtected };
 
-// kDetects: from the start of a fault, the signal meets its condition within a deadline.
-enum class ExpectKind : std::uint8_t { kAlways, kNever, kWithin, kDetects };
-
-struct Expectation {
-  ExpectKind kind = ExpectKind::kAlways;
-  std::string signal, relation;
-  double value = kUnset;
-  Duration from{}, until{};  // the window; `until` zero means the end
-  std::size_t fault = 0;     // kDetects: index in Scenario::faults
-  std::string place;
-};
-
-// Whether a run that is ended early, at `end`, can show the expectation: kAlways and kNever if
-// their window has begun, kWithin and kDetects if it has ended.
-bool is_shown_by(const Expectation& expectation, Duration end);
-
 // Contact with a wall that the scenario cannot avoid: the highest impact speed, and the reason.
 struct NamedContact {
   double at_most_mps = kUnset;
@@ -133,7 +118,7 @@ struct Scenario {
   std::vector<RadioPath> radio;  // empty: no delay, no loss
   std::vector<OperatorText> operator_texts;
   std::vector<Fault> faults;
-  std::vector<Expectation> expect;
+  std::vector<grading::Expectation> expect;  // named by their place in the file
   std::optional<NamedContact> contact;
 };
 

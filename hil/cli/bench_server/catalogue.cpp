@@ -39,6 +39,8 @@ Listed listed(const std::string& id, const std::string& file, const std::string&
     return row;
   }
   row.name = scenario->name;
+  row.track = scenario->track_file;
+  row.car = scenario->car_file;
   row.duration_s = scenario->duration.seconds();
   row.seed = scenario->seed;
   for (const scenario::Fault& fault : scenario->faults) row.faults.push_back(fault.kind);

@@ -23,7 +23,8 @@ inline constexpr std::size_t kMaxScenarios = 1'000;
 
 struct Listed {
   std::string id{}, file{}, name{}, description{};
-  std::string problem{};  // why it cannot be started; empty: valid
+  std::string problem{};       // why it cannot be started; empty: valid
+  std::string track{}, car{};  // files
   double duration_s = kUnset;
   std::uint64_t seed = 0;
   // whether this mode supports all of its faults and expectations

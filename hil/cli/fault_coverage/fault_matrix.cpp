@@ -17,14 +17,14 @@ namespace {
 
 constexpr std::string_view kSeen = "seen_";
 
-Detection detection(const scenario::Expectation& asked, const grading::Verdict& verdict) {
-  const bool monitor = asked.signal.starts_with(kSeen);
-  return {.by = monitor ? asked.signal.substr(kSeen.size())
-                        : asked.signal + " " + asked.relation + " " + formatted("%g", asked.value),
-          .delay = verdict.delay,
-          .deadline = asked.until - asked.from,
-          .passed = verdict.pass,
-          .reason = verdict.reason};
+Detection detection(const grading::Expectation& asked, const grading::Verdict& verdict) {
+  const std::string& signal = asked.condition.signal;
+  return {
+      .by = signal.starts_with(kSeen) ? signal.substr(kSeen.size()) : to_string(asked.condition),
+      .delay = verdict.delay,
+      .deadline = asked.limit,
+      .passed = verdict.pass,
+      .reason = verdict.reason};
 }
 
 std::string milliseconds_of(Duration d) { return formatted("%.0f", d.milliseconds()); }
@@ -96,8 +96,8 @@ Result<FaultRow, Problem> run_fault(const bench::Loaded& loaded, world::MonitorS
                .simulated_s = result->simulated_s};
   for (const grading::Verdict& verdict : result->verdicts) {
     const auto asked = std::ranges::find(loaded.scenario.expect, verdict.name,
-                                         &scenario::Expectation::place);  // none: the contact
-    if (asked != loaded.scenario.expect.end() && asked->kind == scenario::ExpectKind::kDetects)
+                                         &grading::Expectation::name);  // none: the contact
+    if (asked != loaded.scenario.expect.end() && asked->kind == grading::Kind::kDetects)
       row.detections.push_back(detection(*asked, verdict));
     else if (!verdict.pass)
       row.failed.push_back(verdict.text + ": " + verdict.reason);

@@ -29,20 +29,22 @@ std::optional<Consequence> first_failed(const bench::RunResult& result) {
 
 bool asks(const scenario::Scenario& scenario, world::Monitor monitor) {
   const std::string name = std::string(kSeenPrefix) + monitor_name(monitor);
-  return std::ranges::any_of(scenario.expect, [&name](const scenario::Expectation& asked) {
-    return asked.kind == scenario::ExpectKind::kDetects && asked.signal == name;
+  return std::ranges::any_of(scenario.expect, [&name](const grading::Expectation& asked) {
+    return asked.kind == grading::Kind::kDetects && asked.condition.signal == name;
   });
 }
 
-bool is_consequence(const scenario::Expectation& expectation) {
-  return !expectation.signal.starts_with(kSeenPrefix);
+bool is_consequence(const grading::Expectation& expectation) {
+  return std::ranges::none_of(grading::conditions_of(expectation), [](const grading::Condition& c) {
+    return c.signal.starts_with(kSeenPrefix);
+  });
 }
 
 Result<std::optional<Consequence>, Problem> consequence_without(world::Monitor monitor,
                                                                 const bench::Loaded& loaded) {
   bench::Loaded blind = loaded;
   std::erase_if(blind.scenario.expect,
-                [](const scenario::Expectation& e) { return !is_consequence(e); });
+                [](const grading::Expectation& e) { return !is_consequence(e); });
   world::MonitorSet off;
   off.add(monitor);
   switch_off(blind.setup.params, off);

@@ -56,7 +56,7 @@ static_assert(informs_only(world::Monitor::kChecksum) == nullptr &&
 bool asks(const scenario::Scenario& scenario, world::Monitor monitor);
 
 // True if the expectation is about the behaviour of the car, not about its monitors.
-bool is_consequence(const scenario::Expectation& expectation);
+bool is_consequence(const grading::Expectation& expectation);
 
 struct Consequence {
   std::string scenario, expectation, reason;

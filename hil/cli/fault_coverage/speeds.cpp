@@ -54,8 +54,9 @@ bool is_walking(const scenario::Scenario& scenario) {
   });
 }
 
-bool is_driving_on(const scenario::Expectation& e) {
-  return e.kind == scenario::ExpectKind::kAlways && e.signal == "speed_mps" && e.relation == ">";
+bool is_driving_on(const grading::Expectation& e) {
+  return e.kind == grading::Kind::kAlways && e.condition.signal == "speed_mps" &&
+         e.condition.op == grading::Op::kGreater;
 }
 
 }  // namespace
@@ -93,8 +94,9 @@ std::optional<scenario::Scenario> at_speed(const scenario::Scenario& scenario, S
     return flag.track == world::TrackFlag::kGreen;
   });
   if (speed == Speed::kWalking) walk(twin);
-  for (scenario::Expectation& e : twin.expect)
-    if (is_driving_on(e)) e.value = speed == Speed::kWalking ? kWalksOn_mps : kYellowOn_mps;
+  for (grading::Expectation& e : twin.expect)
+    if (is_driving_on(e))
+      e.condition.number = speed == Speed::kWalking ? kWalksOn_mps : kYellowOn_mps;
   return twin;
 }
 

@@ -8,15 +8,13 @@
 namespace pitwall::bench {
 namespace {
 
-using scenario::Expectation;
-using scenario::ExpectKind;
+using grading::Expectation;
+using grading::Kind;
 using scenario::Scenario;
 
-Expectation expectation(ExpectKind kind, double from_s, double until_s) {
-  Expectation out;
-  out.kind = kind;
-  out.from = from_seconds(from_s);
-  out.until = from_seconds(until_s);
+Expectation expectation(Kind kind, double from_s, std::optional<double> to_s = {}) {
+  Expectation out{.kind = kind, .from = at_s(from_s)};
+  if (to_s) out.to = at_s(*to_s);
   return out;
 }
 
@@ -85,26 +83,47 @@ TEST(Contact, WithoutOneNothingIsAskedUnlessItIsNamed) {
 TEST(Contact, WhatWasNotShownByThenIsARemarkAndNoVerdict) {
   Crash crash;
   crash.scenario.contact = {60.0, "nobody steers"};
-  crash.expect(expectation(ExpectKind::kAlways, 0, 0), verdict("always, begun", true));
-  crash.expect(expectation(ExpectKind::kNever, 12, 0), verdict("never, later", false));
-  crash.expect(expectation(ExpectKind::kWithin, 5, 9), verdict("within, over", true));
-  crash.expect(expectation(ExpectKind::kWithin, 5, 20), verdict("within, met", true));
-  crash.expect(expectation(ExpectKind::kWithin, 5, 20), verdict("within, open", false));
-  crash.expect(expectation(ExpectKind::kDetects, 9.9, 10.4), verdict("detects, open", false));
+  crash.expect(expectation(Kind::kAlways, 0), verdict("always, begun", true));
+  crash.expect(expectation(Kind::kNever, 12), verdict("never, later", false));
+  crash.expect(expectation(Kind::kWithin, 5, 9), verdict("within, over", true));
+  crash.expect(expectation(Kind::kWithin, 5, 20), verdict("within, met", true));
+  crash.expect(expectation(Kind::kWithin, 5, 20), verdict("within, open", false));
+  crash.expect(expectation(Kind::kDetects, 9.9, 10.4), verdict("detects, open", false));
+  Expectation until = expectation(Kind::kUntil, 5);
+  until.limit = seconds(10);
+  crash.expect(until, verdict("until, released", true));
+  crash.expect(until, verdict("until, open", false));
+  crash.expect(expectation(Kind::kAfter, 0), verdict("after, open", true));
+  crash.expect(expectation(Kind::kQuantile, 0, 20), verdict("quantile, open", false));
   EXPECT_TRUE(crash.passes());
   std::string shown;
   for (const grading::Verdict& one : crash.result.verdicts) shown += one.text + "; ";
-  EXPECT_EQ(shown, "always, begun; within, over; within, met; no contact above 60.0 m/s; ");
-  EXPECT_EQ(crash.result.remarks.size(), 3U);
+  EXPECT_EQ(
+      shown,
+      "always, begun; within, over; within, met; until, released; no contact above 60.0 m/s; ");
+  EXPECT_EQ(crash.result.remarks.size(), 6U);
   EXPECT_EQ(crash.result.remarks[0], "not judged, the car hit a wall before: never, later");
 }
 
 TEST(Contact, WhatFailedBeforeItStaysFailed) {
   Crash crash;
   crash.scenario.contact = {60.0, "nobody steers"};
-  crash.expect(expectation(ExpectKind::kDetects, 8, 9), verdict("detects, late", false));
+  crash.expect(expectation(Kind::kDetects, 8, 9), verdict("detects, late", false));
   EXPECT_FALSE(crash.passes());
   EXPECT_FALSE(crash.result.failed_by_contact());
+}
+
+TEST(Contact, WhatFailedForGoodBeforeTheEndOfItsWindowStaysFailed) {
+  for (const Kind kind : {Kind::kAfter, Kind::kUntil}) {
+    Crash crash;
+    crash.scenario.contact = {60.0, "nobody steers"};
+    grading::Verdict failed = verdict("too late or broken", false);
+    failed.first_violation = at_s(8);
+    Expectation asked = expectation(kind, 5);
+    asked.limit = seconds(20);
+    crash.expect(asked, failed);
+    EXPECT_FALSE(crash.passes()) << grading::name_of(kind);
+  }
 }
 
 }  // namespace

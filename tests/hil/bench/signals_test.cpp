@@ -8,6 +8,7 @@
 #include <set>
 
 #include "tests/hil/bench/flying_lap.hpp"
+#include "tests/support/instants.hpp"
 
 namespace pitwall::bench {
 namespace {
@@ -83,13 +84,12 @@ TEST(Signals, WhatAMonitorSeesIsKnownWhereTheCarIsInTheSameProcess) {
 TEST(Signals, TheLiveBenchRefusesWhatOnlyLockstepCanJudge) {
   scenario::Scenario s = lap().scenario;
   EXPECT_FALSE(unjudged_by(BenchMode::kLive, s));
-  s.expect.push_back({.kind = scenario::ExpectKind::kDetects,
-                      .signal = "seen_counter",
-                      .relation = "==",
-                      .value = 1.0,
-                      .from = seconds(1),
-                      .until = seconds(2),
-                      .place = "file.yaml:9:5"});
+  s.expect.push_back({.name = "file.yaml:9:5",
+                      .kind = grading::Kind::kDetects,
+                      .condition = {"seen_counter", grading::Op::kEqual, 1.0},
+                      .limit = seconds(1),
+                      .from = at_s(1),
+                      .to = at_s(2)});
   EXPECT_FALSE(unjudged_by(BenchMode::kLockstep, s));
   const auto problem = unjudged_by(BenchMode::kLive, s);
   ASSERT_TRUE(problem);
@@ -98,6 +98,12 @@ TEST(Signals, TheLiveBenchRefusesWhatOnlyLockstepCanJudge) {
   ASSERT_TRUE(expectations) << to_string(expectations.error());
   EXPECT_EQ(expectations->back().kind, grading::Kind::kDetects);
   EXPECT_EQ(expectations->back().limit, seconds(1));
+  s.expect.back() = {.name = "file.yaml:9:6",
+                     .kind = grading::Kind::kAfter,
+                     .condition = {"speed_mps", grading::Op::kLess, 1.0},
+                     .trigger = {"seen_counter", grading::Op::kEqual, 1.0},
+                     .limit = seconds(1)};
+  EXPECT_TRUE(unjudged_by(BenchMode::kLive, s)) << "the trigger";
 }
 
 TEST(Signals, LiveTheCarsOwnFileSaysWhatLooksInItsClouds) {
@@ -172,19 +178,15 @@ TEST(Signals, TheLimitOfTheGapIsThatOfTheCarFile) {
 TEST(Signals, AnExpectationOfAScenarioIsGradedInItsWindow) {
   scenario::Scenario s = lap().scenario;
   s.duration = seconds(50);
-  s.expect = {{.kind = scenario::ExpectKind::kWithin,
-               .signal = "speed_mps",
-               .relation = ">=",
-               .value = 12.5,
-               .from = seconds(10),
-               .until = seconds(30),
-               .place = "f.yaml:1:1"},
-              {.kind = scenario::ExpectKind::kNever,
-               .signal = "mode",
-               .relation = "==",
-               .value = 4.0,
-               .from = seconds(20),
-               .place = "f.yaml:2:1"}};
+  s.expect = {{.name = "f.yaml:1:1",
+               .kind = grading::Kind::kWithin,
+               .condition = {"speed_mps", grading::Op::kGreaterEqual, 12.5},
+               .from = at_s(10),
+               .to = at_s(30)},
+              {.name = "f.yaml:2:1",
+               .kind = grading::Kind::kNever,
+               .condition = {"mode", grading::Op::kEqual, 4.0},
+               .from = at_s(20)}};
   const auto rows = expectations_of(s);
   ASSERT_TRUE(rows);
   ASSERT_EQ(rows->size(), 2u);
@@ -201,27 +203,38 @@ TEST(Signals, AnExpectationOfAScenarioIsGradedInItsWindow) {
   EXPECT_EQ((*rows)[1].to, Instant{} + seconds(50)) << "no end means the end of the run";
 }
 
-TEST(Signals, AnUnknownSignalOrRelationIsRefusedWithItsPlace) {
+TEST(Signals, AnUnknownSignalIsRefusedWithItsPlace) {
   scenario::Scenario s = lap().scenario;
-  s.expect = {{.signal = "speed_of_light", .relation = "<", .value = 1, .place = "f.yaml:7:3"}};
+  s.expect = {{.name = "f.yaml:7:3", .condition = {"speed_of_light", grading::Op::kLess, 1.0}}};
   const auto signal = expectations_of(s);
   ASSERT_FALSE(signal);
   EXPECT_EQ(signal.error().place, "f.yaml:7:3");
   EXPECT_NE(signal.error().what.find("speed_of_light"), std::string::npos);
-  s.expect = {{.signal = "mode", .relation = "=>", .value = 1, .place = "f.yaml:8:3"}};
-  const auto relation = expectations_of(s);
-  ASSERT_FALSE(relation);
-  EXPECT_EQ(relation.error().place, "f.yaml:8:3");
+  s.expect = {{.name = "f.yaml:8:3",
+               .kind = grading::Kind::kUntil,
+               .condition = {"mode", grading::Op::kEqual, 2.0},
+               .release = {"speed_of_sound", grading::Op::kLess, 1.0},
+               .limit = seconds(1)}};
+  const auto release = expectations_of(s);
+  ASSERT_FALSE(release);
+  EXPECT_EQ(release.error().place, "f.yaml:8:3");
+  EXPECT_NE(release.error().what.find("speed_of_sound"), std::string::npos);
 }
 
-TEST(Signals, AWindowThatBeginsAfterTheRunIsRefused) {
+TEST(Signals, AWindowThatBeginsAfterTheRunOrIsTooShortIsRefused) {
   scenario::Scenario s = lap().scenario;
   s.duration = seconds(50);
-  s.expect = {
-      {.signal = "mode", .relation = "==", .value = 2, .from = seconds(60), .place = "f.yaml:9:3"}};
+  s.expect = {{.name = "f.yaml:9:3", .condition = {"mode", grading::Op::kEqual, 2.0}}};
+  s.expect[0].from = at_s(60);
   const auto rows = expectations_of(s);
   ASSERT_FALSE(rows) << "it could never be judged";
   EXPECT_EQ(rows.error().place, "f.yaml:9:3");
+  s.expect[0].from = at_s(45);
+  s.expect[0].kind = grading::Kind::kRate;
+  s.expect[0].span = seconds(5);
+  EXPECT_TRUE(expectations_of(s));
+  s.expect[0].span = seconds(6);
+  EXPECT_FALSE(expectations_of(s));
 }
 
 }  // namespace

@@ -155,6 +155,17 @@ TEST_F(RunVerb, OfARunThatIsCutTheRestIsNotJudgedAndTold) {
   expect_refusal({"run", kLaunchAndStop, "--cut"}, "--duration");
 }
 
+TEST_F(RunVerb, AReactionThatMightStillComeIsNotJudgedUnlessTheRunIsWhole) {
+  const auto judged = [&](const char* duration_s) {
+    const ProgramOutput output =
+        run({"run", "hil/scenarios/operator_stop.yaml", "--duration", duration_s, "--cut"});
+    EXPECT_EQ(output.code, 0) << output.out << output.err;
+    return output.out.find("PASS  after mode == 3") != std::string::npos;
+  };
+  EXPECT_FALSE(judged("40"));
+  EXPECT_TRUE(judged("70")) << "it has 70 s";
+}
+
 TEST_F(RunVerb, SeedAndDurationAreThoseOfTheLine) {
   const auto digest = [&](const std::vector<std::string>& more) {
     std::vector<std::string> words{"run", "hil/scenarios/lvms_flying_lap.yaml", "--cut", "--json",

@@ -5,121 +5,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <random>
 
 #include "protocol/vocabulary/units.hpp"
 #include "tests/hil/grading/infinity.hpp"
+#include "tests/hil/grading/judged.hpp"
 #include "tests/support/allocation_guard.hpp"
 #include "tests/support/instants.hpp"
 
 namespace pitwall::grading {
 namespace {
-
-const std::vector<std::string> kNames{"x", "y"};
-
-Expectation expect(Kind kind, Condition condition) {
-  Expectation e;
-  e.kind = kind;
-  e.condition = std::move(condition);
-  return e;
-}
-
-Grader grader_of(const Expectation& e) {
-  auto grader = Grader::create({e}, kNames);
-  EXPECT_TRUE(grader.has_value());
-  return *std::move(grader);
-}
-
-using Signal = std::function<double(double)>;
-
-// 100 Hz for `time_s` seconds.
-Verdict judge(
-    const Expectation& e, const Signal& x, double time_s = 10.0,
-    const Signal& y = [](double) { return 0.0; }) {
-  Grader grader = grader_of(e);
-  for (int i = 0; i * 0.01 <= time_s + 1e-9; ++i) {
-    const double values[] = {x(i * 0.01), y(i * 0.01)};
-    grader.observe(Instant{} + milliseconds(10) * i, values);
-  }
-  return grader.finish().at(0);
-}
-
-Expectation detection(Duration limit) {
-  Expectation e = expect(Kind::kDetects, {"x", Op::kEqual, 1.0});
-  e.from = at_s(5.0);
-  e.to = at_s(5.0) + limit;
-  e.limit = limit;
-  return e;
-}
-
-TEST(Grader, ADetectionIsMeasuredFromItsFault) {
-  for (const double delay_s : {0.01, 0.02, 0.05, 0.1}) {
-    const Verdict v = judge(detection(milliseconds(100)),
-                            [delay_s](double t) { return t >= 5.0 + delay_s - 1e-6 ? 1.0 : 0.0; });
-    EXPECT_TRUE(v.pass) << v.reason;
-    ASSERT_TRUE(v.delay);
-    EXPECT_NEAR(v.delay->seconds(), delay_s, 1e-9);
-  }
-  const Verdict late =
-      judge(detection(milliseconds(100)), [](double t) { return t >= 5.109 ? 1.0 : 0.0; });
-  EXPECT_FALSE(late.pass);
-  EXPECT_FALSE(late.delay);
-}
-
-TEST(Grader, WhatWasSeenBeforeAFaultIsNoDetection) {
-  const auto seen_at = [](double from_s, double to_s) {
-    return judge(detection(milliseconds(100)),
-                 [=](double t) { return (t > from_s && t < to_s) || t > 5.02 ? 1.0 : 0.0; });
-  };
-  EXPECT_FALSE(seen_at(4.995, 5.005).pass) << "the tick of the fault itself comes before it";
-  EXPECT_FALSE(seen_at(3.5, 3.6).pass);
-  EXPECT_TRUE(seen_at(2.5, 2.6).pass) << "longer ago than kQuiet";
-}
-
-TEST(Grader, ADetectionNeedsItsFault) {
-  Expectation e = detection(milliseconds(100));
-  e.from.reset();
-  EXPECT_FALSE(Grader::create({e}, kNames).has_value());
-}
-
-TEST(Grader, AlwaysHasTheLeastMarginOfTheRun) {
-  const Signal wave = [](double t) { return std::sin(t); };
-  const Verdict pass = judge(expect(Kind::kAlways, {"x", Op::kLess, 1.5}), wave);
-  EXPECT_TRUE(pass.pass) << pass.reason;
-  EXPECT_NEAR(pass.margin, 0.5, 1e-4);
-  EXPECT_FALSE(pass.first_violation.has_value());
-  const Verdict fail = judge(expect(Kind::kAlways, {"x", Op::kLess, 0.5}), wave);
-  EXPECT_FALSE(fail.pass);
-  EXPECT_NEAR(fail.margin, -0.5, 1e-4);
-  EXPECT_EQ(fail.first_violation, at_s(0.53));  // asin(0.5) = 0.5236
-}
-
-TEST(Grader, NeverIsAlwaysOfTheNegation) {
-  std::mt19937 engine{5};
-  for (int round = 0; round < 50; ++round) {
-    const double a = static_cast<double>(engine() % 100) / 50.0;
-    const double limit = static_cast<double>(engine() % 200) / 100.0;
-    const Signal x = [a](double t) { return a * std::sin(t); };
-    const Verdict never = judge(expect(Kind::kNever, {"x", Op::kGreater, limit}), x);
-    const Verdict always = judge(expect(Kind::kAlways, {"x", Op::kLessEqual, limit}), x);
-    EXPECT_EQ(never.pass, always.pass);
-    EXPECT_EQ(never.margin, always.margin);
-    EXPECT_EQ(never.first_violation, always.first_violation);
-  }
-}
-
-TEST(Grader, AnUndefinedValueSatisfiesNeitherAlwaysNorNever) {
-  const Signal hole = [](double t) { return t > 3.0 && t < 3.1 ? kUnset : 0.0; };
-  for (const Kind kind : {Kind::kAlways, Kind::kNever}) {
-    const double limit = kind == Kind::kAlways ? 1.0 : -1.0;
-    const Verdict v = judge(expect(kind, {"x", Op::kLess, limit}), hole);
-    EXPECT_FALSE(v.pass);
-    EXPECT_EQ(v.margin, -kInfinity);
-    EXPECT_EQ(v.undefined, 9U);
-    EXPECT_EQ(v.first_violation, at_s(3.01));
-  }
-}
 
 TEST(Grader, OnlyTheWindowCounts) {
   const Signal ramp = [](double t) { return t; };
@@ -146,103 +41,6 @@ TEST(Grader, AWindowThatTheRunNeverReachesFails) {
   }
 }
 
-TEST(Grader, WithinPassesUpToItsLimitAndKeepsTheTimeLeft) {
-  for (const double reached_s : {1.0, 3.99, 4.0, 4.01, 6.0}) {
-    Expectation e = expect(Kind::kWithin, {"x", Op::kGreaterEqual, 1.0});
-    e.limit = seconds(3);
-    e.from = at_s(1.0);
-    const Verdict v = judge(e, [&](double t) { return t > reached_s - 1e-9 ? 2.0 : 0.0; });
-    const bool in_time = reached_s <= 4.0;
-    EXPECT_EQ(v.pass, in_time) << reached_s;
-    EXPECT_DOUBLE_EQ(v.margin, in_time ? 1.0 : -1.0);
-    if (in_time) {
-      EXPECT_EQ(v.time_left, from_seconds(4.0 - reached_s));
-    } else {
-      EXPECT_EQ(v.first_violation, at_s(4.0));
-    }
-  }
-}
-
-TEST(Grader, WithinIsNotAcceptedWhenTheRunEndsTooEarly) {
-  Expectation e = expect(Kind::kWithin, {"x", Op::kGreater, 1.0});
-  e.limit = seconds(30);
-  EXPECT_FALSE(judge(e, [](double) { return 0.0; }).pass);
-}
-
-Expectation reaction(Duration limit) {
-  Expectation e = expect(Kind::kAfter, {"x", Op::kGreater, 0.5});
-  e.trigger = {"y", Op::kGreater, 0.5};
-  e.limit = limit;
-  return e;
-}
-
-TEST(Grader, AfterWaitsForTheTriggerAndAllowsTheLimit) {
-  const Signal trigger = [](double t) { return t > 2.0 - 1e-9 && t < 2.5 ? 1.0 : 0.0; };
-  for (const double answer_s : {2.0, 2.3, 3.0, 3.01}) {
-    const Verdict v = judge(
-        reaction(seconds(1)), [&](double t) { return t > answer_s - 1e-9 ? 1.0 : 0.0; }, 10.0,
-        trigger);
-    EXPECT_EQ(v.pass, answer_s <= 3.0) << answer_s;
-    EXPECT_EQ(v.triggers, 1U);
-  }
-}
-
-TEST(Grader, AfterFailsWhenTheTriggerNeverComes) {
-  const Verdict v = judge(reaction(seconds(1)), [](double) { return 1.0; });
-  EXPECT_FALSE(v.pass);
-  EXPECT_EQ(v.triggers, 0U);
-  EXPECT_EQ(v.reason, "the trigger never came");
-}
-
-TEST(Grader, AfterJudgesEveryRisingEdge) {
-  const Signal square = [](double t) { return std::fmod(t, 2.0) > 1.0 - 1e-9 ? 1.0 : 0.0; };
-  const Signal prompt = [&](double t) { return square(t - 0.3); };
-  const Verdict good = judge(reaction(milliseconds(500)), prompt, 9.9, square);
-  EXPECT_TRUE(good.pass) << good.reason;
-  EXPECT_EQ(good.triggers, 5U);
-  const Signal sleepy = [&](double t) { return t > 4.5 && t < 6.5 ? 0.0 : prompt(t); };
-  const Verdict bad = judge(reaction(milliseconds(500)), sleepy, 9.9, square);
-  EXPECT_FALSE(bad.pass);
-  EXPECT_EQ(bad.first_violation, at_s(5.5));
-}
-
-TEST(Grader, ALastTriggerWithoutTimeToAnswerCountsOnlyWhenItIsAlone) {
-  const Signal late = [](double t) { return t > 9.5 ? 1.0 : 0.0; };
-  const Signal never = [](double) { return 0.0; };
-  EXPECT_FALSE(judge(reaction(seconds(1)), never, 10.0, late).pass);
-  const Signal two = [&](double t) { return late(t) + (t > 1.0 && t < 2.0 ? 1.0 : 0.0); };
-  const Signal early = [](double t) { return t < 3.0 ? 1.0 : 0.0; };
-  EXPECT_TRUE(judge(reaction(seconds(1)), early, 10.0, two).pass);
-}
-
-TEST(Grader, AfterAgreesWithItsDefinition) {
-  // The oracle looks at the whole run at once.
-  std::mt19937 engine{21};
-  for (int round = 0; round < 300; ++round) {
-    std::vector<double> x, y;
-    for (int i = 0; i < 60; ++i) {
-      x.push_back(engine() % 6 == 0 ? 1.0 : 0.0);
-      y.push_back(engine() % 8 == 0 ? 1.0 : 0.0);
-    }
-    const int limit = 1 + static_cast<int>(engine() % 10);
-    bool violated = false, decided = false;
-    for (int i = 0; i < 60; ++i) {
-      const auto k = static_cast<std::size_t>(i);
-      if (y[k] < 0.5 || (i > 0 && y[k - 1] > 0.5)) continue;
-      bool answered = false;
-      for (int j = i; j <= std::min(i + limit, 59); ++j)
-        answered = answered || x[static_cast<std::size_t>(j)] > 0.5;
-      decided = decided || answered || i + limit < 59;
-      violated = violated || (!answered && i + limit < 59);
-    }
-    const auto sample = [](const std::vector<double>& v) {
-      return [&v](double t) { return v[static_cast<std::size_t>(std::lround(t * 100.0))]; };
-    };
-    const Verdict v = judge(reaction(milliseconds(10) * limit), sample(x), 0.59, sample(y));
-    ASSERT_EQ(v.pass, decided && !violated) << "round " << round << ": " << v.reason;
-  }
-}
-
 TEST(Grader, RefusesWhatCannotBeJudged) {
   const auto what = [](const Expectation& e) {
     const auto grader = Grader::create({expect(Kind::kAlways, {"x", Op::kLess, 1.0}), e}, kNames);
@@ -261,14 +59,42 @@ TEST(Grader, RefusesWhatCannotBeJudged) {
   e.from = at_s(2.0);
   e.to = at_s(1.0);
   EXPECT_NE(what(e), "");
+  e = expect(Kind::kUntil, {"x", Op::kLess, 1.0});
+  e.release = {"y", Op::kLess, 1.0};
+  EXPECT_EQ(what(e), "needs a time limit above zero");
+  e.limit = seconds(1);
+  EXPECT_EQ(what(e), "");
+  e.release.signal = "nowhere";
+  EXPECT_EQ(what(e), "unknown signal \"nowhere\"");
+  e = expect(Kind::kRate, {"x", Op::kLess, 1.0});
+  e.span = milliseconds(-1);
+  EXPECT_EQ(what(e), "its span is negative");
+  e = expect(Kind::kQuantile, {"x", Op::kLess, 1.0});
+  for (const double share : {kUnset, 0.0, 1.1}) {
+    e.share = share;
+    EXPECT_EQ(what(e), "needs a share above 0 and at most 1");
+  }
+  e.share = 1.0;
+  EXPECT_EQ(what(e), "");
+  e.condition.op = Op::kEqual;
+  EXPECT_EQ(what(e), "needs one of: < <= > >=");
 }
 
 TEST(Grader, ObservingDoesNotAllocate) {
-  Grader grader = grader_of(reaction(seconds(1)));
+  Expectation until = expect(Kind::kUntil, {"x", Op::kLess, 1.0});
+  until.release = {"y", Op::kGreater, 2.0};
+  until.limit = seconds(9);
+  Expectation rate = expect(Kind::kRate, {"x", Op::kLess, 1.0});
+  rate.span = milliseconds(200);
+  Expectation quantile = expect(Kind::kQuantile, {"x", Op::kLess, 1.0});
+  quantile.share = 0.99;
+  quantile.to = at_s(10.0);
+  auto grader = Grader::create({reaction(seconds(1)), until, rate, quantile}, kNames);
+  ASSERT_TRUE(grader);
   const double values[] = {0.0, 1.0};
   EXPECT_EQ(testing::allocations_of([&] {
               for (int i = 0; i < 1000; ++i)
-                grader.observe(Instant{} + milliseconds(10) * i, values);
+                grader->observe(Instant{} + milliseconds(10) * i, values);
             }),
             0U);
 }
@@ -295,6 +121,205 @@ TEST(Grader, AStandingIsOpenUntilSomethingWasSeenAndFailsForGood) {
   EXPECT_EQ(after(5.0, 0.0), (std::vector{kFailed, kHolds, kFailed}));
   for (std::size_t i = 0; const Verdict& verdict : grader->finish())
     EXPECT_EQ(verdict.pass, grader->expectation_states()[i++] == kHolds);
+}
+
+// Random expectations over random runs, with NaN and uneven ticks.
+class RandomRuns {
+ public:
+  Expectation expectation(Kind kind) {
+    Expectation e = expect(kind, condition("x"));
+    if (kind == Kind::kQuantile) e.condition.op = static_cast<Op>(any_of(4));
+    e.trigger = condition("y");
+    e.release = condition("y");
+    e.limit = milliseconds(10 + any_of(300));
+    e.span = milliseconds(any_of(3) * 20);
+    e.share = static_cast<double>(1 + any_of(100)) / 100.0;
+    e.from = at_ms(any_of(200));
+    if (kind == Kind::kDetects) e.from = at_ms(2'050 + any_of(100));
+    if (any_of(3) == 0) e.to = *e.from + milliseconds(1 + any_of(300));
+    return e;
+  }
+
+  // One value of x and y per tick; a run has up to 60.
+  std::vector<Tick> run(Kind kind) {
+    std::vector<Tick> ticks;
+    Instant at = at_ms(kind == Kind::kDetects ? 2'000 : 0);
+    for (std::int64_t i = any_of(60); i > 0; --i, at += milliseconds(1 + any_of(20)))
+      ticks.push_back({.at = at, .value = level(), .other = level()});
+    return ticks;
+  }
+
+ private:
+  std::int64_t any_of(std::int64_t count) { return static_cast<std::int64_t>(engine_()) % count; }
+  double level() { return any_of(40) == 0 ? kUnset : static_cast<double>(any_of(9)) * 0.25 - 1.0; }
+  Condition condition(const char* signal) {
+    return {signal, static_cast<Op>(any_of(6)), static_cast<double>(any_of(9)) * 0.25 - 1.0};
+  }
+
+  std::mt19937 engine_{11};
+};
+
+bool is_in_window(const Expectation& e, Instant at) {
+  return at >= *e.from && (!e.to || at <= *e.to);
+}
+
+struct Judged {
+  Verdict verdict;
+  bool is_failure_final = true;
+};
+
+Judged judged(const Expectation& e, const std::vector<Tick>& run) {
+  Grader grader = grader_of(e);
+  Judged out;
+  bool has_failed = false;
+  for (const Tick& tick : run) {
+    const double values[] = {tick.value, tick.other};
+    grader.observe(tick.at, values);
+    const bool failed = grader.expectation_states()[0] == ExpectationState::kFailed;
+    out.is_failure_final = out.is_failure_final && (failed || !has_failed);
+    has_failed = has_failed || failed;
+  }
+  out.verdict = grader.finish().at(0);
+  out.is_failure_final = out.is_failure_final && !(has_failed && out.verdict.pass);
+  EXPECT_EQ(out.verdict.pass, grader.expectation_states()[0] == ExpectationState::kHolds);
+  return out;
+}
+
+constexpr Kind kAllKinds[] = {Kind::kAlways,  Kind::kNever, Kind::kWithin, Kind::kAfter,
+                              Kind::kDetects, Kind::kUntil, Kind::kRate,   Kind::kQuantile};
+
+TEST(Grader, TheSignOfTheMarginIsTheVerdictForEveryKind) {
+  RandomRuns random;
+  for (const Kind kind : kAllKinds) {
+    std::size_t passed = 0, failed = 0;
+    for (int round = 0; round < 2'000; ++round) {
+      const Expectation e = random.expectation(kind);
+      const auto [verdict, is_failure_final] = judged(e, random.run(kind));
+      ASSERT_TRUE(is_failure_final) << to_string(e);
+      // What the run was too short for, or what held before its fault, says nothing by its margin.
+      const bool is_told =
+          verdict.reason != "it held before the fault began" && verdict.margin != kInfinity;
+      if (is_told && verdict.margin > 0.0) {
+        ASSERT_TRUE(verdict.pass) << to_string(e) << ": " << verdict.reason;
+      }
+      if (is_told && verdict.margin < 0.0) {
+        ASSERT_FALSE(verdict.pass) << to_string(e);
+      }
+      (verdict.pass ? passed : failed) += 1;
+    }
+    EXPECT_GT(passed, 50U) << name_of(kind);
+    EXPECT_GT(failed, 50U) << name_of(kind);
+  }
+}
+
+// Margin and verdict of the whole run at once, as the kinds are defined.
+struct Defined {
+  double margin;
+  bool pass;
+};
+
+Defined invariance(const Expectation& e, const std::vector<Tick>& ticks) {
+  const bool wanted = e.kind == Kind::kAlways;
+  Defined out{kInfinity, !ticks.empty()};
+  for (const Tick& tick : ticks) {
+    const double m = margin(e.condition, tick.value);
+    const bool undefined = std::isnan(tick.value);
+    out.margin = std::min(out.margin, undefined || wanted ? m : -m);
+    out.pass = out.pass && !undefined && holds(e.condition, tick.value) == wanted;
+  }
+  return out;
+}
+
+Defined existence(const Expectation& e, const std::vector<Tick>& ticks) {
+  Defined out{-kInfinity, false};
+  for (const Tick& tick : ticks) {
+    if (tick.at > *e.from + e.limit) continue;
+    out.margin = std::max(out.margin, margin(e.condition, tick.value));
+    out.pass = out.pass || holds(e.condition, tick.value);
+  }
+  return out;
+}
+
+Defined strong_until(const Expectation& e, const std::vector<Tick>& ticks) {
+  Defined out{-kInfinity, false};
+  for (std::size_t k = 0; k < ticks.size(); ++k) {
+    if (ticks[k].at > *e.from + e.limit) continue;
+    double robustness = margin(e.release, ticks[k].other);
+    bool holds_here = holds(e.release, ticks[k].other);
+    for (std::size_t j = 0; j < k; ++j) {
+      robustness = std::min(robustness, margin(e.condition, ticks[j].value));
+      holds_here = holds_here && holds(e.condition, ticks[j].value);
+    }
+    out.margin = std::max(out.margin, robustness);
+    out.pass = out.pass || holds_here;
+  }
+  return out;
+}
+
+Defined bounded_rate(const Expectation& e, const std::vector<Tick>& ticks) {
+  Defined out{kInfinity, true};
+  std::size_t compared = 0;
+  for (std::size_t k = 0; k < ticks.size(); ++k) {
+    const auto earlier =
+        std::find_if(ticks.rend() - static_cast<std::ptrdiff_t>(k), ticks.rend(),
+                     [&](const Tick& tick) { return ticks[k].at - tick.at >= e.span; });
+    if (earlier == ticks.rend() && !std::isnan(ticks[k].value)) continue;
+    ++compared;
+    const double rate = earlier == ticks.rend() ? kUnset
+                                                : std::abs(ticks[k].value - earlier->value) /
+                                                      (ticks[k].at - earlier->at).seconds();
+    out.margin = std::min(out.margin, margin(e.condition, rate));
+    out.pass = out.pass && holds(e.condition, rate);
+  }
+  out.pass = out.pass && compared > 0;
+  return out;
+}
+
+// The least value that at least this share of the values is not above.
+Defined share_quantile(const Expectation& e, const std::vector<Tick>& ticks) {
+  const bool upper = e.condition.op == Op::kLess || e.condition.op == Op::kLessEqual;
+  std::vector<double> values;
+  for (const Tick& tick : ticks)
+    values.push_back(!std::isnan(tick.value) ? tick.value : upper ? kInfinity : -kInfinity);
+  std::ranges::sort(values);
+  for (const double value : values) {
+    const auto not_above = std::ranges::count_if(values, [&](double v) { return v <= value; });
+    if (static_cast<double>(not_above) >= e.share * static_cast<double>(values.size()))
+      return {margin(e.condition, value), holds(e.condition, value)};
+  }
+  return {-kInfinity, false};
+}
+
+Defined by_definition(const Expectation& e, std::vector<Tick> ticks) {
+  std::erase_if(ticks, [&e](const Tick& tick) { return !is_in_window(e, tick.at); });
+  switch (e.kind) {
+    case Kind::kAlways:
+    case Kind::kNever:
+      return invariance(e, ticks);
+    case Kind::kUntil:
+      return strong_until(e, ticks);
+    case Kind::kRate:
+      return bounded_rate(e, ticks);
+    case Kind::kQuantile:
+      return share_quantile(e, ticks);
+    default:
+      return existence(e, ticks);
+  }
+}
+
+TEST(Grader, VerdictAndMarginAreThoseOfTheDefinition) {
+  RandomRuns random;
+  for (const Kind kind : kAllKinds) {
+    if (kind == Kind::kAfter || kind == Kind::kDetects) continue;  // with their own tests
+    for (int round = 0; round < 2'000; ++round) {
+      const Expectation e = random.expectation(kind);
+      const std::vector<Tick> run = random.run(kind);
+      const Verdict verdict = judged(e, run).verdict;
+      const Defined defined = by_definition(e, run);
+      ASSERT_EQ(verdict.margin, defined.margin) << to_string(e);
+      ASSERT_EQ(verdict.pass, defined.pass) << to_string(e) << ": " << verdict.reason;
+    }
+  }
 }
 
 }  // namespace

@@ -44,8 +44,8 @@ TEST(Scenario, ReadsEveryPart) {
   EXPECT_EQ(read->faults[0].unit, 1u);
   EXPECT_EQ(read->faults[0].lasts, seconds(2));
   ASSERT_EQ(read->expect.size(), 2u);
-  EXPECT_EQ(read->expect[1].kind, ExpectKind::kWithin);
-  EXPECT_EQ(read->expect[1].until, seconds(15));
+  EXPECT_EQ(read->expect[1].kind, grading::Kind::kWithin);
+  EXPECT_EQ(read->expect[1].to, Instant{} + seconds(15));
 }
 
 struct Wrong {
@@ -198,37 +198,6 @@ TEST(Scenario, EveryScenarioOfTheTreeIsReadable) {
   EXPECT_GE(count, 1);
 }
 
-std::string with_expectation(const std::string& expectation) {
-  std::string text = kGood;
-  text += "  - {" + expectation + "}\n";
-  return text;
-}
-
-TEST(Scenario, ADetectionCountsFromItsFault) {
-  const auto base = read_scenario(kGood, "good.yaml");
-  ASSERT_TRUE(base);
-  ASSERT_FALSE(base->faults.empty());
-  const auto read = read_scenario(
-      with_expectation("kind: detects, monitor: counter, within_s: 0.02"), "good.yaml");
-  ASSERT_TRUE(read) << to_string(read.error());
-  const Expectation& e = read->expect.back();
-  EXPECT_EQ(e.kind, ExpectKind::kDetects);
-  EXPECT_EQ(e.signal, "seen_counter");
-  EXPECT_EQ(e.from, base->faults[0].at);
-  EXPECT_EQ(e.until - e.from, milliseconds(20));
-  const auto reported = read_scenario(
-      with_expectation(
-          "kind: detects, signal: mode, is: \">=\", value: 3, fault: 1, within_s: 0.5"),
-      "good.yaml");
-  ASSERT_TRUE(reported) << to_string(reported.error());
-  EXPECT_EQ(reported->expect.back().relation, ">=");
-  for (const char* wrong :
-       {"kind: detects, monitor: counter, within_s: 0", "kind: detects, monitor: counter",
-        "kind: detects, monitor: counter, fault: 9, within_s: 1",
-        "kind: always, monitor: counter, within_s: 1"})
-    EXPECT_FALSE(read_scenario(with_expectation(wrong), "good.yaml")) << wrong;
-}
-
 TEST(Scenario, TheBusIsThatOfTheCarUnlessItIsNamed) {
   EXPECT_EQ(read_scenario(kGood, "good.yaml")->bus, BusRevision::kV14);
   for (const BusRevision bus :
@@ -276,22 +245,6 @@ TEST(Scenario, TheCamerasAreModelledUnlessTheyAreRendered) {
   EXPECT_EQ(read_scenario(kGood + "cameras: rendered\n", "good.yaml")->cameras,
             CameraKind::kRendered);
   EXPECT_FALSE(read_scenario(kGood + "cameras: eyes\n", "c.yaml"));
-}
-
-TEST(Expectation, OfATimeThatIsCutAwayIsNotShown) {
-  using enum ExpectKind;
-  for (const ExpectKind kind : {kAlways, kNever, kWithin, kDetects}) {
-    const bool at_once = kind == kWithin || kind == kDetects;
-    Expectation e;
-    e.kind = kind;
-    e.from = seconds(10);
-    e.until = seconds(15);
-    EXPECT_TRUE(is_shown_by(e, seconds(15)));
-    EXPECT_EQ(is_shown_by(e, seconds(14)), !at_once);
-    EXPECT_FALSE(is_shown_by(e, seconds(10)));
-    e.until = {};
-    EXPECT_TRUE(is_shown_by(e, seconds(11))) << "to the end, whenever that is";
-  }
 }
 
 TEST(Names, EveryFlagHasAName) {

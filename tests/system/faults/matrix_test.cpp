@@ -52,8 +52,8 @@ TEST(FaultMatrix, EveryFaultOfTheCatalogueHasAScenarioThatDetects) {
   for (const std::string& name : names()) {
     const auto scenario = loaded(name);
     ASSERT_TRUE(scenario) << to_string(scenario.error());
-    if (std::ranges::any_of(scenario->scenario.expect, [](const scenario::Expectation& e) {
-          return e.kind == scenario::ExpectKind::kDetects;
+    if (std::ranges::any_of(scenario->scenario.expect, [](const grading::Expectation& e) {
+          return e.kind == grading::Kind::kDetects;
         }))
       filled.insert(id_of(name));
   }

@@ -37,9 +37,10 @@ Result<Loaded, Problem> loaded(const std::string& name) {
 }
 
 // The expectation that says which rule stops the car, and by when.
-std::optional<scenario::Expectation> rule_of(const scenario::Scenario& scenario) {
-  for (const scenario::Expectation& e : scenario.expect)
-    if (e.kind == scenario::ExpectKind::kWithin && e.signal == "stop_cause" && e.relation == "==")
+std::optional<grading::Expectation> rule_of(const scenario::Scenario& scenario) {
+  for (const grading::Expectation& e : scenario.expect)
+    if (e.kind == grading::Kind::kWithin && e.condition.signal == "stop_cause" &&
+        e.condition.op == grading::Op::kEqual)
       return e;
   return std::nullopt;
 }
@@ -67,18 +68,19 @@ TEST(StopRules, EachOfThePapersHasAScenarioWithItsOwnDeadline) {
     ASSERT_TRUE(scenario) << to_string(scenario.error());
     const auto rule = rule_of(scenario->scenario);
     ASSERT_TRUE(rule) << name << ": does not say which rule stops the car";
-    const auto cause = static_cast<Cause>(static_cast<int>(rule->value));
+    const auto cause = static_cast<Cause>(static_cast<int>(rule->condition.number));
     const safety::CauseRow& row = safety::row_of(cause);
     EXPECT_TRUE(row.listed_in_paper) << name << ": " << row.text;
     EXPECT_TRUE(covered.emplace(cause, name).second) << name << ": a second one of its rule";
     const Duration extra = cause == Cause::kLocalizationUncertain ? kRefusal : Duration{};
-    EXPECT_LE(rule->until - rule->from, row.deadline + extra) << name;
-    EXPECT_TRUE(std::ranges::any_of(scenario->scenario.faults,
-                                    [&](const auto& fault) { return fault.at == rule->from; }))
+    EXPECT_LE(*rule->to - *rule->from, row.deadline + extra) << name;
+    EXPECT_TRUE(
+        std::ranges::any_of(scenario->scenario.faults,
+                            [&](const auto& fault) { return Instant{} + fault.at == rule->from; }))
         << name << ": no fault begins where the deadline does";
     for (const char* asked : {"contact", "wall_gap_m", "speed_mps"})
       EXPECT_TRUE(std::ranges::any_of(scenario->scenario.expect,
-                                      [&](const auto& e) { return e.signal == asked; }))
+                                      [&](const auto& e) { return e.condition.signal == asked; }))
           << name << ": " << asked;
   }
   for (const safety::CauseRow& row : safety::kCauseTable) {

@@ -12,7 +12,7 @@ TEST(LiveCar, WhatTheBenchDoesNotKnowIsRefusedBeforeTheBusIsOpened) {
   Trap trap;
   const LivePlan plan = trap.plan();
   scenario::Scenario wrong = lap().scenario;
-  wrong.expect[0].signal = "speed_of_light";
+  wrong.expect[0].condition.signal = "speed_of_light";
   const auto signal = LiveCar::open(wrong, lap().setup, plan, false);
   ASSERT_FALSE(signal);
   EXPECT_NE(to_string(signal.error()).find("speed_of_light"), std::string::npos);

@@ -138,7 +138,7 @@ TEST(Lockstep, ASnapshotOfTheCarGoesOnLikeTheCar) {
 
 TEST(Lockstep, WhatTheBenchDoesNotKnowIsRefusedWithItsPlace) {
   scenario::Scenario wrong = lap().scenario;
-  wrong.expect[0].signal = "speed_of_light";
+  wrong.expect[0].condition.signal = "speed_of_light";
   const auto signal = run_lockstep(wrong, lap().setup, {});
   ASSERT_FALSE(signal);
   EXPECT_NE(to_string(signal.error()).find("speed_of_light"), std::string::npos);

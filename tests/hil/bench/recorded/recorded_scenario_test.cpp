@@ -53,18 +53,18 @@ TEST(RecordedScenario, ExpectsTheModesTheSpeedAndTheLineWithTheirSlack) {
   const auto expect = read(facts()).expect;
   // Two changes, and not the one at the end; three modes that were not; two speeds; the line.
   ASSERT_EQ(expect.size(), 2U + 3U + 3U);
-  EXPECT_EQ(expect[0].kind, scenario::ExpectKind::kWithin);
-  EXPECT_EQ(expect[0].value, 1.0);
-  EXPECT_EQ(expect[0].from, Duration{});
-  EXPECT_EQ(expect[1].value, 2.0);
-  EXPECT_EQ(expect[1].from, seconds(8));
-  EXPECT_EQ(expect[1].until, seconds(10));
-  EXPECT_EQ(expect[2].kind, scenario::ExpectKind::kNever);
-  EXPECT_EQ(expect[2].value, 4.0);
-  EXPECT_EQ(expect[5].value, 18.0);
-  EXPECT_EQ(expect[6].value, 22.0);
-  EXPECT_EQ(expect[7].signal, "abs_cross_track_m");
-  EXPECT_EQ(expect[7].value, 0.75);
+  EXPECT_EQ(expect[0].kind, grading::Kind::kWithin);
+  EXPECT_EQ(expect[0].condition.number, 1.0);
+  EXPECT_EQ(expect[0].from, Instant{});
+  EXPECT_EQ(expect[1].condition.number, 2.0);
+  EXPECT_EQ(expect[1].from, Instant{} + seconds(8));
+  EXPECT_EQ(expect[1].to, Instant{} + seconds(10));
+  EXPECT_EQ(expect[2].kind, grading::Kind::kNever);
+  EXPECT_EQ(expect[2].condition.number, 4.0);
+  EXPECT_EQ(expect[5].condition.number, 18.0);
+  EXPECT_EQ(expect[6].condition.number, 22.0);
+  EXPECT_EQ(expect[7].condition.signal, "abs_cross_track_m");
+  EXPECT_EQ(expect[7].condition.number, 0.75);
 }
 
 TEST(RecordedScenario, AnOperatorTakesTheAuthorityBeforeItsFirstCommand) {

@@ -55,7 +55,7 @@ TEST(Catalogue, KnowsWhichBenchCanRunIt) {
   EXPECT_TRUE(row("log_disk_full").live);
   EXPECT_FALSE(row("receiver_vectornav").live);
   EXPECT_EQ(row("red_flag_stop").seed, 19U);
-  EXPECT_EQ(row("red_flag_stop").expect.size(), 6U);
+  EXPECT_EQ(row("red_flag_stop").expect.size(), 7U);
   EXPECT_EQ(row("red_flag_stop").description,
             "Red at full speed in a corner: a planned stop on the track that no fault calls for.");
 }

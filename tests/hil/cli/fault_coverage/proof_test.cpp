@@ -9,25 +9,28 @@
 namespace pitwall::fault_coverage {
 namespace {
 
-using scenario::ExpectKind;
+using grading::Kind, grading::Op;
 using world::Monitor;
 
-scenario::Expectation expectation(ExpectKind kind, const std::string& signal,
-                                  const std::string& relation, double value) {
-  return {.kind = kind, .signal = signal, .relation = relation, .value = value, .place = "here:1"};
+grading::Expectation expectation(Kind kind, const std::string& signal, Op op, double value) {
+  return {.name = "here:1", .kind = kind, .condition = {signal, op, value}};
 }
 
 TEST(Proof, WhatMonitorsSeeIsNoConsequence) {
-  EXPECT_FALSE(is_consequence(expectation(ExpectKind::kDetects, "seen_counter", "==", 1)));
-  EXPECT_FALSE(is_consequence(expectation(ExpectKind::kNever, "seen_clock", "==", 1)));
-  EXPECT_TRUE(is_consequence(expectation(ExpectKind::kNever, "mode", "==", 3)));
-  EXPECT_TRUE(is_consequence(expectation(ExpectKind::kDetects, "ct_state", "==", 10)));
+  EXPECT_FALSE(is_consequence(expectation(Kind::kDetects, "seen_counter", Op::kEqual, 1)));
+  EXPECT_FALSE(is_consequence(expectation(Kind::kNever, "seen_clock", Op::kEqual, 1)));
+  EXPECT_TRUE(is_consequence(expectation(Kind::kNever, "mode", Op::kEqual, 3)));
+  EXPECT_TRUE(is_consequence(expectation(Kind::kDetects, "ct_state", Op::kEqual, 10)));
+  grading::Expectation after = expectation(Kind::kAfter, "mode", Op::kEqual, 3);
+  EXPECT_TRUE(is_consequence(after));
+  after.trigger = {"seen_counter", Op::kEqual, 1};
+  EXPECT_FALSE(is_consequence(after)) << "what is asked for once a monitor sees something";
 }
 
 TEST(Proof, AScenarioAsksWithADetectionOnly) {
   scenario::Scenario scenario;
-  scenario.expect = {expectation(ExpectKind::kDetects, "seen_counter", "==", 1),
-                     expectation(ExpectKind::kNever, "seen_clock", "==", 1)};
+  scenario.expect = {expectation(Kind::kDetects, "seen_counter", Op::kEqual, 1),
+                     expectation(Kind::kNever, "seen_clock", Op::kEqual, 1)};
   EXPECT_TRUE(asks(scenario, Monitor::kCounter));
   EXPECT_FALSE(asks(scenario, Monitor::kClock));
 }

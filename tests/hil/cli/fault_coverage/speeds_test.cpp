@@ -21,16 +21,8 @@ scenario::Scenario racing() {
   out.race_control = {
       {.at = seconds(9), .track = world::TrackFlag::kYellow, .round_target_speed_mph = 60},
       {.at = seconds(10), .track = world::TrackFlag::kGreen, .round_target_speed_mph = 147}};
-  out.expect = {{.kind = scenario::ExpectKind::kAlways,
-                 .signal = "speed_mps",
-                 .relation = ">",
-                 .value = 30,
-                 .place = {}},
-                {.kind = scenario::ExpectKind::kAlways,
-                 .signal = "speed_mps",
-                 .relation = "<",
-                 .value = 0.5,
-                 .place = {}}};
+  out.expect = {{.condition = {"speed_mps", grading::Op::kGreater, 30.0}},
+                {.condition = {"speed_mps", grading::Op::kLess, 0.5}}};
   return out;
 }
 
@@ -41,13 +33,13 @@ TEST(Speeds, ATwinHasNoGreenFlagAndDrivesOnMoreSlowly) {
   ASSERT_TRUE(yellow);
   EXPECT_EQ(yellow->name, "f01_x@yellow");
   EXPECT_EQ(speed_of(*yellow), Speed::kYellow);
-  EXPECT_EQ(yellow->expect[0].value, kYellowOn_mps);
-  EXPECT_EQ(yellow->expect[1].value, 0.5) << "to stand is the same at every speed";
+  EXPECT_EQ(yellow->expect[0].condition.number, kYellowOn_mps);
+  EXPECT_EQ(yellow->expect[1].condition.number, 0.5) << "to stand is the same at every speed";
   EXPECT_TRUE(yellow->operator_texts.empty());
   const auto walking = at_speed(racing(), Speed::kWalking);
   ASSERT_TRUE(walking);
   EXPECT_EQ(speed_of(*walking), Speed::kWalking);
-  EXPECT_EQ(walking->expect[0].value, kWalksOn_mps);
+  EXPECT_EQ(walking->expect[0].condition.number, kWalksOn_mps);
   EXPECT_TRUE(std::ranges::is_sorted(walking->operator_texts, {}, &scenario::OperatorText::at));
   EXPECT_FALSE(at_speed(*yellow, Speed::kRacing)) << "nothing is made faster";
 }

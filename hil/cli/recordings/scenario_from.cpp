@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "hil/cli/recordings/scenario_verb.hpp"
+#include "hil/cli/recordings/scenario_from.hpp"
 
 #include <cstdio>
 #include <vector>
 
 #include "hil/bench/recorded/recorded_scenario.hpp"
-#include "hil/cli/command_line.hpp"
 #include "hil/cli/exit_code.hpp"
 #include "hil/scenario/scenario.hpp"
 #include "protocol/transport/file.hpp"
@@ -13,14 +12,7 @@
 namespace pitwall::cli {
 namespace {
 
-constexpr const char* kFrom = "from";
-
-struct ScenarioOptions {
-  std::string from, recording, out_file;
-  bench::RunFiles files;
-};
-
-Result<std::string, Problem> made_of(const ScenarioOptions& options) {
+Result<std::string, Problem> made_of(const ScenarioFromOptions& options) {
   auto run = bench::RecordedRun::open(options.recording);
   if (!run) return Unexpected{run.error()};
   std::vector<std::string> remarks;
@@ -40,18 +32,14 @@ Result<std::string, Problem> made_of(const ScenarioOptions& options) {
 
 }  // namespace
 
-int scenario_verb(std::span<const std::string> args) {
-  ScenarioOptions options;
-  CommandLine app{
-      "pitwall-hil scenario from RECORDING: a scenario of a car's own recording "
-      "(pitwall-vehicle --record), which `run` drives in a modelled world"};
-  app.option("from", options.from, "the word \"from\"").required();
-  app.option("RECORDING", options.recording, "folder of the black box, or a segment").required();
-  app.option("--car", options.files.car, "car file; default: the one that the recording names");
-  app.option("--track", options.files.track, "track file; likewise");
-  app.option("--out", options.out_file, "write it here; default: standard output");
-  if (const auto code = app.ended_by(args)) return *code;
-  if (options.from != kFrom) return refuse({options.from, "expected: scenario from RECORDING"});
+void add_options(CommandLine& verb, ScenarioFromOptions& options) {
+  verb.option("RECORDING", options.recording, "folder of the black box, or a segment").required();
+  verb.option("--car", options.files.car, "car file; default: the one that the recording names");
+  verb.option("--track", options.files.track, "track file; likewise");
+  verb.option("--out", options.out_file, "write it here; default: standard output");
+}
+
+int scenario_from(const ScenarioFromOptions& options) {
   const auto text = made_of(options);
   if (!text) return refuse(text.error());
   if (options.out_file.empty()) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "hil/cli/dbc_verb.hpp"
+#include "hil/cli/dbc/dbc_verb.hpp"
 
 #include <gtest/gtest.h>
 
