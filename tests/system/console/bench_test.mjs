@@ -39,7 +39,7 @@ test("a scenario is found, started with a seed and seen through to its verdict",
   const standings = await page.$$eval(".expectations li", (all) =>
     all.map((e) => e.dataset.standing),
   );
-  assert.deepEqual(standings, Array(6).fill("holds"));
+  assert.deepEqual(standings, Array(7).fill("holds"));
   const red = await page.$$eval('[aria-label="reactions"] tbody tr', (rows) =>
     [...rows].map((row) => [...row.children].map((cell) => cell.textContent)).at(-1),
   );
