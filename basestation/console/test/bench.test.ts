@@ -4,6 +4,7 @@
  */
 // SPDX-License-Identifier: Apache-2.0
 import { describe, expect, test } from "vitest";
+import { pageAddress } from "../src/pages/hil/bench_page";
 import { findScenarios, seedOf } from "../src/pages/hil/chooser";
 import { causeText } from "../src/pages/hil/contact";
 import { hasPassed, otherVerdicts } from "../src/pages/hil/sweeps";
@@ -34,6 +35,7 @@ const run = (number: number): BenchRun => ({
   by: "",
   stopped_by: null,
   why: null,
+  page: null,
   report: null,
   junit: null,
   log: null,
@@ -75,6 +77,7 @@ const sweep: BenchSweep = {
   refused: 0,
   crashed: 0,
   report: "out/sweeps/grip/report.html",
+  page: "sweeps/grip/report.html",
 };
 
 test("a sweep passed if every case did, and else says what the others came to", () => {
@@ -82,6 +85,13 @@ test("a sweep passed if every case did, and else says what the others came to", 
   expect(hasPassed({ ...sweep, passed: 9 })).toBe(true);
   expect(otherVerdicts(sweep)).toBe("2 failed, 1 contact");
   expect(otherVerdicts({ ...sweep, failed: 0, contact: 0 })).toBe("");
+});
+
+test("the address of a page is one of the base, whatever the bench names", () => {
+  expect(pageAddress(2, "sweeps/grip/report.html")).toBe("/bench/2/sweeps/grip/report.html");
+  expect(pageAddress(1, "a b/?x#y")).toBe("/bench/1/a%20b/%3Fx%23y");
+  for (const name of ["//elsewhere/x", "javascript:x", "https://elsewhere/"])
+    expect(new URL(pageAddress(1, name), "http://base").origin).toBe("http://base");
 });
 
 describe("what is kept of a server", () => {

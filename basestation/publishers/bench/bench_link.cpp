@@ -37,12 +37,17 @@ Result<bool, Problem> BenchLink::ask(const BenchRequest& run_request, std::uint8
   return true;
 }
 
+void BenchLink::ask_page(std::uint64_t request, const std::string& page) {
+  pages_.ask(request, page);
+}
+
 void BenchLink::publish(const service::CarService& car, Instant now) {
-  if (tried_ && now - polled_at_ < kPollPeriod) return;
+  if (tried_ && now - polled_at_ < period()) return;
   polled_at_ = now;
   real_ = car.link().source() == link::Station::Source::kCar;
   if (!up() && (!tried_ || now - *tried_ >= kRetry)) connect(now);
   if (socket_) receive(now);
+  serve_pages(now);
   if (!observer_.publish || (reported_ && now - *reported_ < kPublishPeriod)) return;
   reported_ = now;
   for (const Reported& reported : bench_.news()) observer_.publish(reported, now);
@@ -67,6 +72,12 @@ void BenchLink::connect(Instant now) {
 void BenchLink::receive(Instant now) {
   for (const std::string& line : socket_->receive()) {
     if (const auto taken = bench_.take(line); !taken) problem_ = to_string(taken.error());
+    if (const auto part = bench_.page_part()) {
+      if (const auto taken = pages_.take(*part); !taken) {
+        problem_ = to_string(taken.error());
+        ++unexpected_parts_;
+      }
+    }
     if (auto refused = bench_.refusal(); refused && observer_.refused)
       observer_.refused(asker_, *refused, now);
   }
@@ -76,6 +87,14 @@ void BenchLink::receive(Instant now) {
   problem_ = "the server closed the connection";
 }
 
+void BenchLink::serve_pages(Instant now) {
+  pages_.expire(now);
+  if (!up()) pages_.disconnect(kDown);
+  if (const auto line = pages_.next_line(now)) socket_->send(*line);
+  for (const PageAnswer& answer : pages_.answers())
+    if (observer_.page) observer_.page(answer);
+}
+
 std::string BenchLink::state_text() const {
   const char* const why = real_ ? kReal : up() ? "" : kDown;
   const std::uint64_t skipped = too_long_ + (socket_ ? socket_->counters().too_long : 0);
@@ -83,7 +102,7 @@ std::string BenchLink::state_text() const {
       .text("type", "bench")
       .flag("up", up())
       .json("problem", problem_.empty() ? "null" : json::quoted(problem_))
-      .number("malformed", bench_.counters().refused + skipped)
+      .number("malformed", bench_.counters().refused + unexpected_parts_ + skipped)
       .flag("may_start", *why == '\0')
       .json("why_not", *why == '\0' ? "null" : json::quoted(why))
       .str();

@@ -20,8 +20,8 @@ struct Shape {
   std::string_view type;
   std::vector<std::string_view> numbers, texts, lists;
 };
-const std::array<Shape, 9>& shapes() {
-  static const std::array<Shape, 9> kShapes{
+const std::array<Shape, 10>& shapes() {
+  static const std::array<Shape, 10> kShapes{
       {{"hello", {"protocol", "scenarios", "unreadable"}, {"server"}, {}},
        {"scenario", {}, {"id", "name"}, {"faults", "expect"}},
        {"run", {"run", "seed"}, {"state", "scenario", "name", "mode"}, {}},
@@ -30,6 +30,7 @@ const std::array<Shape, 9>& shapes() {
        {"at", {"run", "t_s"}, {}, {"cross_track", "expect", "reactions"}},
        {"result", {"run"}, {}, {"reactions"}},
        {"sweeps", {}, {}, {"sweeps"}},
+       {"page", {"from"}, {"page"}, {}},
        {"error", {}, {"place", "what"}, {}}}};
   return kShapes;
 }
@@ -71,6 +72,10 @@ Result<bool, Problem> BenchState::keep(const JsonValue& value, std::string_view 
   if (type == "hello") return keep_hello(value);
   if (type == "error") {
     refusal_ = Problem{"bench." + value.text("place"), value.text("what")};
+    return true;
+  }
+  if (type == "page") {
+    page_part_ = value;
     return true;
   }
   if (server_.empty()) return refuse("type", "expected hello first");

@@ -1,7 +1,8 @@
 // Newest state of a bench server for consoles: scenarios, sweeps and current run, line by line. The
 // protocol: hil/cli/bench_server/PROTOCOL.md.
 //   in     lines of the server; the start of a connection to it
-//   out    texts for consoles: states that replace each other, and a log of events
+//   out    texts for consoles: states that replace each other, and a log of events; parts of pages,
+//          which only who has asked for them gets
 //   invariants
 //          a line is taken whole or not at all. The server sends all its state to every new
 //          connection: events that are known already are not published again
@@ -45,6 +46,9 @@ class BenchState {
   // Returns and removes the server's newest refusal.
   std::optional<Problem> refusal() { return std::exchange(refusal_, std::nullopt); }
 
+  // Returns and removes the newest part of a page.
+  std::optional<json::JsonValue> page_part() { return std::exchange(page_part_, std::nullopt); }
+
   std::size_t scenarios() const { return scenarios_; }
   bool complete() const { return complete_; }  // all scenarios have been received
   const BenchCounters& counters() const { return counters_; }
@@ -66,6 +70,7 @@ class BenchState {
   std::size_t events_ = 0, events_again_ = 0;  // of this run: known, repeated by the server
   std::vector<Reported> news_;
   std::optional<Problem> refusal_;
+  std::optional<json::JsonValue> page_part_;
   BenchCounters counters_;
 };
 

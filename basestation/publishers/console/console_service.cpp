@@ -14,6 +14,15 @@ namespace {
 // wakes the loop again.
 constexpr std::size_t kNewsPerTurn = 32;
 
+constexpr unsigned kNotFound = 404, kUnavailable = 503;  // of HTTP
+constexpr const char* kNoBench = "this base knows of no bench server (--bench)";
+
+web::HttpAnswer http_answer_of(const bench::PageAnswer& answer) {
+  using enum bench::PageAnswer::Kind;
+  if (answer.kind == kPage) return web::page_of_bench(answer.text);
+  return web::refusal(answer.kind == kRefused ? kNotFound : kUnavailable, answer.text);
+}
+
 std::string catalogue_of(const service::CarService& car) {
   const alarms::Evaluator& evaluator = car.evaluator();
   return catalogue_text(
@@ -55,6 +64,9 @@ void ConsoleService::submit(service::CarService& car, Instant now) {
       case web::ClientEvent::Kind::kBinary:
         clients_.receive_binary(news->client);
         break;
+      case web::ClientEvent::Kind::kPage:
+        ask_page(news->request, news->text);
+        break;
     }
   }
 }
@@ -89,13 +101,17 @@ command::Request ConsoleService::with_second_person(const AskSend& ask) const {
 // The bench is no car: it takes an operator, and no authority.
 Result<bool, Problem> ConsoleService::ask_bench(const AskBench& ask, const command::Person& by,
                                                 Instant now) {
-  Result<bool, Problem> asked =
-      bench_ != nullptr ? bench_->ask(ask.run_request, by.console, by.name)
-                        : Result<bool, Problem>{Unexpected{
-                              Problem{"bench", "this base knows of no bench server (--bench)"}}};
+  Result<bool, Problem> asked = bench_ != nullptr
+                                    ? bench_->ask(ask.run_request, by.console, by.name)
+                                    : Result<bool, Problem>{Unexpected{Problem{"bench", kNoBench}}};
   car_.requests().note(by, text_of(ask.run_request),
                        asked ? "sent" : "refused: " + asked.error().what, now);
   return asked;
+}
+
+void ConsoleService::ask_page(std::uint64_t request, const std::string& page) {
+  if (bench_ != nullptr) return bench_->ask_page(request, page);
+  server_.answer(request, web::refusal(kNotFound, kNoBench));
 }
 
 void ConsoleService::attach(bench::BenchLink& bench) {
@@ -111,6 +127,10 @@ void ConsoleService::attach(bench::BenchLink& bench) {
                           car_.requests().note(clients_.person(client), "bench",
                                                "refused: " + problem.what, now);
                           clients_.send_error(client, problem);
+                        },
+                    .page =
+                        [this](const bench::PageAnswer& answer) {
+                          server_.answer(answer.request, http_answer_of(answer));
                         }});
 }
 

@@ -8,6 +8,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <string>
 #include <vector>
@@ -54,6 +55,7 @@ class ConsoleService : public service::Publisher, private StateSource {
 
   void execute(web::ClientId client, const Request& request, Instant now);
   Result<bool, Problem> ask_bench(const AskBench& ask, const command::Person& by, Instant now);
+  void ask_page(std::uint64_t request, const std::string& page);
   command::Request with_second_person(const AskSend& ask) const;
 
   ConsoleConfig config_;

@@ -70,6 +70,9 @@ void ReplayConsole::receive() {
       case web::ClientEvent::Kind::kBinary:
         clients_.receive_binary(news->client);
         break;
+      case web::ClientEvent::Kind::kPage:
+        server_.answer(news->request, web::refusal(404, "a replay has no bench server"));
+        break;
     }
   }
 }

@@ -52,6 +52,8 @@ std::vector<PlaybackControl> FoxgloveServer::receive() {
         control = clients_.receive_bytes(news->client, {bytes, news->text.size()});
         break;
       }
+      case web::ClientEvent::Kind::kPage:
+        break;  // HTTP has no pages at this port
     }
     if (control) asked.push_back(*std::move(control));
   }

@@ -16,7 +16,12 @@ namespace {
 constexpr unsigned kOk = 200, kNoContent = 204, kBad = 400, kNoToken = 401, kForbidden = 403,
                    kNotFound = 404, kNoMethod = 405, kTooLarge = 413, kNoRoom = 507;
 constexpr std::string_view kBearer = "Bearer ", kLayouts = "/api/layouts/",
-                           kSession = "/api/session";
+                           kSession = "/api/session", kBenchPages = "/bench/";
+// Scripts of the page run, in an origin of its own.
+constexpr std::string_view kPolicyOfBench =
+    "sandbox allow-scripts; default-src 'none'; style-src 'unsafe-inline'; "
+    "script-src 'unsafe-inline'; img-src data:; form-action 'none'; base-uri 'none'; "
+    "frame-ancestors 'none'";
 
 std::shared_ptr<const std::string> shared(std::string text) {
   return std::make_shared<const std::string>(std::move(text));
@@ -67,6 +72,16 @@ HttpAnswer refusal(unsigned status, std::string_view why) {
   answer.status = status;
   answer.body = shared(std::string{why} + "\n");
   answer.cache = "no-store";
+  answer.policy = "default-src 'none'";
+  return answer;
+}
+
+HttpAnswer page_of_bench(std::string html) {
+  HttpAnswer answer;
+  answer.type = type_of("index.html");
+  answer.body = shared(std::move(html));
+  answer.cache = "no-store";
+  answer.policy = kPolicyOfBench;
   return answer;
 }
 
@@ -100,7 +115,10 @@ void HttpResponder::show(const std::string& path, Shown document) {
 // Nothing: a number that is none, or of no car here.
 std::optional<std::size_t> HttpResponder::car_of(std::string_view target) const {
   if (target.find("?car=") == target.npos && target.find("&car=") == target.npos) return 0;
-  const std::string_view asked = query_value(target, "car");
+  return car_of_number(query_value(target, "car"));
+}
+
+std::optional<std::size_t> HttpResponder::car_of_number(std::string_view asked) const {
   int number = -1;
   const auto read = std::from_chars(asked.data(), asked.data() + asked.size(), number);
   if (read.ec != std::errc{} || read.ptr != asked.data() + asked.size()) return std::nullopt;
@@ -146,12 +164,13 @@ HttpAnswer HttpResponder::answer(const HttpQuestion& question) {
 
 Result<Identity, Refused> HttpResponder::visitor_of(const HttpQuestion& question,
                                                     std::string_view token) const {
-  return admit(config_.access,
-               {.host = question.host,
-                .origin = question.origin,
-                .token = token,
-                .session = session_of(question.cookie, port_)},
-               config_.utc());
+  std::string_view session = session_of(question.cookie, port_);
+  if (session.empty() && question.target.starts_with(kBenchPages))
+    session = page_session_of(question.cookie, port_);
+  return admit(
+      config_.access,
+      {.host = question.host, .origin = question.origin, .token = token, .session = session},
+      config_.utc());
 }
 
 // Who this browser is; logs in and out.
@@ -162,7 +181,7 @@ HttpAnswer HttpResponder::session(const HttpQuestion& question,
   answer.cache = "no-store";
   if (question.method == "DELETE") {
     answer.status = kNoContent;
-    answer.set_cookie = cookie_for(question, "");
+    answer.set_cookies = cookies_for(question, "");
     return answer;
   }
   if (question.method != "GET") {
@@ -190,15 +209,15 @@ HttpAnswer HttpResponder::log_in(const HttpQuestion& question) const {
   HttpAnswer answer;
   answer.status = kNoContent;
   answer.cache = "no-store";
-  answer.set_cookie = cookie_for(question, session);
+  answer.set_cookies = cookies_for(question, session);
   return answer;
 }
 
 // A proxy that says TLS for a request that had none makes a cookie that the browser keeps to TLS.
-std::string HttpResponder::cookie_for(const HttpQuestion& question,
-                                      std::string_view session) const {
-  return set_cookie(port_, config_.access.encrypted || question.forwarded_proto == "https",
-                    session);
+std::vector<std::string> HttpResponder::cookies_for(const HttpQuestion& question,
+                                                    std::string_view session) const {
+  const bool secure = config_.access.encrypted || question.forwarded_proto == "https";
+  return {set_cookie(port_, secure, session), set_page_cookie(port_, secure, kBenchPages, session)};
 }
 
 // Where a port of another protocol takes tokens.
@@ -215,7 +234,8 @@ std::string_view HttpResponder::token_of(const HttpQuestion& question,
 
 bool HttpResponder::is_console_file(const HttpQuestion& question, std::string_view path) const {
   return config_.subprotocols.empty() && !question.upgrade && path != "/ws" &&
-         !path.starts_with("/api/") && !config_.made.contains(path);
+         !path.starts_with("/api/") && !path.starts_with(kBenchPages) &&
+         !config_.made.contains(path);
 }
 
 // The first of those offered that is ours.
@@ -260,6 +280,7 @@ HttpAnswer HttpResponder::serve(const HttpQuestion& question, std::string_view p
     answer.allow = "GET, HEAD";
     return answer;
   }
+  if (path.starts_with(kBenchPages)) return bench_page(path.substr(kBenchPages.size()));
   if (const auto maker = config_.made.find(path); maker != config_.made.end()) {
     Shown made = maker->second();
     HttpAnswer answer;
@@ -275,6 +296,17 @@ HttpAnswer HttpResponder::serve(const HttpQuestion& question, std::string_view p
   answer.type = known->type;
   answer.body = known->text;
   return answer;
+}
+
+// "1/sweeps/grip/report.html": the number of the car, and the page.
+HttpAnswer HttpResponder::bench_page(std::string_view path) const {
+  const std::size_t slash = std::min(path.find('/'), path.size());
+  const auto car = car_of_number(path.substr(0, slash));
+  if (!car) return refusal(kNotFound, "this base has no car of that number");
+  HttpAnswer answer;
+  answer.car = *car;
+  answer.page = path.substr(std::min(slash + 1, path.size()));
+  return answer.page.empty() ? refusal(kNotFound, "expected the name of a page") : answer;
 }
 
 HttpAnswer HttpResponder::file(const HttpQuestion& question, std::string_view path) {

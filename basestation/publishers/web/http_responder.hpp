@@ -10,6 +10,7 @@
 //          a token comes in a header, or once in the body of a login, whose answer sets the session
 //          cookie; never in an address, which histories and logs keep. Only a port of another
 //          protocol takes it as its path
+//          a page of a bench, /bench/CAR/..., is asked for elsewhere, and served as a foreign page
 //   bound  kLayoutsMax layouts of kLayoutBytes, stored in the folder; without a folder, in memory
 //          until the base ends
 //   errors 204 no such layout stored, or no such document here; 400 not a layout, 401 token, 403
@@ -51,12 +52,13 @@ struct HttpAnswer {
   std::shared_ptr<const std::string> body;
   bool gzipped = false;
   std::string_view cache = "no-cache";
-  std::string policy;               // Content-Security-Policy
-  std::string set_cookie;           // of a login
-  std::string_view allow;           // of a 405
-  std::optional<Identity> visitor;  // not empty: upgrade this client to a WebSocket
-  std::size_t car = 0;              // of the visitor, in the order of the cars
-  std::string_view subprotocol{};   // of the WebSocket; empty: the console's own
+  std::string policy;                      // Content-Security-Policy
+  std::vector<std::string> set_cookies{};  // of a login
+  std::string_view allow;                  // of a 405
+  std::optional<Identity> visitor;         // not empty: upgrade this client to a WebSocket
+  std::size_t car = 0;                     // of the visitor or the page, in the order of the cars
+  std::string page{};  // not empty: the answer is this page of the car's bench, to be asked for
+  std::string_view subprotocol{};  // of the WebSocket; empty: the console's own
 };
 
 // JSON texts by path; an empty text is answered as "no such document".
@@ -116,13 +118,16 @@ class HttpResponder {
   HttpAnswer serve(const HttpQuestion& question, std::string_view path, const Identity& who);
   HttpAnswer session(const HttpQuestion& question, const Result<Identity, Refused>& who) const;
   HttpAnswer log_in(const HttpQuestion& question) const;
-  std::string cookie_for(const HttpQuestion& question, std::string_view session) const;
+  std::vector<std::string> cookies_for(const HttpQuestion& question,
+                                       std::string_view session) const;
   bool token_is_path() const;
   std::string_view token_of(const HttpQuestion& question, std::string_view path) const;
   bool is_console_file(const HttpQuestion& question, std::string_view path) const;
   HttpAnswer open_foreign(const HttpQuestion& question, std::string_view path,
                           const Identity& who) const;
+  HttpAnswer bench_page(std::string_view path) const;
   std::optional<std::size_t> car_of(std::string_view target) const;
+  std::optional<std::size_t> car_of_number(std::string_view number) const;
   const Document* document(std::string_view path, std::size_t car) const;
   HttpAnswer file(const HttpQuestion& question, std::string_view path);
   HttpAnswer layout(const HttpQuestion& question, std::string_view name, const Identity& who);
@@ -137,6 +142,8 @@ class HttpResponder {
 };
 
 HttpAnswer refusal(unsigned status, std::string_view why);
+// Page of a bench, foreign to the base: it cannot reach the base, its cookies or the network.
+HttpAnswer page_of_bench(std::string html);
 // Value of "name=" in the query; percent escapes are not decoded, because tokens have none.
 std::string_view query_value(std::string_view target, std::string_view name);
 

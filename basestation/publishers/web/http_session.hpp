@@ -45,6 +45,14 @@ class WebServer::Engine::HttpSession : public std::enable_shared_from_this<HttpS
     stream_.next_layer().socket().close(ignored);
   }
 
+  // Answers the request that has been read.
+  void finish(HttpAnswer answer) {
+    const auto& request = parser_->get();
+    if (answer.status >= 400) engine_.count([](WebCounters& c) { ++c.refused_http; });
+    write(std::move(answer), request.keep_alive(), request.version(),
+          request.method() == http::verb::head);
+  }
+
   void read() {
     parser_.emplace();
     parser_->body_limit(HttpResponder::kLayoutBytes);
@@ -109,9 +117,13 @@ class WebServer::Engine::HttpSession : public std::enable_shared_from_this<HttpS
       answer =
           refusal(503, "no connection is free: the base serves its largest number of consoles");
     }
-    if (answer.status >= 400) engine_.count([](WebCounters& c) { ++c.refused_http; });
-    write(std::move(answer), request.keep_alive(), request.version(),
-          request.method() == http::verb::head);
+    if (answer.page.empty()) return finish(std::move(answer));
+    if (engine_.awaiting.size() >= kPagesMax)
+      return finish(refusal(503, "too many pages are asked for at once; try again"));
+    const std::uint64_t number = ++engine_.newest_request;
+    engine_.awaiting[number] = shared_from_this();
+    engine_.publish(answer.car, Role::kViewer,
+                    {.kind = ClientEvent::Kind::kPage, .text = answer.page, .request = number});
   }
 
   void upgrade(ClientId client, HttpAnswer answer) {
@@ -133,7 +145,8 @@ class WebServer::Engine::HttpSession : public std::enable_shared_from_this<HttpS
     response_.set("Referrer-Policy", "no-referrer");
     response_.set("Cross-Origin-Resource-Policy", "same-origin");
     if (!answer.policy.empty()) response_.set("Content-Security-Policy", answer.policy);
-    if (!answer.set_cookie.empty()) response_.set(http::field::set_cookie, answer.set_cookie);
+    for (const std::string& cookie : answer.set_cookies)
+      response_.insert(http::field::set_cookie, cookie);
     if (!answer.allow.empty()) response_.set(http::field::allow, std::string{answer.allow});
     if (answer.gzipped) response_.set(http::field::content_encoding, "gzip");
     response_.set(http::field::vary, "Accept-Encoding");

@@ -104,7 +104,8 @@ struct WebServer::Engine {
   mutable std::mutex lock;
   std::array<EventQueues, kCars> queues;  // by car; from here on under the lock
   std::vector<Post> posts;
-  std::map<std::string, Shown> shown;  // documents not yet given to the responder
+  std::map<std::string, Shown> shown;           // documents not yet given to the responder
+  std::map<std::uint64_t, HttpAnswer> answers;  // by request, not yet given to its session
   bool post_under_way = false;
   WebCounters counters;
   std::map<std::pair<ClientId, std::uint32_t>, std::uint64_t> drops;  // by client and tag
@@ -124,7 +125,9 @@ struct WebServer::Engine {
   HttpResponder responder;
   std::optional<asio::ssl::context> context;
   asio::steady_timer housekeeping_timer, accepting;
-  std::array<std::shared_ptr<Socket>, 256> sockets{};  // by client
+  std::array<std::shared_ptr<Socket>, 256> sockets{};              // by client
+  std::map<std::uint64_t, std::shared_ptr<HttpSession>> awaiting;  // a page, by request
+  std::uint64_t newest_request = 0;
   std::thread thread;
 };
 

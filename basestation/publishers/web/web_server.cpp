@@ -139,9 +139,10 @@ void WebServer::Engine::publish(std::size_t car, Role by, ClientEvent item) {
   {
     const std::lock_guard hold(lock);
     auto& news = by == Role::kOperator ? queue.operators : queue.viewers;
-    // kUnhandled bounds what is said; joining and leaving is bounded by kConnections.
-    if (item.kind == ClientEvent::Kind::kLeft) queue.leaving.set(item.client);
-    if (news.size() < kNewsMax || item.kind == ClientEvent::Kind::kLeft)
+    // kUnhandled bounds what is said; kConnections bounds joining and leaving, kPagesMax pages.
+    using enum ClientEvent::Kind;
+    if (item.kind == kLeft) queue.leaving.set(item.client);
+    if (news.size() < kNewsMax || item.kind == kLeft || item.kind == kPage)
       news.push_back(std::move(item));
   }
   const std::uint64_t one = 1;
@@ -158,13 +159,18 @@ void WebServer::Engine::deliver() {
   if (!reserve_is_held()) drop_newest();
   std::vector<Post> due;
   std::map<std::string, Shown> fresh;
+  std::map<std::uint64_t, HttpAnswer> answered;
   {
     const std::lock_guard hold(lock);
     due.swap(posts);
     fresh.swap(shown);
+    answered.swap(answers);
     post_under_way = false;
   }
   for (auto& [path, document] : fresh) responder.show(path, std::move(document));
+  for (auto& [request, answer] : answered) {
+    if (const auto session = awaiting.extract(request)) session.mapped()->finish(std::move(answer));
+  }
   for (const Post& post : due) {
     for (std::size_t client = kFirstClient; client <= kLastClient; ++client) {
       if (!post.to.test(client)) continue;
@@ -236,6 +242,7 @@ WebServer::~WebServer() {
   engine_->io.stop();
   engine_->thread.join();
   engine_->sockets = {};
+  engine_->awaiting = {};
 }
 
 UdpAddress WebServer::local() const {
@@ -282,6 +289,12 @@ void WebServer::send(const ClientSet& to, SharedMessage message) {
 void WebServer::show(const std::string& path, Shown document) {
   const std::lock_guard hold(engine_->lock);
   engine_->shown.insert_or_assign(path, std::move(document));
+  engine_->call();
+}
+
+void WebServer::answer(std::uint64_t request, HttpAnswer answer) {
+  const std::lock_guard hold(engine_->lock);
+  engine_->answers.insert_or_assign(request, std::move(answer));
   engine_->call();
 }
 

@@ -37,11 +37,12 @@
 namespace pitwall::publishers::web {
 
 struct ClientEvent {
-  enum class Kind : std::uint8_t { kJoined, kLeft, kText, kBinary };
+  enum class Kind : std::uint8_t { kJoined, kLeft, kText, kBinary, kPage };
   Kind kind = Kind::kJoined;
   ClientId client = 0;
-  Identity who{};      // kJoined
-  std::string text{};  // kText, kBinary
+  Identity who{};             // kJoined
+  std::string text{};         // kText, kBinary; kPage: the page of a bench
+  std::uint64_t request = 0;  // kPage: to be answered by answer()
 };
 
 // Tagged bytes that a client lost because it did not read.
@@ -75,6 +76,7 @@ class WebServer {
   static constexpr std::size_t kUnhandled = 16;  // pending requests of one client
   static constexpr std::size_t kCars = 4;
   static constexpr std::size_t kPostsMax = 4'096;  // messages that wait for the web thread
+  static constexpr std::size_t kPagesMax = 16;     // pages of a bench that are awaited
 
   static Result<std::unique_ptr<WebServer>, Problem> start(UdpAddress listen, HttpConfig config);
   ~WebServer();
@@ -89,6 +91,8 @@ class WebServer {
   // Replaces the document of this path, or adds one.
   void show(const std::string& path, Shown document);
   void send(const ClientSet& to, SharedMessage message);
+  // Answers a request for a page.
+  void answer(std::uint64_t request, HttpAnswer answer);
   WebCounters counters() const;
   // Tagged bytes lost since the last call.
   std::vector<Drop> take_drops();

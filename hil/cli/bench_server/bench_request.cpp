@@ -25,6 +25,14 @@ Result<BenchRequest, Problem> start_request(const json::JsonValue& value, std::s
   return BenchRequest{request};
 }
 
+Result<BenchRequest, Problem> page_request(const json::JsonValue& value) {
+  const double from = value.number("from");
+  if (!(from >= 0.0 && from <= static_cast<double>(kMaxPageBytes)) || from != std::floor(from))
+    return refuse("from", "expected a whole number from 0 to " + std::to_string(kMaxPageBytes));
+  return BenchRequest{
+      PageRequest{.page = value.text("page"), .from = static_cast<std::size_t>(from)}};
+}
+
 }  // namespace
 
 Result<BenchRequest, Problem> parse_request(std::string_view line) {
@@ -36,7 +44,8 @@ Result<BenchRequest, Problem> parse_request(std::string_view line) {
   const std::string action = value->text("do");
   if (action == "start") return start_request(*value, std::move(by));
   if (action == "stop") return BenchRequest{StopRunRequest{std::move(by)}};
-  return refuse("do", "expected one of: start, stop");
+  if (action == "page") return page_request(*value);
+  return refuse("do", "expected one of: start, stop, page");
 }
 
 }  // namespace pitwall::bench_server

@@ -6,6 +6,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -18,6 +19,7 @@ namespace pitwall::bench_server {
 
 inline constexpr std::uint64_t kSeedMax = 1'000'000'000;  // same limit as `run --seed`
 inline constexpr std::size_t kNameMax = 200;
+inline constexpr std::size_t kMaxPageBytes = 4 << 20;
 
 struct StartRunRequest {
   std::string scenario;
@@ -28,7 +30,12 @@ struct StartRunRequest {
 struct StopRunRequest {
   std::string by;
 };
-using BenchRequest = std::variant<StartRunRequest, StopRunRequest>;
+// The next part of a page (page_files.hpp).
+struct PageRequest {
+  std::string page;
+  std::size_t from = 0;  // byte
+};
+using BenchRequest = std::variant<StartRunRequest, StopRunRequest, PageRequest>;
 
 Result<BenchRequest, Problem> parse_request(std::string_view line);
 

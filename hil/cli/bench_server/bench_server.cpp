@@ -90,6 +90,8 @@ Answer BenchServer::receive(std::string_view line) {
   const auto request = parse_request(line);
   if (!request) return refuse(request.error());
   if (const auto* const begin = std::get_if<StartRunRequest>(&*request)) return start(*begin);
+  if (const auto* const page = std::get_if<PageRequest>(&*request))
+    return {.to_asker = {}, .to_all = {}, .start = {}, .page = *page};
   return stop(std::get<StopRunRequest>(*request));
 }
 
@@ -191,6 +193,16 @@ std::vector<std::string> BenchServer::ended(const Ending& ending) {
   return {run_text()};
 }
 
+std::string BenchServer::page_refused(const PageRequest& request, const Problem& problem) {
+  ++counters_.refused;
+  return Object{}
+      .text("type", "page")
+      .text("page", request.page)
+      .number("from", request.from)
+      .text("problem", to_string(problem))
+      .str();
+}
+
 std::vector<std::string> BenchServer::swept(std::string line) {
   if (line == sweeps_) return {};
   sweeps_ = std::move(line);
@@ -216,6 +228,7 @@ std::string BenchServer::run_text() const {
       .json("why", text_or_null(run.why))
       .json("exit", number_or_null(&Ending::code))
       .json("signal", number_or_null(&Ending::signal))
+      .json("page", text_or_null(run.ending ? run.ending->page : ""))
       .json("report", text_or_null(file.empty() ? "" : file + "report.html"))
       .json("junit", text_or_null(file.empty() ? "" : file + "junit.xml"))
       .json("log", text_or_null(file.empty() ? "" : file + "events.mcap"))

@@ -37,6 +37,7 @@ struct Answer {
   std::vector<std::string> to_asker, to_all;
   std::optional<Start> start;
   bool stop = false;
+  std::optional<PageRequest> page = {};  // to be read for who asks
 };
 
 struct BenchServerCounters {
@@ -47,6 +48,7 @@ struct BenchServerCounters {
 // How a process ended: exit code, or the signal that ended it.
 struct Ending {
   int code = 0, signal = 0;
+  std::string page = {};  // of the run, as clients ask for it; empty: it has left none
 };
 
 class BenchServer {
@@ -66,10 +68,13 @@ class BenchServer {
   // Takes one progress line of the run; returns no line if it is malformed.
   std::vector<std::string> progressed(std::string_view line);
   std::vector<std::string> ended(const Ending& ending);
+  // Line for the client that asked for a page.
+  std::string page_refused(const PageRequest& request, const Problem& problem);
   // Takes the sweeps that there are (sweep_list.hpp); returns no line if they are as before.
   std::vector<std::string> swept(std::string line);
 
   bool running() const { return run_ && run_->state == "running"; }
+  std::uint64_t run() const { return runs_; }  // number of the newest one
   const std::vector<Listed>& scenarios() const { return scenarios_; }
   const BenchServerCounters& counters() const { return counters_; }
 

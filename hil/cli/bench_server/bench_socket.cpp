@@ -21,6 +21,7 @@ constexpr const char* kFull = R"({"type": "error", "place": "server", "what": "t
 BenchSocket::BenchSocket(ServerPlan plan, std::vector<Listed> scenarios,
                          transport::LineListener listener)
     : plan_(std::move(plan)),
+      pages_{.runs = plan_.runs, .sweeps = plan_.sweeps},
       server_(std::move(scenarios), "server " + std::to_string(transport::monotonic_now().ns)),
       listener_(std::move(listener)) {}
 
@@ -70,12 +71,22 @@ void BenchSocket::receive() {
       const Answer answer = server_.receive(line);
       for (const std::string& reported : answer.to_asker) client.send(reported);
       publish(answer.to_all);
+      if (answer.page) client.send(page_answer(*answer.page));
       if (answer.start) begin(*answer.start);
-      if (!answer.stop || !running_) continue;
-      running_->process.kill(SIGTERM);
-      running_->kill_at = transport::monotonic_now() + kStopLimit;
+      if (answer.stop) stop_run();
     }
   }
+}
+
+void BenchSocket::stop_run() {
+  if (!running_) return;
+  running_->process.kill(SIGTERM);
+  running_->kill_at = transport::monotonic_now() + kStopLimit;
+}
+
+std::string BenchSocket::page_answer(const PageRequest& request) {
+  const auto line = page_line(pages_, request);
+  return line ? *line : server_.page_refused(request, line.error());
 }
 
 void BenchSocket::begin(const Start& start) {
@@ -83,7 +94,9 @@ void BenchSocket::begin(const Start& start) {
   const std::string progress = folder + "/progress.jsonl";
   std::error_code error;
   std::filesystem::create_directories(folder, error);
-  std::filesystem::remove(progress, error);
+  // A server that was here before may have left a run of this number.
+  for (const std::string& file : {progress, folder + "/report.html"})
+    if (!error) std::filesystem::remove(file, error);
   if (error) return publish(server_.not_started({folder, error.message()}));
   auto process = transport::Process::spawn(
       {.argv = plan_.command(start, folder, progress), .own_group = true});
@@ -104,13 +117,16 @@ void BenchSocket::follow_run(Instant now) {
   } while (status && !lines.empty());
   if (!status) return;
   running_.reset();
-  publish(server_.ended({.code = status->code, .signal = status->signal}));
+  const std::string page = page_of_run(std::to_string(server_.run()));
+  publish(server_.ended({.code = status->code,
+                         .signal = status->signal,
+                         .page = has_page(pages_, page) ? page : ""}));
 }
 
 void BenchSocket::follow_sweeps(Instant now) {
   if (now < sweeps_due_) return;
   sweeps_due_ = now + kSweepsPeriod;
-  publish(server_.swept(sweeps_line(plan_.sweeps)));
+  publish(server_.swept(sweeps_line(pages_)));
 }
 
 void BenchSocket::publish(const std::vector<std::string>& lines) {

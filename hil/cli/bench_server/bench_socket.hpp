@@ -1,7 +1,7 @@
 // Socket of the bench server: serves clients and runs each scenario as a child process.
 //   in     socket path; the command that runs a scenario; the output folder of the runs; the folder
 //          of sweeps, which is read again every kSweepsPeriod
-//   out    messages of PROTOCOL.md
+//   out    messages of PROTOCOL.md, pages among them
 //   invariants
 //          each run is a process of its own: its crash does not affect the server and its clients.
 //          It ends with the server, however that ends
@@ -18,6 +18,7 @@
 #include <vector>
 
 #include "hil/cli/bench_server/bench_server.hpp"
+#include "hil/cli/bench_server/page_files.hpp"
 #include "hil/cli/bench_server/progress_tail.hpp"
 #include "protocol/transport/process.hpp"
 #include "protocol/transport/stream/line_socket.hpp"
@@ -62,9 +63,12 @@ class BenchSocket {
   void follow_run(Instant now);
   void follow_sweeps(Instant now);
   void begin(const Start& start);
+  void stop_run();
+  std::string page_answer(const PageRequest& request);
   void publish(const std::vector<std::string>& lines);
 
   ServerPlan plan_;
+  PageFolders pages_;
   BenchServer server_;
   transport::LineListener listener_;
   std::list<transport::LineSocket> clients_;

@@ -17,7 +17,7 @@ namespace {
 namespace fs = std::filesystem;
 
 // Empty for a folder without a whole summary.
-std::string row_of(const fs::path& sweep) {
+std::string row_of(const PageFolders& folders, const fs::path& sweep) {
   const auto text = transport::read_file((sweep / "summary.json").string(), kMaxSummaryBytes);
   if (!text) return {};
   const auto summary = json::JsonValue::parse(*text, "summary");
@@ -28,21 +28,25 @@ std::string row_of(const fs::path& sweep) {
     if (!std::isfinite(summary->number(count))) return {};
     row.number(count, summary->number(count));
   }
-  return row.text("report", (sweep / "report.html").string()).str();
+  const std::string page = page_of_sweep(sweep.filename().string());
+  return row.text("report", (sweep / "report.html").string())
+      .json("page", has_page(folders, page) ? json::quoted(page) : "null")
+      .str();
 }
 
 }  // namespace
 
-std::string sweeps_line(const std::string& folder) {
+std::string sweeps_line(const PageFolders& folders) {
   std::vector<fs::path> sweeps;
   std::error_code error;
-  for (fs::directory_iterator at{folder, error}, end; !error && at != end; at.increment(error))
+  for (fs::directory_iterator at{folders.sweeps, error}, end; !error && at != end;
+       at.increment(error))
     if (at->is_directory(error)) sweeps.push_back(at->path());
   std::ranges::sort(sweeps);
   json::Array rows;
   std::size_t listed = 0, bytes = 0;
   for (const fs::path& sweep : sweeps) {
-    const std::string row = row_of(sweep);
+    const std::string row = row_of(folders, sweep);
     bytes += row.size();
     if (row.empty()) continue;
     if (++listed > kMaxSweeps || bytes > kMaxListBytes) break;

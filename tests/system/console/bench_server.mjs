@@ -2,7 +2,7 @@
  * A real bench server beside the base of a test, and how its run stands on a page.
  */
 // SPDX-License-Identifier: Apache-2.0
-import { spawn } from "node:child_process";
+import { execFileSync, spawn } from "node:child_process";
 import { cpSync, mkdirSync, readFileSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { kRoot } from "./packages.mjs";
@@ -13,8 +13,8 @@ const kCopied = ["launch_and_stop.yaml", "red_flag_stop.yaml"];
 /** And the one of writeParked(). */
 export const kScenarios = [...kCopied, "parked_car.yaml"];
 
-/** A sweep that has ended, as the bench leaves it. */
-const kSweep = {
+/** Of a sweep that has ended and whose page is gone. */
+const kSummary = {
   name: "grip_and_wind",
   scenario: "hil/scenarios/grip_low.yaml",
   cases: 200,
@@ -39,6 +39,30 @@ function writeParked(path) {
   );
 }
 
+export const sweepsOf = (programs) => join(programs.folder, "sweeps");
+
+/** A real sweep of two cases, of which one fails and has a page. */
+export function sweepRoundSpeed(programs) {
+  const plan = join(programs.folder, "round_speed.yaml");
+  writeFileSync(
+    plan,
+    `schema: 1
+name: round_speed
+scenario: hil/scenarios/launch_and_stop.yaml
+seed: 1
+combine: all
+parameters:
+  - {path: "race_control[3].round_target_speed_mph", values: [60, 80]}
+`,
+  );
+  const out = join(sweepsOf(programs), "round_speed");
+  try {
+    execFileSync(kBench, ["sweep", plan, "--out", out, "--pages", "1"], { cwd: kRoot });
+  } catch (failed) {
+    if (failed.status !== 1) throw failed; // 1: a case failed
+  }
+}
+
 export const socketOf = (programs) => join(programs.folder, "server");
 
 /** As `bench` of the test's programs, so that it ends with them. */
@@ -48,9 +72,9 @@ export function startBenchServer(programs, ...more) {
   for (const name of kCopied) cpSync(join(kRoot, "hil/scenarios", name), join(scenarios, name));
   writeParked(join(scenarios, "parked_car.yaml"));
   const runs = join(programs.folder, "runs");
-  const sweeps = join(programs.folder, "sweeps");
+  const sweeps = sweepsOf(programs);
   mkdirSync(join(sweeps, "grip"), { recursive: true });
-  writeFileSync(join(sweeps, "grip/summary.json"), JSON.stringify(kSweep));
+  writeFileSync(join(sweeps, "grip/summary.json"), JSON.stringify(kSummary));
   programs.bench = spawn(
     kBench,
     [

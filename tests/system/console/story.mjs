@@ -246,6 +246,18 @@ export function bench() {
     problem: null,
     ...more,
   });
+  const sweep = (name, counts) => ({
+    name,
+    scenario: "hil/scenarios/red_flag_stop.yaml",
+    cases: 200,
+    failed: 0,
+    contact: 0,
+    refused: 0,
+    crashed: 0,
+    report: `out/sweeps/${name}/report.html`,
+    page: `sweeps/${name}/report.html`,
+    ...counts,
+  });
   const expect = [
     "within 28 s: speed_mps > 55, from 10 s",
     "always wall_gap_m > 0.5",
@@ -264,6 +276,13 @@ export function bench() {
       scenario("spoilt", "", { problem: "spoilt.yaml:4:7: error: not a number", duration_s: null }),
       scenario("wheel_speeds_lost", "Wheel speeds end at speed.", { lockstep: false }),
     ]),
+    of("sweeps", {
+      type: "sweeps",
+      sweeps: [
+        sweep("grip_and_wind", { passed: 197, failed: 2, contact: 1 }),
+        sweep("launch_delays", { passed: 200 }),
+      ],
+    }),
     of("run", {
       type: "run",
       run: 4,
@@ -275,6 +294,7 @@ export function bench() {
       by: "console 16",
       stopped_by: null,
       why: null,
+      page: null,
       report: "out/bench/4/report.html",
       junit: "out/bench/4/junit.xml",
       log: "out/bench/4/events.mcap",
@@ -362,7 +382,7 @@ export function contactRun() {
         },
       },
     }),
-    of("run", { ...run, state: "contact" }),
+    of("run", { ...run, state: "contact", page: "runs/4/report.html" }),
   ];
 }
 

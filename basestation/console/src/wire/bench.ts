@@ -41,6 +41,8 @@ export interface BenchRun {
   by: string;
   stopped_by: string | null;
   why: string | null;
+  /** By which the base serves the report; null: there is none. */
+  page: string | null;
   report: string | null;
   junit: string | null;
   log: string | null;
@@ -144,7 +146,7 @@ export interface BenchResult {
   result?: { car_contact?: CarContact | null };
 }
 
-/** Of a sweep that has ended: how many of its cases had each verdict, and the file of its page. */
+/** Of a sweep that has ended: how many of its cases had each verdict, and its page. */
 export interface BenchSweep {
   name: string;
   scenario: string;
@@ -155,6 +157,8 @@ export interface BenchSweep {
   refused: number;
   crashed: number;
   report: string;
+  /** By which the base serves the report; null: there is none. */
+  page: string | null;
 }
 
 export interface OfServer<T> {

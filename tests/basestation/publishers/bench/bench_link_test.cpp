@@ -26,13 +26,15 @@ struct Both {
   std::optional<transport::LineSocket> server;
   std::vector<Reported> reported;
   std::vector<std::pair<int, std::string>> refused;
+  std::vector<PageAnswer> pages;
   Instant now{seconds(50).ns};
 
   Both() {
     link.observe_by(
         {.publish = [this](const Reported& one, Instant) { reported.push_back(one); },
          .refused = [this](std::uint8_t client, const Problem& problem,
-                           Instant) { refused.emplace_back(client, to_string(problem)); }});
+                           Instant) { refused.emplace_back(client, to_string(problem)); },
+         .page = [this](const PageAnswer& answer) { pages.push_back(answer); }});
   }
   void pass(Duration span) {
     for (Duration done{}; done < span; done = done + BenchLink::kPollPeriod) {
@@ -122,6 +124,35 @@ TEST(BenchLink, NonsenseOfADeskIsCountedAndItGoesOn) {
   both.pass(seconds(1));
   EXPECT_EQ(both.state().number("malformed"), 2.0);
   EXPECT_EQ(both.link.bench().counters().taken, 2U);
+}
+
+TEST(BenchLink, APageComesFromTheServerPartByPart) {
+  Both both;
+  both.link.ask_page(3, "runs/1/report.html");
+  both.pass(BenchLink::kPollPeriod);
+  ASSERT_EQ(both.pages.size(), 1U) << "there is no server";
+  EXPECT_EQ(both.pages[0].text, "the bench server is not there");
+  both.open();
+  EXPECT_EQ(both.link.due(), both.now + BenchLink::kPollPeriod);
+  both.link.ask_page(4, "runs/1/report.html");
+  EXPECT_EQ(both.link.due(), both.now + BenchLink::kPagePeriod) << "it is not kept waiting";
+  for (const char* part :
+       {R"({"type": "page", "page": "runs/1/report.html", "from": 0, "next": 2, "bytes": 3,)"
+        R"("text": "<p"})",
+        R"({"type": "page", "page": "runs/1/report.html", "from": 2, "next": 3, "bytes": 3,)"
+        R"("text": ">"})"}) {
+    both.pass(BenchLink::kPollPeriod);
+    ASSERT_EQ(both.server->receive().size(), 1U);
+    both.server->send(part);
+  }
+  both.pass(BenchLink::kPollPeriod);
+  ASSERT_EQ(both.pages.size(), 2U);
+  EXPECT_EQ(both.pages[1].request, 4U);
+  EXPECT_EQ(both.pages[1].kind, PageAnswer::Kind::kPage);
+  EXPECT_EQ(both.pages[1].text, "<p>");
+  both.server->send(R"({"type": "page", "page": "runs/1/report.html", "from": 0})");
+  both.pass(seconds(1));
+  EXPECT_EQ(both.state().number("malformed"), 1.0) << "nobody asked for it";
 }
 
 TEST(BenchLink, AFastRunIsToldFiveTimesASecond) {

@@ -67,6 +67,18 @@ TEST(BenchState, TheListIsToldWhenItIsWhole) {
   EXPECT_EQ(reading.place_of(scenario("c")), "scenario");
 }
 
+TEST(BenchState, APartOfAPageIsForWhoAskedAndForNoConsole) {
+  Reading reading;
+  reading.says(R"({"type": "page", "page": "runs/1/report.html", "from": 0, "text": "x"})");
+  EXPECT_EQ(reading.news(), "");
+  const auto part = reading.bench.page_part();
+  ASSERT_TRUE(part);
+  EXPECT_EQ(part->text("text"), "x");
+  EXPECT_FALSE(reading.bench.page_part()) << "once";
+  EXPECT_EQ(reading.place_of(R"({"type": "page", "from": 0})"), "page");
+  EXPECT_EQ(reading.place_of(R"({"type": "page", "page": "a"})"), "from");
+}
+
 TEST(BenchState, ANewRunTakesAwayWhatWasOfTheOneBefore) {
   Reading reading;
   reading.says(hello(0));

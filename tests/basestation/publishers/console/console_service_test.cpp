@@ -4,11 +4,13 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <cstring>
 #include <map>
 #include <thread>
 
 #include "protocol/json/json_value.hpp"
+#include "protocol/transport/file.hpp"
 #include "tests/basestation/radio_rig.hpp"
 #include "tests/support/web_client.hpp"
 
@@ -21,7 +23,9 @@ using web::WebClient;
 class Consoles : public ::testing::Test {
  protected:
   void SetUp() override {
-    auto started = web::WebServer::start({}, {.access = {.default_role = web::Role::kOperator}});
+    web::HttpConfig http{.access = {.default_role = web::Role::kOperator}};
+    http.cars.push_back({.number = 7});
+    auto started = web::WebServer::start({}, std::move(http));
     ASSERT_TRUE(started);
     server_ = *std::move(started);
     consoles_ = std::make_unique<ConsoleService>(ConsoleConfig{}, *rig_.base, *server_);
@@ -38,7 +42,17 @@ class Consoles : public ::testing::Test {
       consoles_->submit(*rig_.base, rig_.now);
       rig_.base->advance(rig_.now);
       consoles_->publish(*rig_.base, rig_.now);
+      if (bench_ != nullptr) bench_->publish(*rig_.base, rig_.now);
+      if (bench_server_ != nullptr) serve_pages();
     }
+  }
+  // The bench server's end: each page is the same, or there is a problem.
+  void serve_pages() {
+    const std::string line = R"({"type": "page", "page": "runs/1/report.html", "from": 0, )";
+    for (std::size_t asked = bench_server_->receive().size(); asked > 0; --asked)
+      bench_server_->send(line + (bench_problem_.empty()
+                                      ? R"("next": 3, "bytes": 3, "text": "<p>"})"
+                                      : R"("problem": ")" + bench_problem_ + "\"}"));
   }
   // Virtual time stands while the server's thread, which works in real time, has this to do: an
   // authority would expire in it.
@@ -84,9 +98,28 @@ class Consoles : public ::testing::Test {
     return receive(web_client, type);
   }
 
+  // What the base answers to who opens a page of the bench.
+  std::string page_answer() {
+    std::string answer;
+    std::atomic<bool> answered = false;
+    std::thread browser([&] {
+      answer = web::bare(server_->local().port,
+                         "GET /bench/7/runs/1/report.html HTTP/1.1\r\nHost: 127.0.0.1\r\n"
+                         "Connection: close\r\n\r\n",
+                         false);
+      answered = true;
+    });
+    while (!answered) run(milliseconds(20));
+    browser.join();
+    return answer;
+  }
+
   RadioRig rig_{{.service = {.car = 7}}};
   std::unique_ptr<web::WebServer> server_;
   std::unique_ptr<ConsoleService> consoles_;
+  bench::BenchLink* bench_ = nullptr;
+  transport::LineSocket* bench_server_ = nullptr;
+  std::string bench_problem_;
   std::map<int, float> values_;
   std::map<int, std::uint8_t> status_;
 };
@@ -214,6 +247,33 @@ TEST_F(Consoles, ALinkThatIsLostIsShownWithinHalfASecondAndRaisesOneAlarm) {
   } while (alarms.items("active").empty());
   EXPECT_EQ(alarms.items("active").size(), 1u);
   EXPECT_EQ(alarms.items("active")[0].text("priority"), "high");
+}
+
+TEST_F(Consoles, APageOfTheBenchIsAskedForThere) {
+  std::string answer = page_answer();
+  EXPECT_TRUE(answer.starts_with("HTTP/1.1 404")) << answer;
+  EXPECT_NE(answer.find("this base knows of no bench server (--bench)"), std::string::npos);
+
+  const auto folder = transport::TemporaryFolder::create("bench");
+  bench::BenchLink bench{folder->path() + "/server"};
+  consoles_->attach(bench);
+  bench_ = &bench;
+  answer = page_answer();
+  EXPECT_TRUE(answer.starts_with("HTTP/1.1 503")) << answer;
+  EXPECT_NE(answer.find("the bench server is not there"), std::string::npos);
+
+  auto listener = *transport::LineListener::open(folder->path() + "/server");
+  run(seconds(2));
+  auto server = listener.accept();
+  ASSERT_TRUE(server);
+  bench_server_ = &*server;
+  answer = page_answer();
+  EXPECT_TRUE(answer.starts_with("HTTP/1.1 200")) << answer;
+  EXPECT_TRUE(answer.ends_with("<p>"));
+  bench_problem_ = "no such page";
+  answer = page_answer();
+  EXPECT_TRUE(answer.starts_with("HTTP/1.1 404")) << answer;
+  EXPECT_TRUE(answer.ends_with("no such page\n"));
 }
 
 TEST_F(Consoles, HistoryLooksBack) {

@@ -222,7 +222,7 @@ HttpQuestion log_in(std::string_view body) {
 
 // The cookie as a browser sends it back.
 std::string cookie_of(const HttpAnswer& answer) {
-  return answer.set_cookie.substr(0, answer.set_cookie.find(';'));
+  return answer.set_cookies.at(0).substr(0, answer.set_cookies.at(0).find(';'));
 }
 
 TEST(HttpResponder, ALoginGivesACookieThatIsWhoLoggedIn) {
@@ -235,7 +235,8 @@ TEST(HttpResponder, ALoginGivesACookieThatIsWhoLoggedIn) {
   EXPECT_EQ(responder.answer(get("/api/session")).status, 401u);
   const HttpAnswer in = responder.answer(log_in(R"({"token": "8f2c41d09b7a4d51"})"));
   EXPECT_EQ(in.status, 204u);
-  EXPECT_EQ(in.set_cookie.find(kOperator), std::string::npos) << "it does not tell the token";
+  for (const std::string& set : in.set_cookies)
+    EXPECT_EQ(set.find(kOperator), std::string::npos) << "it does not tell the token";
   const std::string cookie = cookie_of(in);
   HttpQuestion question = get("/api/session");
   question.cookie = cookie;
@@ -252,11 +253,11 @@ TEST(HttpResponder, ALoginThatIsNoneGivesNone) {
   for (const char* body : {"", "{}", "[]", "{\"token\": 5}", "x", "{\"token\": \"\"}"}) {
     const HttpAnswer answer = responder.answer(log_in(body));
     EXPECT_EQ(answer.status, 400u) << body;
-    EXPECT_EQ(answer.set_cookie, "") << body;
+    EXPECT_TRUE(answer.set_cookies.empty()) << body;
   }
   const HttpAnswer wrong = responder.answer(log_in(R"({"token": "0000000000000000"})"));
   EXPECT_EQ(wrong.status, 401u);
-  EXPECT_EQ(wrong.set_cookie, "");
+  EXPECT_TRUE(wrong.set_cookies.empty());
   HttpQuestion foreign = log_in(R"({"token": "8f2c41d09b7a4d51"})");
   foreign.origin = "http://evil.com";
   EXPECT_EQ(responder.answer(foreign).status, 403u);
@@ -265,24 +266,81 @@ TEST(HttpResponder, ALoginThatIsNoneGivesNone) {
   EXPECT_EQ(responder.answer(put_one).allow, "GET, POST, DELETE");
 }
 
-TEST(HttpResponder, ALogoutTakesTheCookieAway) {
+TEST(HttpResponder, ALogoutTakesTheCookiesAway) {
   HttpResponder responder(config());
   HttpQuestion question = log_in("");
   question.method = "DELETE";
-  EXPECT_NE(responder.answer(question).set_cookie.find("Max-Age=0"), std::string::npos);
+  const auto cookies = responder.answer(question).set_cookies;
+  EXPECT_EQ(cookies.size(), 2U);
+  for (const std::string& set : cookies) EXPECT_NE(set.find("Max-Age=0"), std::string::npos);
 }
 
 TEST(HttpResponder, ACookieGoesOverTlsOnlyWhereThereIsTls) {
   constexpr const char* kBody = R"({"token": "8f2c41d09b7a4d51"})";
   HttpResponder plain(config());
-  EXPECT_EQ(plain.answer(log_in(kBody)).set_cookie.find("Secure"), std::string::npos);
+  for (const std::string& set : plain.answer(log_in(kBody)).set_cookies)
+    EXPECT_EQ(set.find("Secure"), std::string::npos);
   HttpQuestion through_a_proxy = log_in(kBody);
   through_a_proxy.forwarded_proto = "https";
-  EXPECT_TRUE(plain.answer(through_a_proxy).set_cookie.ends_with("; Secure"));
+  for (const std::string& set : plain.answer(through_a_proxy).set_cookies)
+    EXPECT_TRUE(set.ends_with("; Secure"));
   HttpConfig encrypted = config();
   encrypted.access.encrypted = true;
-  EXPECT_TRUE(
-      HttpResponder(std::move(encrypted)).answer(log_in(kBody)).set_cookie.ends_with("; Secure"));
+  const HttpAnswer in = HttpResponder(std::move(encrypted)).answer(log_in(kBody));
+  for (const std::string& set : in.set_cookies) EXPECT_TRUE(set.ends_with("; Secure"));
+}
+
+HttpConfig two_cars() {
+  HttpConfig two = config();
+  two.cars.push_back({.number = 7});
+  two.cars.push_back({.number = 9});
+  return two;
+}
+
+TEST(HttpResponder, APageOfABenchIsToBeAskedForAtItsCar) {
+  HttpResponder responder(two_cars());
+  const HttpAnswer answer = responder.answer(get("/bench/9/sweeps/grip/report.html?x=1"));
+  EXPECT_EQ(answer.page, "sweeps/grip/report.html");
+  EXPECT_EQ(answer.car, 1U);
+  for (const char* none : {"/bench/", "/bench/7", "/bench/7/", "/bench/8/runs/1/report.html",
+                           "/bench/x/runs/1/report.html", "/bench//runs/1/report.html", "/bench"}) {
+    const HttpAnswer refused = responder.answer(get(none));
+    EXPECT_EQ(refused.status, 404u) << none;
+    EXPECT_EQ(refused.page, "") << none;
+  }
+  EXPECT_EQ(responder.answer(put("/bench/7/runs/1/report.html", "x")).allow, "GET, HEAD");
+}
+
+TEST(HttpResponder, APageOfABenchIsForeignToTheBase) {
+  const HttpAnswer page = page_of_bench("<p>");
+  EXPECT_EQ(page.status, 200u);
+  EXPECT_EQ(*page.body, "<p>");
+  EXPECT_EQ(page.type, "text/html; charset=utf-8");
+  EXPECT_TRUE(page.policy.starts_with("sandbox allow-scripts; default-src 'none';"));
+  EXPECT_EQ(page.policy.find("allow-same-origin"), std::string::npos);
+  EXPECT_EQ(page.policy.find("connect-src"), std::string::npos) << "as by default: nothing";
+}
+
+// A link in a page without an origin is one from elsewhere to the browser.
+TEST(HttpResponder, TheCookieForPagesOpensPagesAndNothingElse) {
+  HttpConfig bound = two_cars();
+  bound.access.default_role.reset();
+  HttpResponder responder(std::move(bound));
+  responder.serve_at(8080);
+  HttpQuestion question = get("/bench/7/runs/1/report.html");
+  EXPECT_EQ(responder.answer(question).status, 401u);
+  const HttpAnswer in = responder.answer(log_in(R"({"token": "77aa0c1be04f43f2"})"));
+  ASSERT_EQ(in.set_cookies.size(), 2U);
+  EXPECT_NE(in.set_cookies[1].find("; Path=/bench/; "), std::string::npos);
+  const std::string of_pages = in.set_cookies[1].substr(0, in.set_cookies[1].find(';'));
+  question.cookie = of_pages;
+  EXPECT_EQ(responder.answer(question).page, "runs/1/report.html") << "a viewer may read it";
+  for (const char* path : {"/api/track", "/ws", "/api/session", "/api/layouts/a", "/bench"}) {
+    question.target = path;
+    question.upgrade = std::string_view{path} == "/ws";
+    EXPECT_EQ(responder.answer(question).status, std::string_view{path} == "/bench" ? 404u : 401u)
+        << path;
+  }
 }
 
 TEST(HttpResponder, ATokenInAnAddressIsRefused) {

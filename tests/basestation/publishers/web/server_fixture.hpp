@@ -33,6 +33,7 @@ class WebServerTest : public testing::Test {
     HttpConfig config;
     config.documents.emplace("/api/track", "{\"name\": \"X\"}");
     config.console = "/nowhere";
+    config.cars.push_back({.number = 7});
     config.access.tokens = std::make_shared<TokenStore>(
         *Tokens::parse(std::string{"operator "} + kOperatorToken + " Anna\n", "tokens"));
     auto started = WebServer::start({}, std::move(config));

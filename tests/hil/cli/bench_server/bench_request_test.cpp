@@ -32,6 +32,16 @@ TEST(BenchRequest, AStopSaysByWhom) {
   EXPECT_EQ(std::get<StopRunRequest>(*word).by, "Ana");
 }
 
+TEST(BenchRequest, APageIsAskedForFromAByteOn) {
+  const auto word = parse_request(R"({"do": "page", "page": "runs/1/report.html", "from": 4000})");
+  ASSERT_TRUE(word);
+  EXPECT_EQ(std::get<PageRequest>(*word).page, "runs/1/report.html");
+  EXPECT_EQ(std::get<PageRequest>(*word).from, 4000U);
+  for (const char* from : {"-1", "1.5", "4194305", "\"0\"", "null"})
+    EXPECT_EQ(place_of(std::string{R"({"do": "page", "page": "a", "from": )"} + from + "}"), "from")
+        << from;
+}
+
 TEST(BenchRequest, WhatIsWrongIsNamed) {
   EXPECT_TRUE(place_of("start").starts_with("line:"));
   EXPECT_EQ(place_of(R"({"do": "dance"})"), "do");

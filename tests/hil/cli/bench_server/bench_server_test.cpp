@@ -191,6 +191,33 @@ TEST(BenchServer, AFailureOfTheBenchIsTheReason) {
   EXPECT_FALSE(other.server.running());
 }
 
+TEST(BenchServer, APageIsReadForWhoAsks) {
+  Table table;
+  const Answer answer =
+      table.server.receive(R"({"do": "page", "page": "runs/1/report.html", "from": 8})");
+  ASSERT_TRUE(answer.page);
+  EXPECT_EQ(answer.page->page, "runs/1/report.html");
+  EXPECT_EQ(answer.page->from, 8U);
+  EXPECT_TRUE(answer.to_asker.empty());
+  const JsonValue refused =
+      parsed(table.server.page_refused(*answer.page, {"page x", "no such page"}));
+  EXPECT_EQ(refused.text("type"), "page");
+  EXPECT_EQ(refused.text("page"), "runs/1/report.html");
+  EXPECT_EQ(refused.number("from"), 8.0);
+  EXPECT_EQ(refused.text("problem"), "page x: error: no such page");
+  EXPECT_EQ(table.server.counters().refused, 1U);
+}
+
+TEST(BenchServer, ARunHasAPageOnceItHasLeftOne) {
+  Table table;
+  table.begin();
+  EXPECT_TRUE(table.run().find("page")->is_null());
+  table.server.ended({.code = 1, .page = "runs/1/report.html"});
+  EXPECT_EQ(table.run().text("page"), "runs/1/report.html");
+  table.server.receive(kStart);
+  EXPECT_TRUE(table.run().find("page")->is_null()) << "not that of the run before";
+}
+
 TEST(BenchServer, SweepsAreToldOnceAndToWhoComesLater) {
   Table table;
   const std::size_t before = table.server.greeting().size();

@@ -119,6 +119,29 @@ TEST_F(BenchSocketTest, ASweepThatEndsIsToldToWhoIsThere) {
   ASSERT_TRUE(until([&] { return count() == 1; }));
 }
 
+TEST_F(BenchSocketTest, ThePageOfARunIsNamedAndRead) {
+  open(R"(echo '{"type": "result"}' > "$2"; echo '<p>run</p>' > "$1/report.html"; exit 1)");
+  start();
+  ASSERT_TRUE(until([&] { return has("run", "page", "runs/1/report.html"); }));
+  EXPECT_TRUE(has("run", "state", "failed"));
+  client_->send(R"({"do": "page", "page": "runs/1/report.html", "from": 0})");
+  ASSERT_TRUE(until([&] { return has("page", "text", "<p>run</p>\n"); }));
+  client_->send(R"({"do": "page", "page": "runs/../good.yaml", "from": 0})");
+  ASSERT_TRUE(until([&] { return has("page", "page", "runs/../good.yaml"); }));
+  EXPECT_TRUE(received_.back().text("problem").starts_with("page runs/../good.yaml: error:"));
+  EXPECT_EQ(server_->server().counters().refused, 1U);
+}
+
+TEST_F(BenchSocketTest, ARunWithoutAPageDoesNotShowThatOfAnEarlierServer) {
+  std::filesystem::create_directories(folder_.path() + "/runs/1");
+  ASSERT_TRUE(transport::write_file(folder_.path() + "/runs/1/report.html", "<p>old</p>"));
+  open("exit 2");
+  start();
+  ASSERT_TRUE(until([&] { return has("run", "state", "unusable"); }));
+  EXPECT_TRUE(received_.back().find("page")->is_null());
+  EXPECT_FALSE(std::filesystem::exists(folder_.path() + "/runs/1/report.html"));
+}
+
 TEST_F(BenchSocketTest, NonsenseIsAnsweredAndTheServerGoesOn) {
   open("exit 0");
   client_->send("nonsense");

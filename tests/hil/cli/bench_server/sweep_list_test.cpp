@@ -22,7 +22,8 @@ class SweepList : public ::testing::Test {
     ASSERT_TRUE(transport::write_file(folder_.path() + "/" + name + "/summary.json", summary));
   }
   std::vector<json::JsonValue> rows() const {
-    const auto line = json::JsonValue::parse(sweeps_line(folder_.path()), "line");
+    const auto line =
+        json::JsonValue::parse(sweeps_line({.runs = {}, .sweeps = folder_.path()}), "line");
     EXPECT_TRUE(line && line->text("type") == "sweeps");
     std::vector<json::JsonValue> rows;
     if (line)
@@ -45,6 +46,16 @@ TEST_F(SweepList, ARowHasTheCountsAndThePage) {
   EXPECT_EQ(found[1].text("report"), folder_.path() + "/b/report.html");
 }
 
+TEST_F(SweepList, APageIsNamedWhereAClientCanAskForIt) {
+  add("grip", kSummary);
+  add("grip and wind", kSummary);
+  EXPECT_TRUE(rows()[0].find("page")->is_null()) << "there is none";
+  for (const std::string name : {"grip", "grip and wind"})
+    ASSERT_TRUE(transport::write_file(folder_.path() + "/" + name + "/report.html", "<p>"));
+  EXPECT_EQ(rows()[0].text("page"), "sweeps/grip/report.html");
+  EXPECT_TRUE(rows()[1].find("page")->is_null()) << "its name has other characters";
+}
+
 TEST_F(SweepList, WhatIsNoSummaryIsLeftOut) {
   add("cut", kSummary.substr(0, 40));
   add("nameless", R"({"cases": 1})");
@@ -62,7 +73,8 @@ TEST_F(SweepList, ThereAreNoMoreThanFitIntoALine) {
 }
 
 TEST_F(SweepList, AFolderThatIsNotThereHasNone) {
-  EXPECT_EQ(sweeps_line(folder_.path() + "/none"), R"({"type": "sweeps", "sweeps": []})");
+  EXPECT_EQ(sweeps_line({.runs = {}, .sweeps = folder_.path() + "/none"}),
+            R"({"type": "sweeps", "sweeps": []})");
 }
 
 }  // namespace

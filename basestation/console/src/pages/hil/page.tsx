@@ -9,6 +9,7 @@ import type { BenchRun } from "../../wire/bench";
 import { kDash, lapText } from "../../view/format";
 import { speedUnit } from "../../view/speed_unit";
 import { ChooserPanel } from "./chooser";
+import { PageLink } from "./bench_page";
 import { ContactPanel } from "./contact";
 import { ErrorPanel, ExpectationPanel, ReactionPanel } from "./grades";
 import { SweepsPanel } from "./sweeps";
@@ -54,7 +55,7 @@ function Figures() {
 }
 
 function RunPanel({ run }: { run: BenchRun }) {
-  const files = [run.junit, run.report, run.log].filter((file) => file !== null);
+  const files = [run.junit, run.log].filter((file) => file !== null);
   return (
     <section class="panel run" aria-label="run" tabIndex={0}>
       <h2>
@@ -77,6 +78,7 @@ function RunPanel({ run }: { run: BenchRun }) {
       <Figures />
       {run.state !== "running" && files.length > 0 && (
         <p class="files">
+          {run.page && <PageLink page={run.page} file={run.report} text="Page of the run" />}
           {files.map((file) => (
             <code key={file}>{file}</code>
           ))}

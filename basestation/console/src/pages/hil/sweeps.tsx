@@ -1,10 +1,11 @@
 /**
  * The sweeps that have ended where the bench server runs: how many cases of each passed, and the
- * file of its page there.
+ * page.
  */
 // SPDX-License-Identifier: Apache-2.0
 import * as session from "../../store/session";
 import type { BenchSweep } from "../../wire/bench";
+import { PageLink } from "./bench_page";
 
 export const hasPassed = (sweep: BenchSweep): boolean => sweep.passed === sweep.cases;
 
@@ -14,6 +15,11 @@ export function otherVerdicts(sweep: BenchSweep): string {
     .filter((verdict) => sweep[verdict] > 0)
     .map((verdict) => `${sweep[verdict]} ${verdict}`)
     .join(", ");
+}
+
+function countText(sweep: BenchSweep): string {
+  const others = hasPassed(sweep) ? "" : `, ${otherVerdicts(sweep)}`;
+  return `${sweep.passed} of ${sweep.cases} cases passed${others}`;
 }
 
 export function SweepsPanel() {
@@ -28,8 +34,8 @@ export function SweepsPanel() {
             <b data-standing={hasPassed(sweep) ? "holds" : "failed"}>
               {hasPassed(sweep) ? "PASSED" : "FAILED"}
             </b>{" "}
-            {sweep.name}: {sweep.passed} of {sweep.cases} cases passed
-            {!hasPassed(sweep) && `, ${otherVerdicts(sweep)}`} <code>{sweep.report}</code>
+            <PageLink page={sweep.page} file={sweep.report} text={sweep.name} />: {countText(sweep)}
+            {!sweep.page && " (no page)"}
           </li>
         ))}
       </ul>

@@ -15,6 +15,19 @@ TEST(SessionCookie, NoScriptReadsItAndNoOtherPageSendsIt) {
             "pitwall-8080=; Path=/; Max-Age=0; HttpOnly; SameSite=Strict");
 }
 
+TEST(SessionCookie, TheOneForPagesGoesNowhereElse) {
+  EXPECT_EQ(set_page_cookie(8080, false, "/bench/", "a.1.b"),
+            "pitwall-pages-8080=a.1.b; Path=/bench/; Max-Age=86400; HttpOnly; SameSite=Lax");
+  EXPECT_EQ(
+      set_page_cookie(8443, true, "/bench/", ""),
+      "__Secure-pitwall-pages-8443=; Path=/bench/; Max-Age=0; HttpOnly; SameSite=Lax; Secure");
+  constexpr const char* kAll = "pitwall-pages-80=one; __Secure-pitwall-pages-81=two; pitwall-80=x";
+  EXPECT_EQ(page_session_of(kAll, 80), "one");
+  EXPECT_EQ(page_session_of(kAll, 81), "two");
+  EXPECT_EQ(page_session_of(kAll, 8), "");
+  EXPECT_EQ(session_of("pitwall-pages-80=one", 80), "") << "not the session of a console";
+}
+
 // Two bases on one machine get each other's cookies.
 TEST(SessionCookie, EachPortHasItsOwn) {
   constexpr const char* kBoth = "x=1; pitwall-8080=one;pitwall-80=two; __Host-pitwall-81=three";
