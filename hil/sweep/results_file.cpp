@@ -123,7 +123,30 @@ class Writer {
   std::map<std::string, std::size_t> expectations_;
 };
 
+// Of a file that is open; nothing where it is no database.
+std::optional<int> schema_of(sqlite3* database) {
+  sqlite3_stmt* statement = nullptr;
+  std::optional<int> schema;
+  if (sqlite3_prepare_v2(database, "PRAGMA user_version", -1, &statement, nullptr) == SQLITE_OK &&
+      sqlite3_step(statement) == SQLITE_ROW)
+    schema = sqlite3_column_int(statement, 0);
+  sqlite3_finalize(statement);
+  return schema;
+}
+
 }  // namespace
+
+Result<bool, Problem> check_results(const std::string& file) {
+  if (!std::filesystem::exists(file)) return true;
+  sqlite3* opened = nullptr;
+  const int state = sqlite3_open_v2(file.c_str(), &opened, SQLITE_OPEN_READONLY, nullptr);
+  const std::unique_ptr<sqlite3, Close> database{opened};
+  const auto schema = state == SQLITE_OK ? schema_of(opened) : std::nullopt;
+  if (!schema) return refuse(file, opened != nullptr ? sqlite3_errmsg(opened) : "no memory");
+  if (*schema == kResultsSchema) return true;
+  return refuse(file, "has schema " + std::to_string(*schema) + ", this program's is " +
+                          std::to_string(kResultsSchema));
+}
 
 Result<bool, Problem> write_results(const std::string& file, const Cases& cases,
                                     const std::string& plan_text,

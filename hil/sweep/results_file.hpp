@@ -3,7 +3,7 @@
 //          run(number, verdict, why, digest, simulated_s); setting(run, path, value);
 //          margin(run, expectation, margin, pass), NULL where a margin is not finite
 //   law    the same results give the same bytes, whatever process made them and in which order
-//   errors Problem with the file and SQLite's reason; the file that was there stays
+//   errors Problem with the file and SQLite's reason, or the schema; the file that was there stays
 //   cost   linear in the number of results, 30 us each
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
@@ -18,6 +18,9 @@
 namespace pitwall::sweep {
 
 inline constexpr int kResultsSchema = 1;  // PRAGMA user_version
+
+// Refuses a file of another schema, or one that is no database; one that is not there is good.
+Result<bool, Problem> check_results(const std::string& file);
 
 // `results`: in the order of their numbers.
 Result<bool, Problem> write_results(const std::string& file, const Cases& cases,

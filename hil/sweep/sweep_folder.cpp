@@ -7,6 +7,7 @@
 #include <string_view>
 #include <utility>
 
+#include "hil/sweep/results_file.hpp"
 #include "protocol/transport/file.hpp"
 
 namespace pitwall::sweep {
@@ -53,8 +54,10 @@ Result<SweepFolder, Problem> SweepFolder::open(const std::string& path,
   if (error) return refuse(path, error.message());
   auto kept = keep(path + "/plan.yaml", plan_text);
   if (kept) kept = keep(path + "/scenario.yaml", scenario_text);
+  SweepFolder folder{path};
+  if (kept) kept = check_results(folder.results_file());
   if (!kept) return Unexpected{kept.error()};
-  return SweepFolder{path};
+  return folder;
 }
 
 Result<bool, Problem> SweepFolder::append(const std::string& name, const CaseResult& result) const {

@@ -2,7 +2,8 @@
 // each process that worked on it. Several processes, on several machines, may write at once.
 //   format plan.yaml, scenario.yaml; cases/NAME.jsonl (case_result.hpp); at the end results.sqlite,
 //          report.html, summary.json (summary.hpp), and pages/NUMBER with the report of that case
-//   errors open(): Problem if the folder has another plan or scenario, or cannot be made
+//   errors open(): Problem if the folder has another plan or scenario, or results of another schema
+//          (results_file.hpp), or cannot be made
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

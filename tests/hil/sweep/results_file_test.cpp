@@ -82,6 +82,20 @@ TEST_F(ResultsFile, TheSameResultsAreTheSameBytesWhateverTheyTook) {
   EXPECT_EQ(*transport::read_file(file()), *first);
 }
 
+TEST_F(ResultsFile, OneOfAnotherSchemaOrOfNoDatabaseIsRefused) {
+  EXPECT_TRUE(check_results(file())) << "none is there yet";
+  ASSERT_TRUE(write_results(file(), cases(), "the plan", some_results()));
+  EXPECT_TRUE(check_results(file()));
+  asked("PRAGMA user_version = 2");
+  const auto other = check_results(file());
+  ASSERT_FALSE(other);
+  EXPECT_EQ(to_string(other.error()), file() + ": error: has schema 2, this program's is 1");
+  ASSERT_TRUE(transport::write_file(file(), std::string(5000, 'x')));
+  const auto none = check_results(file());
+  ASSERT_FALSE(none);
+  EXPECT_NE(to_string(none.error()).find("not a database"), std::string::npos);
+}
+
 TEST_F(ResultsFile, WhereItCannotBeWrittenIsTold) {
   const auto written = write_results("/proc/none/r.sqlite", cases(), "", some_results());
   ASSERT_FALSE(written);

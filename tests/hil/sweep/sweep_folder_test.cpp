@@ -52,6 +52,14 @@ TEST_F(SweepFolderTest, AnotherSweepIsRefused) {
   EXPECT_FALSE(SweepFolder::open("/proc/none", "plan", "scenario"));
 }
 
+TEST_F(SweepFolderTest, ResultsOfAnotherSchemaAreRefused) {
+  const std::string file = folder().results_file();
+  ASSERT_TRUE(transport::write_file(file, std::string(5000, 'x')));
+  const auto opened = SweepFolder::open(path(), "plan", "scenario");
+  ASSERT_FALSE(opened);
+  EXPECT_EQ(opened.error().place, file);
+}
+
 TEST_F(SweepFolderTest, ALineThatAProcessDidNotFinishIsLeftOut) {
   ASSERT_TRUE(folder().append("one", result_of(4)));
   auto writer = transport::AppendWriter::open(path() + "/cases/one.jsonl");
