@@ -73,14 +73,16 @@ class StallWatch {
   static constexpr Duration kNap = milliseconds(5);
 
   void watch(const std::stop_token& stop) {
-    for (Instant slept = transport::monotonic_now(); !stop.stop_requested();) {
+    Instant slept = begun_;
+    do {
       transport::nap(kNap);
       const Instant now = transport::monotonic_now();
       worst_ = std::max(worst_, now - slept - kNap);
       slept = now;
-    }
+    } while (!stop.stop_requested());
   }
 
+  Instant begun_ = transport::monotonic_now();  // the thread may begin after the stall
   Duration worst_{};
   std::jthread thread_{[this](const std::stop_token& stop) { watch(stop); }};
 };
