@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
+#include <optional>
 #include <thread>
 #include <utility>
 #include <vector>
@@ -66,24 +67,32 @@ int run_one(const Options& options, const SweepInputs& of) {
   return run_as_told(std::move(run));
 }
 
+// How much is done, at most every two seconds, and when it will have ended at the speed since.
 class Progress {
  public:
-  Progress(std::size_t before, std::size_t all) : before_(before), all_(all) {}
+  // `before`: what was done when it began; else what is done at the first call.
+  explicit Progress(const char* what, std::optional<std::size_t> before = {})
+      : what_(what), before_(before) {}
 
-  void operator()(std::size_t done) {
+  void operator()(std::size_t done, std::size_t all) {
+    if (!before_) before_ = done;
     const Instant now = transport::monotonic_now();
-    if (now - told_ < seconds(2) && before_ + done < all_) return;
-    told_ = now;
-    const double per_case_s =
-        (now - begun_).seconds() / static_cast<double>(std::max<std::size_t>(done, 1));
-    std::printf("%zu of %zu cases, about %.0f s left\n", before_ + done, all_,
-                per_case_s * static_cast<double>(all_ - before_ - done));
+    if (now - printed_ < seconds(2) && done < all) return;
+    printed_ = now;
+    std::printf("%zu of %zu %s", done, all, what_);
+    if (done > *before_)
+      std::printf(", about %.0f s left",
+                  (now - begun_).seconds() / number(done - *before_) * number(all - done));
+    std::printf("\n");
     std::fflush(stdout);
   }
 
  private:
-  std::size_t before_, all_;
-  Instant begun_ = transport::monotonic_now(), told_ = begun_;
+  static double number(std::size_t count) { return static_cast<double>(count); }
+
+  const char* what_;
+  std::optional<std::size_t> before_;
+  Instant begun_ = transport::monotonic_now(), printed_ = begun_;
 };
 
 std::string joined(const std::vector<std::size_t>& numbers) {
@@ -107,17 +116,18 @@ Result<bool, Problem> run_missing(const Options& options, const SweepInputs& of,
   std::vector<std::string> command = command_of(options);
   command.insert(command.end(), {"--out", folder.path()});
   if (options.engine == "slurm") {
-    return sweep::run_on_cluster(missing, all, folder,
-                                 {.command = command,
-                                  .options = options.sbatch,
-                                  .progress = [](std::size_t left, std::size_t tasks) {
-                                    std::printf("%zu of %zu tasks left\n", left, tasks);
-                                    std::fflush(stdout);
-                                  }});
+    return sweep::run_on_cluster(
+        missing, all, folder,
+        {.command = command,
+         .options = options.sbatch,
+         .progress = [progress = Progress{"tasks"}](std::size_t left, std::size_t tasks) mutable {
+           progress(tasks - left, tasks);
+         }});
   }
   sweep::LocalEngine engine;
   engine.processes = options.processes;
-  engine.progress = Progress{before->size(), all};
+  engine.progress = [progress = Progress{"cases", before->size()}, first = before->size(),
+                     all](std::size_t done) mutable { progress(first + done, all); };
   engine.start = [&](const sweep::CaseNumbers& cases, const std::string& name) {
     std::vector<std::string> argv = command;
     argv.insert(argv.end(), {"--worker", name, "--cases", joined(cases)});

@@ -58,6 +58,7 @@ TEST_F(SweepVerb, TheResultFileIsTheSameOnAnyNumberOfProcesses) {
   const ProgramOutput one = sweep("one", "1"), three = sweep("three", "3");
   EXPECT_EQ(one.code, 1) << one.err;
   EXPECT_NE(one.out.find("2 passed, 2 failed"), std::string::npos) << one.out;
+  EXPECT_NE(one.out.find("4 of 4 cases, about 0 s left\n"), std::string::npos) << one.out;
   EXPECT_FALSE(text_of("one/results.sqlite").empty());
   EXPECT_TRUE(text_of("one/results.sqlite") == text_of("three/results.sqlite"));
   EXPECT_FALSE(text_of("one/report.html").empty());
