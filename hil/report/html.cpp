@@ -22,6 +22,13 @@ std::string beside(const std::string& left, const std::string& right) {
   return "<div class=\"beside\"><div>" + left + "</div><div>" + right + "</div></div>\n";
 }
 
+std::string in_two_columns(const std::vector<std::string>& parts) {
+  std::string out;
+  for (std::size_t i = 0; i < parts.size(); i += 2)
+    out += beside(parts[i], i + 1 < parts.size() ? parts[i + 1] : "");
+  return out;
+}
+
 std::string fact(std::string_view name, std::string_view value) {
   return "<div><dt>" + escaped(name) + "</dt><dd>" +
          (value.empty() ? "not recorded" : escaped(value)) + "</dd></div>";

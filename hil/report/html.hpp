@@ -6,6 +6,7 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace pitwall::report {
 
@@ -15,6 +16,7 @@ inline constexpr std::string_view kSimulated = "SIMULATION: no car was driven";
 std::string document(std::string_view title, const std::string& body, std::string_view style = {});
 std::string section(std::string_view title, const std::string& body);
 std::string beside(const std::string& left, const std::string& right);
+std::string in_two_columns(const std::vector<std::string>& parts);  // row by row
 // In a list (<dl>); "not recorded" where there is no value.
 std::string fact(std::string_view name, std::string_view value);
 // `style`: class of the cell.

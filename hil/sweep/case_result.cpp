@@ -7,6 +7,7 @@
 
 #include "protocol/json/json_text.hpp"
 #include "protocol/json/json_value.hpp"
+#include "protocol/vocabulary/check.hpp"
 
 namespace pitwall::sweep {
 namespace {
@@ -23,6 +24,12 @@ std::optional<CaseVerdict> verdict_named(std::string_view name) {
 }  // namespace
 
 const char* name_of(CaseVerdict verdict) { return kNames[static_cast<std::size_t>(verdict)]; }
+
+const CaseResult& result_of(std::span<const CaseResult> results, std::size_t number) {
+  const auto found = std::ranges::lower_bound(results, number, {}, &CaseResult::number);
+  CHECK(found != results.end() && found->number == number);
+  return *found;
+}
 
 std::string to_line(const CaseResult& result) {
   json::Array margins;

@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -41,6 +42,9 @@ struct CaseResult {
   double simulated_s = 0.0, wall_s = 0.0;
   std::vector<ExpectationMargin> margins{};
 };
+
+// The one of that number, which is among them; `results` in order.
+const CaseResult& result_of(std::span<const CaseResult> results, std::size_t number);
 
 std::string to_line(const CaseResult& result);  // without the end of the line
 std::optional<CaseResult> parse_case_result(std::string_view line);

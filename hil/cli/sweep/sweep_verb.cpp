@@ -154,8 +154,7 @@ std::vector<const sweep::CaseResult*> with_page(const report::SweepRun& run, std
       run.baseline ? run.baseline->difference : sweep::Difference{};
   for (const std::vector<std::size_t>* numbers : {&difference.worse, &difference.better})
     for (const std::size_t number : std::span{*numbers}.first(std::min(numbers->size(), most)))
-      cases.push_back(
-          &*std::ranges::lower_bound(run.results, number, {}, &sweep::CaseResult::number));
+      cases.push_back(&sweep::result_of(run.results, number));
   std::ranges::sort(cases, {}, &sweep::CaseResult::number);
   const auto twice = std::ranges::unique(cases);
   cases.erase(twice.begin(), twice.end());
@@ -197,9 +196,8 @@ int run_all(const Options& options, const SweepInputs& of, const sweep::SweepFol
   written = write_pages(options, folder, run);
   if (!written) return refuse(written.error());
   std::printf("%s\n", folder.report_file().c_str());
-  if (!run.baseline) return sweep::all_passed(*results) ? kExitPass : kExitFailed;
-  std::printf("%s", to_text(run.baseline->difference).c_str());
-  return run.baseline->difference.worse.empty() ? kExitPass : kExitFailed;
+  if (run.baseline) std::printf("%s", to_text(run.baseline->difference).c_str());
+  return report::passed(run) ? kExitPass : kExitFailed;
 }
 
 // What there is to refuse before anything is started.

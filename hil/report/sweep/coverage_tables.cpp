@@ -87,12 +87,10 @@ std::string coverage_tables(const sweep::Cases& cases, CaseResults results) {
   const std::size_t all = pairs.size();
   pairs.resize(std::min(all, kPairsShown));
   count(axes, cases, results, pairs);
-  std::string out;
   std::vector<std::string> tables;
   for (const Pair& pair : pairs)
     tables.push_back(table_of(pair, axes[pair.row], axes[pair.column]));
-  if (tables.size() % 2 == 1) tables.emplace_back();
-  for (std::size_t i = 0; i < tables.size(); i += 2) out += beside(tables[i], tables[i + 1]);
+  std::string out = in_two_columns(tables);
   if (all > pairs.size())
     out += note(formatted("%zu more pairs of parameters are not shown.", all - pairs.size()));
   return out;

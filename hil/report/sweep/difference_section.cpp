@@ -28,9 +28,7 @@ std::string changed_cases(const SweepRun& run, const std::string& name, const st
                           const std::vector<std::size_t>& numbers) {
   if (numbers.empty()) return absent(name, title, "none");
   std::vector<const sweep::CaseResult*> cases;
-  for (const std::size_t number : numbers)
-    cases.push_back(
-        &*std::ranges::lower_bound(run.results, number, {}, &sweep::CaseResult::number));
+  for (const std::size_t number : numbers) cases.push_back(&sweep::result_of(run.results, number));
   return "<h3>" + escaped(title) + formatted(": %zu</h3>\n", numbers.size()) +
          case_table(run, cases);
 }

@@ -195,8 +195,7 @@ std::string margin_charts(const SweepRun& run, const std::vector<MarginSpread>& 
   std::vector<std::string> charts;
   for (std::size_t i = 0; i < std::min(spreads.size(), kExpectationsShown); ++i)
     charts.push_back(chart_of(run, spreads[i], spread_of(before, spreads[i].text), i));
-  if (charts.size() % 2 == 1) charts.emplace_back();
-  for (std::size_t i = 0; i < charts.size(); i += 2) out += beside(charts[i], charts[i + 1]);
+  out += in_two_columns(charts);
   if (spreads.size() > kExpectationsShown)
     out += note(formatted("%zu more expectations, with fewer failures, are not shown.",
                           spreads.size() - kExpectationsShown));

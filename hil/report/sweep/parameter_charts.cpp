@@ -116,10 +116,7 @@ std::string parameter_charts(const sweep::Cases& cases, CaseResults results,
       charts.push_back(chart_of_parameter(cases, drawn, k, axis));
   if (charts.empty())
     return absent("parameters", "Margin by parameter", "no parameter has different numbers");
-  std::string out = explanation(drawn, expectation);
-  if (charts.size() % 2 == 1) charts.emplace_back();
-  for (std::size_t i = 0; i < charts.size(); i += 2) out += beside(charts[i], charts[i + 1]);
-  return out;
+  return explanation(drawn, expectation) + in_two_columns(charts);
 }
 
 }  // namespace pitwall::report

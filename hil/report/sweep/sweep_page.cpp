@@ -67,13 +67,11 @@ std::string header_of(const SweepRun& run) {
          "</dl></header>\n";
 }
 
-// With a baseline only what has become worse fails.
 std::string banner_of(const SweepRun& run) {
   const sweep::Difference* difference = run.baseline ? &run.baseline->difference : nullptr;
-  const bool passed =
-      difference != nullptr ? difference->worse.empty() : sweep::all_passed(run.results);
-  std::string out = std::string("<section class=\"banner ") + (passed ? "pass" : "fail") +
-                    "\" id=\"verdict\"><strong>" + (passed ? "PASS" : "FAIL") + "</strong> " +
+  const bool good = passed(run);
+  std::string out = std::string("<section class=\"banner ") + (good ? "pass" : "fail") +
+                    "\" id=\"verdict\"><strong>" + (good ? "PASS" : "FAIL") + "</strong> " +
                     sweep::verdicts_text(run.results);
   if (difference != nullptr)
     out += formatted(
@@ -84,6 +82,10 @@ std::string banner_of(const SweepRun& run) {
 }
 
 }  // namespace
+
+bool passed(const SweepRun& run) {
+  return run.baseline ? run.baseline->difference.worse.empty() : sweep::all_passed(run.results);
+}
 
 std::vector<const sweep::CaseResult*> worst_of(CaseResults results) {
   std::vector<const sweep::CaseResult*> failed = sweep::failed_cases(results);
@@ -97,8 +99,7 @@ std::string sweep_page(const SweepRun& run) {
   std::string out = header_of(run) + banner_of(run);
   if (run.baseline)
     out += section("Difference to the baseline", difference_section(run, spreads, before));
-  const bool passed = sweep::all_passed(run.results);
-  out += section(passed ? "Cases nearest to failing" : "Worst cases",
+  out += section(sweep::all_passed(run.results) ? "Cases nearest to failing" : "Worst cases",
                  note("A number with a link leads to the page of that case.") +
                      case_table(run, worst_of(run.results)));
   out += section("Margins", margin_charts(run, spreads, before));

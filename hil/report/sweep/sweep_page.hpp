@@ -20,6 +20,9 @@ namespace pitwall::report {
 
 std::string sweep_page(const SweepRun& run);
 
+// Whether every case passed; with a baseline, whether none has become worse.
+bool passed(const SweepRun& run);
+
 // The cases that the page lists: those that did not pass, worst first; where all passed, those that
 // are nearest to failing.
 std::vector<const sweep::CaseResult*> worst_of(CaseResults results);

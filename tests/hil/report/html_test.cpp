@@ -24,6 +24,11 @@ TEST(Html, TextIsEscapedAndHtmlIsNot) {
   EXPECT_EQ(cell("1", "word"), "<td class=\"word\">1</td>");
 }
 
+TEST(Html, OfAnOddNumberOfPartsTheLastStandsAlone) {
+  EXPECT_EQ(in_two_columns({"a", "b", "c"}), beside("a", "b") + beside("c", ""));
+  EXPECT_EQ(in_two_columns({}), "");
+}
+
 TEST(Html, AFactWithoutAValueSaysSo) {
   EXPECT_NE(fact("seed", "").find("not recorded"), std::string::npos);
 }

@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <limits>
+#include <vector>
 
 namespace pitwall::sweep {
 namespace {
@@ -41,6 +42,12 @@ TEST(CaseResult, AMarginThatIsNotFiniteStaysSo) {
   const auto read = parse_case_result(to_line(result));
   ASSERT_TRUE(read);
   EXPECT_FALSE(std::isfinite(read->margins[0].margin));
+}
+
+TEST(CaseResult, IsFoundByItsNumberAmongOthers) {
+  const std::vector<CaseResult> results{{.number = 2}, {.number = 5}, {.number = 9}};
+  EXPECT_EQ(&result_of(results, 5), &results[1]);
+  EXPECT_DEATH(result_of(results, 4), "CHECK");
 }
 
 TEST(CaseResult, ALineThatIsCutIsNone) {
