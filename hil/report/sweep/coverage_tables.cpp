@@ -13,14 +13,14 @@
 namespace pitwall::report {
 namespace {
 
-struct Meeting {
+struct CellCount {
   std::size_t run = 0, failed = 0;
 };
 
 // Two parameters, by their place in the plan, and the cases in each combination of their bins.
 struct Pair {
   std::size_t row, column;
-  std::vector<Meeting> meetings;  // row by row
+  std::vector<CellCount> counts;  // row by row
 };
 
 std::vector<Pair> pairs_of(const std::vector<ParameterAxis>& axes) {
@@ -30,7 +30,7 @@ std::vector<Pair> pairs_of(const std::vector<ParameterAxis>& axes) {
       if (axes[row].varies() && axes[column].varies())
         pairs.push_back(
             {row, column,
-             std::vector<Meeting>(axes[row].bins().size() * axes[column].bins().size())});
+             std::vector<CellCount>(axes[row].bins().size() * axes[column].bins().size())});
   return pairs;
 }
 
@@ -42,35 +42,35 @@ void count(const std::vector<ParameterAxis>& axes, const sweep::Cases& cases, Ca
     for (std::size_t k = 0; k < axes.size(); ++k) bins[k] = axes[k].bin_of(of.settings[k].value);
     for (Pair& pair : pairs) {
       const std::size_t columns = axes[pair.column].bins().size();
-      Meeting& meeting = pair.meetings[bins[pair.row] * columns + bins[pair.column]];
-      ++meeting.run;
-      meeting.failed += result.verdict != sweep::CaseVerdict::kPassed;
+      CellCount& counted = pair.counts[bins[pair.row] * columns + bins[pair.column]];
+      ++counted.run;
+      counted.failed += result.verdict != sweep::CaseVerdict::kPassed;
     }
   }
 }
 
-std::string cell_of(const Meeting& meeting) {
-  if (meeting.run == 0) return cell("&ndash;", "none");
-  const std::string run = std::to_string(meeting.run);
-  if (meeting.failed == 0) return cell(run);
-  const std::size_t third = std::min<std::size_t>(3 * meeting.failed / meeting.run, 2);
-  return cell(run + formatted(" <b>&times;%zu</b>", meeting.failed),
+std::string cell_of(const CellCount& counted) {
+  if (counted.run == 0) return cell("&ndash;", "none");
+  const std::string run = std::to_string(counted.run);
+  if (counted.failed == 0) return cell(run);
+  const std::size_t third = std::min<std::size_t>(3 * counted.failed / counted.run, 2);
+  return cell(run + formatted(" <b>&times;%zu</b>", counted.failed),
               formatted("failed%zu", third + 1));
 }
 
 std::string table_of(const Pair& pair, const ParameterAxis& rows, const ParameterAxis& columns) {
-  const auto not_run = std::ranges::count(pair.meetings, std::size_t{0}, &Meeting::run);
+  const auto not_run = std::ranges::count(pair.counts, std::size_t{0}, &CellCount::run);
   std::string out = formatted(
       "<table class=\"coverage\"><caption><b>%s</b> downwards, <b>%s</b> across: %zu of %zu "
       "combinations not run</caption><thead><tr><th></th>",
       escaped(rows.path()).c_str(), escaped(columns.path()).c_str(),
-      static_cast<std::size_t>(not_run), pair.meetings.size());
+      static_cast<std::size_t>(not_run), pair.counts.size());
   for (const std::string& name : columns.bins()) out += "<th>" + escaped(name) + "</th>";
   out += "</tr></thead><tbody>";
   for (std::size_t row = 0; row < rows.bins().size(); ++row) {
     out += "<tr><th>" + escaped(rows.bins()[row]) + "</th>";
     for (std::size_t column = 0; column < columns.bins().size(); ++column)
-      out += cell_of(pair.meetings[row * columns.bins().size() + column]);
+      out += cell_of(pair.counts[row * columns.bins().size() + column]);
     out += "</tr>\n";
   }
   return out + "</tbody></table>\n";
