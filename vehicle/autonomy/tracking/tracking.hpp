@@ -52,7 +52,7 @@ struct State {
   CameraWatch cameras;
   Counters counters;
 };
-static_assert(std::is_trivially_copyable_v<State> && sizeof(State) < 500'000);
+static_assert(std::is_trivially_copyable_v<State> && sizeof(State) < 650'000);
 
 struct Output {
   world::Opponents opponents;

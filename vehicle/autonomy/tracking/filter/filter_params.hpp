@@ -10,16 +10,23 @@ namespace pitwall::tracking {
 
 // The method "road": noise of the motion and of the sensors, gates.
 struct RoadParams {
-  // Acceleration and turn rate are noise that is forgotten in this time. Its sigma is one of two:
-  // of a steady car, and of one that begins to brake, to speed up or to change its lane.
-  double steady_accel_sigma_mps2 = 0.4, accel_sigma_mps2 = 4.0, accel_time_s = 2.0;
-  double steady_turn_sigma_rad_per_s = 0.009, turn_sigma_rad_per_s = 0.03, turn_time_s = 0.6;
+  // Acceleration and turn rate are noise that is forgotten in a time. Sigma and time are those of a
+  // steady car, whose acceleration changes slowly, or of one that begins to brake, to speed up or
+  // to change its lane; one that changes only its speed turns less.
+  double steady_accel_sigma_mps2 = 0.45, steady_accel_time_s = 10.0;
+  double accel_sigma_mps2 = 4.0, accel_time_s = 1.6;
+  double steady_turn_sigma_rad_per_s = 0.0045, speed_change_turn_sigma_rad_per_s = 0.0125;
+  double turn_sigma_rad_per_s = 0.033, turn_time_s = 0.6;
   // With a map a car comes back to the direction of the road in this time.
   double heading_time_s = 1.4;
-  double steady_s = 20.0, maneuver_s = 6.0;  // mean length of both
+  double steady_s = 16.0, maneuver_s = 7.0;  // mean lengths
+  double speed_change_share = 0.6;           // of the maneuvers; the others change the lane too
   // The same without a map, where the turn rate is that of the road too.
   double plane_turn_sigma_rad_per_s = 0.3, plane_turn_time_s = 5.0;
-  double wander_m_per_sqrt_s = 0.055;  // what the model of the motion leaves out
+  // What the model of the motion leaves out.
+  double wander_m_per_sqrt_s = 0.05, heading_wander_rad_per_sqrt_s = 0.003;
+  // By which our own pose is off wanders: 0.03 m and 0.1 degrees that are forgotten in 10 s.
+  double own_drift_m_per_sqrt_s = 0.0135, own_yaw_drift_rad_per_sqrt_s = 0.00078;
   // Of a new track, about our own speed and the direction of the road (of our car on a plane).
   double start_speed_sigma_mps = 40.0, start_heading_sigma_rad = 0.15;
   // Grows beyond a distance: 0.30 m at 100 m.
@@ -49,18 +56,25 @@ struct RoadParams {
 };
 
 inline constexpr auto kRoadRanges = std::to_array<world::NamedRange<RoadParams>>({
-    {"accel_time_s", &RoadParams::accel_time_s, 0.1, 20.0},
-    {"turn_time_s", &RoadParams::turn_time_s, 0.1, 20.0},
     {"steady_accel_sigma_mps2", &RoadParams::steady_accel_sigma_mps2, 0.01, 20.0},
+    {"steady_accel_time_s", &RoadParams::steady_accel_time_s, 0.1, 100.0},
     {"accel_sigma_mps2", &RoadParams::accel_sigma_mps2, 0.1, 20.0},
+    {"accel_time_s", &RoadParams::accel_time_s, 0.1, 20.0},
     {"steady_turn_sigma_rad_per_s", &RoadParams::steady_turn_sigma_rad_per_s, 1e-4, 1.0},
+    {"speed_change_turn_sigma_rad_per_s", &RoadParams::speed_change_turn_sigma_rad_per_s, 1e-4,
+     1.0},
     {"turn_sigma_rad_per_s", &RoadParams::turn_sigma_rad_per_s, 0.001, 1.0},
+    {"turn_time_s", &RoadParams::turn_time_s, 0.1, 20.0},
     {"heading_time_s", &RoadParams::heading_time_s, 0.1, 1000.0},
     {"steady_s", &RoadParams::steady_s, 0.1, 1000.0},
     {"maneuver_s", &RoadParams::maneuver_s, 0.1, 1000.0},
+    {"speed_change_share", &RoadParams::speed_change_share, 0.01, 0.99},
     {"plane_turn_sigma_rad_per_s", &RoadParams::plane_turn_sigma_rad_per_s, 0.001, 2.0},
     {"plane_turn_time_s", &RoadParams::plane_turn_time_s, 0.1, 60.0},
     {"wander_m_per_sqrt_s", &RoadParams::wander_m_per_sqrt_s, 0.0, 2.0},
+    {"heading_wander_rad_per_sqrt_s", &RoadParams::heading_wander_rad_per_sqrt_s, 0.0, 0.1},
+    {"own_drift_m_per_sqrt_s", &RoadParams::own_drift_m_per_sqrt_s, 0.0, 1.0},
+    {"own_yaw_drift_rad_per_sqrt_s", &RoadParams::own_yaw_drift_rad_per_sqrt_s, 0.0, 0.1},
     {"start_speed_sigma_mps", &RoadParams::start_speed_sigma_mps, 1.0, 100.0},
     {"start_heading_sigma_rad", &RoadParams::start_heading_sigma_rad, 0.01, 1.5},
     {"lidar_sigma_m", &RoadParams::lidar_sigma_m, 0.01, 2.0},

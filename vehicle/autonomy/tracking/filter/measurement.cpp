@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "vehicle/autonomy/tracking/filter/cholesky.hpp"
+#include "vehicle/autonomy/tracking/filter/modes.hpp"
 
 namespace pitwall::tracking {
 namespace {
@@ -265,18 +266,13 @@ Distance distance_of(const Spread& spread, const Innovation& in, double most) {
 
 void update(const Expectation& e, const Innovation& in, const world::TrackMap* map, Track& track) {
   Modes& m = track.modes;
-  std::array<RoadVector, kModes> x;
   std::array<Fit, kModes> fit;
-  for (std::size_t mode = 0; mode < kModes; ++mode) {
-    for (std::size_t i = 0; i < kRoadStates; ++i) x[mode][i] = offset_of(m, mode, i);
-    fit[mode] = update_mode(e, in, x[mode], m.p[mode]);
-  }
-  const double odds = likelihood_ratio(fit[kManeuver], fit[kSteady]) * m.maneuver;
-  m.maneuver = odds / (odds + 1.0 - m.maneuver);
-  for (std::size_t i = 0; i < kRoadStates; ++i) {
-    m.apart[i] = x[kManeuver][i] - x[kSteady][i];
-    track.x[i] += x[kSteady][i] + m.maneuver * m.apart[i];
-  }
+  for (std::size_t k = 0; k < kModes; ++k) fit[k] = update_mode(e, in, m.apart[k], m.p[k]);
+  double sum = m.share[kSteady];
+  for (std::size_t k = 1; k < kModes; ++k)
+    sum += m.share[k] *= likelihood_ratio(fit[k], fit[kSteady]);
+  for (double& share : m.share) share /= sum;
+  centre_modes(track);
   track.x[kHeading] = full_turn(track.x[kHeading]);
   if (map != nullptr) track.x[kAlong] = map->wrap_station(track.x[kAlong]);
   join_modes(track);

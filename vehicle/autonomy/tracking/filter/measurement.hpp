@@ -6,7 +6,7 @@
 //          and range rate from the centre of gravity of our car
 //   invariants
 //          the yaw of a box counts up to half a turn: front and back may be exchanged
-//   cost   0.3 us for an update; no allocation
+//   cost   0.5 us for an update; no allocation
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -73,7 +73,7 @@ struct Distance {
 // The square is infinite where one value alone is beyond `most`.
 Distance distance_of(const Spread& spread, const Innovation& innovation, double most);
 
-// Updates both modes, and by how well each expected it their probability. The innovation is that of
+// Updates every mode, and by how well each expected it their probability. The innovation is that of
 // the expectation.
 void update(const Expectation& expectation, const Innovation& innovation,
             const world::TrackMap* map, Track& track);

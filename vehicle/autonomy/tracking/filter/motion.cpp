@@ -12,7 +12,9 @@ constexpr double kStepMax_s = 0.1;
 constexpr double kRadiusLeftMin = 0.2;  // of 1 - kappa n, which is positive between the walls
 
 // F P: rows of the positions are full, the others add one state to another.
-RoadMatrix times_covariance(const MotionStep& step, const Advance& a, const RoadMatrix& p) {
+RoadMatrix times_covariance(const MotionStep& step, std::size_t mode, const Advance& a,
+                            const RoadMatrix& p) {
+  const auto& [accel, turn] = step.mode[mode];
   RoadMatrix fp;
   for (std::size_t j = 0; j < kRoadStates; ++j) {
     for (std::size_t i = 0; i < 2; ++i) {
@@ -20,24 +22,24 @@ RoadMatrix times_covariance(const MotionStep& step, const Advance& a, const Road
       for (std::size_t k = 0; k < kRoadStates; ++k) sum += a.jacobian[i][k] * p[k][j];
       fp[i][j] = sum;
     }
-    fp[kHeading][j] = step.heading_kept * p[kHeading][j] + step.turn.gain_s * p[kTurn][j];
-    fp[kSpeed][j] = p[kSpeed][j] + step.accel.gain_s * p[kAccel][j];
-    fp[kAccel][j] = step.accel.kept * p[kAccel][j];
-    fp[kTurn][j] = step.turn.kept * p[kTurn][j];
+    fp[kHeading][j] = step.heading_kept * p[kHeading][j] + turn.gain_s * p[kTurn][j];
+    fp[kSpeed][j] = p[kSpeed][j] + accel.gain_s * p[kAccel][j];
+    fp[kAccel][j] = accel.kept * p[kAccel][j];
+    fp[kTurn][j] = turn.kept * p[kTurn][j];
   }
   return fp;
 }
 
-void add_noise(const Fading& f, double variance, std::size_t integral, std::size_t value,
-               RoadMatrix& p) {
-  p[value][value] += variance * f.value_variance;
-  p[integral][integral] += variance * f.integral_variance;
-  p[integral][value] += variance * f.covariance;
-  p[value][integral] += variance * f.covariance;
+void add_noise(const Fading& f, std::size_t integral, std::size_t value, RoadMatrix& p) {
+  p[value][value] += f.value_variance;
+  p[integral][integral] += f.integral_variance;
+  p[integral][value] += f.covariance;
+  p[value][integral] += f.covariance;
 }
 
 void move_covariance(const MotionStep& step, const Advance& a, std::size_t mode, RoadMatrix& p) {
-  const RoadMatrix fp = times_covariance(step, a, p);
+  const auto& [accel, turn] = step.mode[mode];
+  const RoadMatrix fp = times_covariance(step, mode, a, p);
   for (std::size_t i = 0; i < kRoadStates; ++i) {
     const auto& row = fp[i];
     for (std::size_t j = 0; j < 2; ++j) {
@@ -45,29 +47,18 @@ void move_covariance(const MotionStep& step, const Advance& a, std::size_t mode,
       for (std::size_t k = 0; k < kRoadStates; ++k) sum += row[k] * a.jacobian[j][k];
       p[i][j] = sum;
     }
-    p[i][kHeading] = step.heading_kept * row[kHeading] + step.turn.gain_s * row[kTurn];
-    p[i][kSpeed] = row[kSpeed] + step.accel.gain_s * row[kAccel];
-    p[i][kAccel] = step.accel.kept * row[kAccel];
-    p[i][kTurn] = step.turn.kept * row[kTurn];
+    p[i][kHeading] = step.heading_kept * row[kHeading] + turn.gain_s * row[kTurn];
+    p[i][kSpeed] = row[kSpeed] + accel.gain_s * row[kAccel];
+    p[i][kAccel] = accel.kept * row[kAccel];
+    p[i][kTurn] = turn.kept * row[kTurn];
   }
   for (std::size_t i = 0; i < kRoadStates; ++i)
     for (std::size_t j = 0; j < i; ++j) p[i][j] = p[j][i];
-  add_noise(step.accel, step.accel_variance[mode], kSpeed, kAccel, p);
-  add_noise(step.turn, step.turn_variance[mode], kHeading, kTurn, p);
+  add_noise(accel, kSpeed, kAccel, p);
+  add_noise(turn, kHeading, kTurn, p);
   p[kAlong][kAlong] += step.wander_variance;
   p[kAcross][kAcross] += step.wander_variance;
-}
-
-void move_apart(const MotionStep& step, const Advance& a, RoadVector& d) {
-  const RoadVector before = d;
-  for (std::size_t i = 0; i < 2; ++i) {
-    d[i] = 0.0;
-    for (std::size_t k = 0; k < kRoadStates; ++k) d[i] += a.jacobian[i][k] * before[k];
-  }
-  d[kHeading] = step.heading_kept * before[kHeading] + step.turn.gain_s * before[kTurn];
-  d[kSpeed] += step.accel.gain_s * before[kAccel];
-  d[kAccel] *= step.accel.kept;
-  d[kTurn] *= step.turn.kept;
+  p[kHeading][kHeading] += step.heading_variance;
 }
 
 std::size_t nearest_point(const world::TrackMap& map, double s_m) {
@@ -104,19 +95,30 @@ Bend bend_at(const world::TrackMap* map, double s_m) {
   return bend_of(*map, nearest_point(*map, s_m));
 }
 
+StateVector states_of(const Track& track, std::size_t mode) {
+  StateVector x = track.x;
+  for (std::size_t i = 0; i < kRoadStates; ++i) x[i] += track.modes.apart[mode][i];
+  return x;
+}
+
+// What a mode is apart from x is small: it needs no wrap.
 void take_step(const MotionStep& step, const world::TrackMap* map, Track& track) {
   const double half_way_m = track.x[kAlong] + 0.5 * step.dt_s * track.x[kSpeed];
   const Bend bend = bend_at(map, half_way_m);
-  const Advance a = advanced(step, bend.road_per_m, track.x);
-  track.x = a.x;
+  Modes& m = track.modes;
+  mix_modes(step.change, m);
+  std::array<Advance, kModes> to;
+  for (std::size_t mode = 0; mode < kModes; ++mode) {
+    to[mode] = advanced(step, mode, bend.road_per_m, states_of(track, mode));
+    move_covariance(step, to[mode], mode, m.p[mode]);
+  }
+  for (std::size_t k = 0; k < kModes; ++k)
+    for (std::size_t i = 0; i < kRoadStates; ++i) m.apart[k][i] = to[k].x[i] - track.x[i];
+  centre_modes(track);
   track.x[kHeading] =
       full_turn(track.x[kHeading] + step.dt_s * track.x[kSpeed] * bend.middle_per_m +
                 (1.0 - step.heading_kept) * bend.middle_slope);
   if (map != nullptr) track.x[kAlong] = map->wrap_station(track.x[kAlong]);
-  mix_modes(step.change, track.modes);
-  move_apart(step, a, track.modes.apart);
-  for (std::size_t mode = 0; mode < kModes; ++mode)
-    move_covariance(step, a, mode, track.modes.p[mode]);
 }
 
 void coast_all(const RoadParams& params, const world::TrackMap* map, Duration time,
@@ -126,11 +128,12 @@ void coast_all(const RoadParams& params, const world::TrackMap* map, Duration ti
   const MotionStep step = motion_step(params, map != nullptr, time.seconds() / steps);
   for (double k = 0.0; k < steps; k += 1.0)
     for (Track& track : tracks) take_step(step, map, track);
-  for (Track& track : tracks) join_modes(track);
 }
 
-std::array<double, kModes> squares(double steady, double maneuver) {
-  return {steady * steady, maneuver * maneuver};
+Fading with_sigma(Fading unit, double sigma) {
+  const double variance = sigma * sigma;
+  unit.value_variance *= variance, unit.integral_variance *= variance, unit.covariance *= variance;
+  return unit;
 }
 
 }  // namespace
@@ -154,16 +157,22 @@ Fading fading(double sigma, double time_s, double dt_s) {
 }
 
 MotionStep motion_step(const RoadParams& p, bool with_map, double dt_s) {
-  return {.dt_s = dt_s,
-          .accel = fading(1.0, p.accel_time_s, dt_s),
-          .turn = fading(1.0, with_map ? p.turn_time_s : p.plane_turn_time_s, dt_s),
-          .accel_variance = squares(p.steady_accel_sigma_mps2, p.accel_sigma_mps2),
-          .turn_variance =
-              with_map ? squares(p.steady_turn_sigma_rad_per_s, p.turn_sigma_rad_per_s)
-                       : squares(p.plane_turn_sigma_rad_per_s, p.plane_turn_sigma_rad_per_s),
-          .wander_variance = p.wander_m_per_sqrt_s * p.wander_m_per_sqrt_s * dt_s,
-          .heading_kept = with_map ? std::exp(-dt_s / p.heading_time_s) : 1.0,
-          .change = mode_change(p, dt_s)};
+  const Fading steady = fading(p.steady_accel_sigma_mps2, p.steady_accel_time_s, dt_s);
+  const Fading changing = fading(p.accel_sigma_mps2, p.accel_time_s, dt_s);
+  const Fading turn = fading(1.0, with_map ? p.turn_time_s : p.plane_turn_time_s, dt_s);
+  const auto turning = [&](double with_map_sigma) {
+    return with_sigma(turn, with_map ? with_map_sigma : p.plane_turn_sigma_rad_per_s);
+  };
+  MotionStep step;
+  step.dt_s = dt_s;
+  step.change = mode_change(p, dt_s);
+  step.mode[kSteady] = {steady, turning(p.steady_turn_sigma_rad_per_s)};
+  step.mode[kSpeedChange] = {changing, turning(p.speed_change_turn_sigma_rad_per_s)};
+  step.mode[kLaneChange] = {changing, turning(p.turn_sigma_rad_per_s)};
+  step.wander_variance = p.wander_m_per_sqrt_s * p.wander_m_per_sqrt_s * dt_s;
+  step.heading_variance = p.heading_wander_rad_per_sqrt_s * p.heading_wander_rad_per_sqrt_s * dt_s;
+  if (with_map) step.heading_kept = std::exp(-dt_s / p.heading_time_s);
+  return step;
 }
 
 double curvature_at(const world::TrackMap* map, double s_m) { return bend_at(map, s_m).road_per_m; }
@@ -173,9 +182,11 @@ double road_turn_of(double curvature_per_m, const StateVector& x) {
   return curvature_per_m * x[kSpeed] * std::cos(x[kHeading]) / left;
 }
 
-Advance advanced(const MotionStep& step, double curvature_per_m, const StateVector& x) {
-  const double heading_rad = x[kHeading] + step.turn.half_s * x[kTurn];
-  const double speed_mps = x[kSpeed] + step.accel.half_s * x[kAccel];
+Advance advanced(const MotionStep& step, std::size_t mode, double curvature_per_m,
+                 const StateVector& x) {
+  const auto& [accel, turn] = step.mode[mode];
+  const double heading_rad = x[kHeading] + turn.half_s * x[kTurn];
+  const double speed_mps = x[kSpeed] + accel.half_s * x[kAccel];
   const double left = std::max(1.0 - curvature_per_m * x[kAcross], kRadiusLeftMin);
   const double along = step.dt_s * std::cos(heading_rad) / left;
   const double across = step.dt_s * std::sin(heading_rad);
@@ -183,24 +194,20 @@ Advance advanced(const MotionStep& step, double curvature_per_m, const StateVect
   a.x = x;
   a.x[kAlong] += speed_mps * along;
   a.x[kAcross] += speed_mps * across;
-  a.x[kHeading] = full_turn(step.heading_kept * x[kHeading] + step.turn.gain_s * x[kTurn]);
-  a.x[kSpeed] += step.accel.gain_s * x[kAccel];
-  a.x[kAccel] *= step.accel.kept;
-  a.x[kTurn] *= step.turn.kept;
+  a.x[kHeading] = step.heading_kept * x[kHeading] + turn.gain_s * x[kTurn];
+  a.x[kSpeed] += accel.gain_s * x[kAccel];
+  a.x[kAccel] *= accel.kept;
+  a.x[kTurn] *= turn.kept;
   const double along_by_heading = -speed_mps * across / left;
   const double across_by_heading = speed_mps * along * left;
   a.jacobian[0] = {1.0,
                    speed_mps * along * curvature_per_m / left,
                    along_by_heading,
                    along,
-                   along * step.accel.half_s,
-                   along_by_heading * step.turn.half_s};
-  a.jacobian[1] = {0.0,
-                   1.0,
-                   across_by_heading,
-                   across,
-                   across * step.accel.half_s,
-                   across_by_heading * step.turn.half_s};
+                   along * accel.half_s,
+                   along_by_heading * turn.half_s};
+  a.jacobian[1] = {
+      0.0, 1.0, across_by_heading, across, across * accel.half_s, across_by_heading * turn.half_s};
   return a;
 }
 
@@ -210,6 +217,7 @@ void coast(const RoadParams& params, const world::TrackMap* map, Duration time, 
 
 void coast(const RoadParams& params, const world::TrackMap* map, Duration time, Track& track) {
   coast_all(params, map, time, std::span<Track>{&track, 1});
+  join_modes(track);
 }
 
 }  // namespace pitwall::tracking

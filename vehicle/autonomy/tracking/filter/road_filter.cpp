@@ -12,6 +12,7 @@
 #include "vehicle/autonomy/tracking/filter/measurement.hpp"
 #include "vehicle/autonomy/tracking/filter/modes.hpp"
 #include "vehicle/autonomy/tracking/filter/motion.hpp"
+#include "vehicle/autonomy/tracking/filter/own_drift.hpp"
 
 namespace pitwall::tracking {
 namespace {
@@ -69,10 +70,12 @@ void judge_lost(const RoadParams& params, const TrackMap* map, const Frame& fram
   }
 }
 
+// The gates are those of a car that has begun a maneuver: the mean of the modes would shut it out
+// after a gap, since it is one normal distribution.
 void judge_seen(const RoadParams& params, const Frame& frame, const Place& place,
                 const Track& track, std::size_t t, Gates& g) {
   g.expected[t] = expectation_of(frame.key.source, frame.own, place);
-  const Spread spread = spread_of(g.expected[t], track.p);
+  const Spread spread = spread_of(g.expected[t], covariance_of(kLaneChange, track.modes));
   for (std::size_t d = 0; d < frame.measurements.size(); ++d) {
     const Innovation in = innovation_of(frame.key.source, g.reading[d], g.expected[t]);
     const double gate = gate_of(params, in.size);
@@ -91,15 +94,16 @@ world::Curvilinear spot_of(const TrackMap* map, const Frame& frame, std::size_t 
   return station_of(*map, frame.own, at);
 }
 
-void judge_pairs(const RoadParams& params, const TrackMap* map, const Frame& frame,
-                 const Tracks& tracks, Gates& g) {
+void judge_pairs(const RoadParams& params, const TrackMap* map, const Frame& frame, double dt_s,
+                 Tracks& tracks, Gates& g) {
   g.costs.tracks = tracks.list.size(), g.costs.detections = frame.measurements.size();
   for (std::size_t d = 0; d < frame.measurements.size(); ++d)
     g.reading[d] = reading_of(params, frame.key, frame.own, frame.measurements[d]);
   bool has_spots = false;
   for (std::size_t t = 0; t < tracks.list.size(); ++t) {
-    const Track& track = tracks.list[t];
+    Track& track = tracks.list[t];
     const Place place = place_of(map, track.x);
+    add_own_drift(params, frame.own, place, dt_s, track.modes);
     g.place[t] = {place.x_m, place.y_m};
     if (!is_lost(frame, track)) {
       judge_seen(params, frame, place, track, t, g);
@@ -128,7 +132,7 @@ void turn_around(Track& track) {
   track.x[kHeading] = wrap_pi(track.x[kHeading] + std::numbers::pi);
   for (const std::size_t i : {kSpeed, kAccel}) {
     track.x[i] = -track.x[i];
-    track.modes.apart[i] = -track.modes.apart[i];
+    for (RoadVector& apart : track.modes.apart) apart[i] = -apart[i];
     for (RoadMatrix& p : track.modes.p)
       for (std::size_t j = 0; j < kRoadStates; ++j) {
         p[i][j] = -p[i][j];
@@ -161,9 +165,11 @@ Track heir_on_course(const RoadParams& params, const TrackMap* map, Duration coa
 void update_tracks(const RoadParams& params, const TrackMap* map, Duration coast_for,
                    const Frame& frame, const Gates& g, const Assignment& a, Tracks& tracks) {
   for (std::size_t t = 0; t < g.costs.tracks; ++t) {
-    if (a.of_track[t] == kNone) continue;
     const std::size_t d = a.of_track[t];
-    if (is_lost(frame, tracks.list[t])) {
+    const bool lost = is_lost(frame, tracks.list[t]);
+    if (d == kNone || lost) join_modes(tracks.list[t]);
+    if (d == kNone) continue;
+    if (lost) {
       add_track(heir_on_course(params, map, coast_for, frame, g, d, tracks.list[t]), tracks);
     } else {
       update_track(params, map, frame, g, g.expected[t], d, tracks.list[t]);
@@ -238,11 +244,12 @@ void filter_road(const RoadParams& params, const TrackMap* map, Duration coast_f
   const Duration known_for = std::max(coast_for, from_seconds(params.remembered_s));
   end_unseen(frame, known_for, tracks);
   make_room(frame, coast_for, tracks);
+  const double dt_s = tracks.started ? (frame.key.at - tracks.at).seconds() : 0.0;
   if (tracks.started) coast(params, map, frame.key.at - tracks.at, tracks);
   tracks.started = true;
   tracks.at = frame.key.at;
   Gates g;
-  judge_pairs(params, map, frame, tracks, g);
+  judge_pairs(params, map, frame, dt_s, tracks, g);
   const Assignment a = assign(g.costs, Search::kBestTwo);
   update_tracks(params, map, coast_for, frame, g, a, tracks);
   begin_tracks(params, map, coast_for, frame, g, a, tracks);

@@ -34,12 +34,12 @@ inline constexpr std::size_t kRoadStates = 6;  // of the method "road"
 using RoadVector = std::array<double, kRoadStates>;
 using RoadMatrix = std::array<RoadVector, kRoadStates>;
 
-// The two ways in which a car may move at the moment, see modes.hpp.
-inline constexpr std::size_t kSteady = 0, kManeuver = 1, kModes = 2;
+// Ways in which a car may move at the moment, see modes.hpp.
+inline constexpr std::size_t kSteady = 0, kSpeedChange = 1, kLaneChange = 2, kModes = 3;
 struct Modes {
-  double maneuver = 0.0;               // probability
-  RoadVector apart{};                  // states in a maneuver minus those of a steady car
-  std::array<RoadMatrix, kModes> p{};  // covariances
+  std::array<double, kModes> share{};      // probability
+  std::array<RoadVector, kModes> apart{};  // states minus those of the track
+  std::array<RoadMatrix, kModes> p{};      // covariances
 };
 
 // States of the method "road" (the seventh is not used): position along and across, heading,
@@ -47,7 +47,7 @@ struct Modes {
 // yaw, length, width, vx, vy.
 struct Track {
   StateVector x{};
-  StateMatrix p{};  // covariance; of "road" that of both modes together
+  StateMatrix p{};  // covariance; of "road" that of all modes together
   Modes modes;      // of "road"
   double length_m = kUnset, width_m = kUnset;
   double confidence = kUnset;    // of its newest detection

@@ -35,7 +35,7 @@ constexpr int kCars = 200;
 // scipy.stats.chi2.ppf([0.0005, 0.9995], 1200) / 200.
 constexpr double kLeast = 5.227, kMost = 6.839;
 
-// Gauss-Markov acceleration and turn rate, white velocity: Euler-Maruyama at 1 kHz.
+// Gauss-Markov acceleration and turn rate, white velocity and turn: Euler-Maruyama at 1 kHz.
 struct RandomCar {
   double s_m, n_m, heading_rad, speed_mps, accel_mps2, turn_rad_per_s;
 
@@ -46,7 +46,8 @@ struct RandomCar {
     const double wander_m = p.wander_m_per_sqrt_s * std::sqrt(dt_s);
     s_m += speed_mps * std::cos(heading_rad) / left * dt_s + wander_m * draw_normal(random);
     n_m += speed_mps * std::sin(heading_rad) * dt_s + wander_m * draw_normal(random);
-    heading_rad += (turn_rad_per_s - (on_road ? heading_rad / p.heading_time_s : 0.0)) * dt_s;
+    heading_rad += (turn_rad_per_s - (on_road ? heading_rad / p.heading_time_s : 0.0)) * dt_s +
+                   p.heading_wander_rad_per_sqrt_s * std::sqrt(dt_s) * draw_normal(random);
     speed_mps += accel_mps2 * dt_s;
     accel_mps2 += -accel_mps2 / p.accel_time_s * dt_s +
                   p.accel_sigma_mps2 * std::sqrt(2.0 * dt_s / p.accel_time_s) * draw_normal(random);
@@ -96,8 +97,10 @@ double mean_error(bool on_road, const std::vector<DetectionSource>& sensors) {
   const world::TrackMap map = circle();
   RoadParams params;
   params.steady_accel_sigma_mps2 = params.accel_sigma_mps2 = 2.0;  // the modes are one
-  params.steady_turn_sigma_rad_per_s = params.turn_sigma_rad_per_s =
-      0.01;  // or a car leaves the road within seconds
+  params.steady_accel_time_s = params.accel_time_s;
+  params.steady_turn_sigma_rad_per_s = params.speed_change_turn_sigma_rad_per_s =
+      params.turn_sigma_rad_per_s = 0.01;  // or a car leaves the road within seconds
+  params.own_drift_m_per_sqrt_s = params.own_yaw_drift_rad_per_sqrt_s = 0.0;  // our pose is known
   params.plane_turn_sigma_rad_per_s = 0.1;
   params.gate_1 = params.gate_2 = params.gate_3 = 50.0;  // or the worst errors are left out
   const world::TrackMap* ground = on_road ? &map : nullptr;
@@ -111,7 +114,8 @@ double mean_error(bool on_road, const std::vector<DetectionSource>& sensors) {
                            .steady_turn_sigma_rad_per_s = 0,
                            .turn_sigma_rad_per_s = 0,
                            .plane_turn_sigma_rad_per_s = 0,
-                           .wander_m_per_sqrt_s = 0};
+                           .wander_m_per_sqrt_s = 0,
+                           .heading_wander_rad_per_sqrt_s = 0};
     Tracks tracks;
     for (int ms = 0; ms <= 4000; ++ms) {
       if (ms % 50 == 0) {

@@ -30,13 +30,15 @@ Track moving(double speed_mps) {
 RoadParams without_noise() {
   RoadParams p;
   p.steady_accel_sigma_mps2 = p.accel_sigma_mps2 = p.steady_turn_sigma_rad_per_s =
-      p.turn_sigma_rad_per_s = p.plane_turn_sigma_rad_per_s = 0.0;
-  p.wander_m_per_sqrt_s = 0.0;
+      p.speed_change_turn_sigma_rad_per_s = p.turn_sigma_rad_per_s = p.plane_turn_sigma_rad_per_s =
+          0.0;
+  p.wander_m_per_sqrt_s = p.heading_wander_rad_per_sqrt_s = 0.0;
   return p;
 }
 
-// Central differences of the states after a step, by those before it.
+// Central differences of the states of a mode after a step, by those before it.
 std::array<std::array<double, kRoadStates>, kRoadStates> differences(const MotionStep& step,
+                                                                     std::size_t mode,
                                                                      double curvature_per_m,
                                                                      const StateVector& x) {
   std::array<std::array<double, kRoadStates>, kRoadStates> f{};
@@ -44,8 +46,8 @@ std::array<std::array<double, kRoadStates>, kRoadStates> differences(const Motio
     constexpr double kStep = 1e-5;
     StateVector more = x, less = x;
     more[j] += kStep, less[j] -= kStep;
-    const StateVector a = advanced(step, curvature_per_m, more).x;
-    const StateVector b = advanced(step, curvature_per_m, less).x;
+    const StateVector a = advanced(step, mode, curvature_per_m, more).x;
+    const StateVector b = advanced(step, mode, curvature_per_m, less).x;
     for (std::size_t i = 0; i < kRoadStates; ++i) f[i][j] = (a[i] - b[i]) / (2.0 * kStep);
   }
   return f;
@@ -55,10 +57,11 @@ TEST(Motion, JacobianIsThatOfDifferences) {
   for (const double curvature_per_m : {0.0, 1.0 / kRadius_m, -1.0 / 80.0})
     for (const double dt_s : {0.001, 0.05, 0.1})
       for (const double speed_mps : {-3.0, 0.0, 30.0, 85.0}) {
+        const std::size_t mode = speed_mps > 0.0 ? kSteady : kSpeedChange;
         const MotionStep step = motion_step(RoadParams{}, true, dt_s);
         const StateVector x = moving(speed_mps).x;
-        const auto expected = differences(step, curvature_per_m, x);
-        const Advance a = advanced(step, curvature_per_m, x);
+        const auto expected = differences(step, mode, curvature_per_m, x);
+        const Advance a = advanced(step, mode, curvature_per_m, x);
         for (std::size_t i = 0; i < 2; ++i)
           for (std::size_t j = 0; j < kRoadStates; ++j)
             EXPECT_NEAR(a.jacobian[i][j], expected[i][j], 1e-7) << i << j << " " << speed_mps;
@@ -68,9 +71,11 @@ TEST(Motion, JacobianIsThatOfDifferences) {
 // The sparse product in the filter against F P F' in full.
 TEST(Motion, CovarianceIsMovedByTheJacobian) {
   const world::TrackMap map = circle();
-  const RoadParams params = without_noise();
+  RoadParams params = without_noise();
+  params.accel_time_s = params.steady_accel_time_s;  // all modes are one
   Track track = moving(60.0);
-  const auto f = differences(motion_step(params, true, 0.08), 1.0 / kRadius_m, track.x);
+  const MotionStep step = motion_step(params, true, 0.08);
+  const auto f = differences(step, kLaneChange, 1.0 / kRadius_m, track.x);
   const StateMatrix before = track.p;
   coast(params, &map, milliseconds(80), track);
   for (std::size_t i = 0; i < kRoadStates; ++i)
@@ -80,6 +85,22 @@ TEST(Motion, CovarianceIsMovedByTheJacobian) {
         for (std::size_t l = 0; l < kRoadStates; ++l) expected += f[i][k] * before[k][l] * f[j][l];
       EXPECT_NEAR(track.p[i][j], expected, 1e-6 * (1.0 + std::abs(expected))) << i << j;
     }
+}
+
+// A steady car that brakes keeps more of that than one that may end it soon; the track is their
+// mean.
+TEST(Motion, ModesForgetTheAccelerationEachInItsTime) {
+  const RoadParams params = without_noise();
+  Track track;
+  track.x = {0.0, 0.0, 0.0, 60.0, -3.0, 0.0};
+  begin_modes(params, track);
+  const std::array<double, kModes> share = track.modes.share;
+  coast(params, nullptr, milliseconds(100), track);
+  const double steady = -3.0 * std::exp(-0.1 / params.steady_accel_time_s);
+  const double changing = -3.0 * std::exp(-0.1 / params.accel_time_s);
+  EXPECT_NEAR(track.x[kAccel], share[kSteady] * steady + (1.0 - share[kSteady]) * changing, 1e-12);
+  EXPECT_NEAR(track.x[kAccel] + track.modes.apart[kSteady][kAccel], steady, 1e-12);
+  EXPECT_NEAR(track.x[kAccel] + track.modes.apart[kLaneChange][kAccel], changing, 1e-12);
 }
 
 // Noise of two steps in a row is that of one of their length (Chapman-Kolmogorov), on both sides of

@@ -230,9 +230,25 @@ TEST(RoadFilter, BrakingIsAManeuver) {
     return slower.at(t_s);
   };
   for (int i = 0; i < 60; ++i) drive.see(0.05 * i, DetectionSource::kLidar, {braking(0.05 * i)});
-  EXPECT_LT(drive.tracks.list[0].modes.maneuver, 0.1);
+  EXPECT_GT(drive.tracks.list[0].modes.share[kSteady], 0.9);
   for (int i = 60; i < 80; ++i) drive.see(0.05 * i, DetectionSource::kLidar, {braking(0.05 * i)});
-  EXPECT_GT(drive.tracks.list[0].modes.maneuver, 0.9);
+  EXPECT_LT(drive.tracks.list[0].modes.share[kSteady], 0.1);
+}
+
+// The radar misses a car for 0.3 s in which it begins to brake: what was steady until then expects
+// another range rate, but a car may have begun a maneuver.
+TEST(RoadFilter, CarThatBrakesInAGapKeepsItsTrack) {
+  const Car car{.s_m = 150.0, .n_m = 0.0, .speed_mps = 58.0};
+  Drive drive;
+  for (int i = 0; i < 100; ++i) drive.see(0.05 * i, DetectionSource::kRadar, {car.at(0.05 * i)});
+  constexpr double kGap_s = 0.3, kAgain_s = 4.95 + kGap_s, kBrake_mps2 = 6.0;
+  Car behind = car;
+  behind.s_m -= 0.5 * kBrake_mps2 * kGap_s * kGap_s;
+  TruePose slower = behind.at(kAgain_s);
+  slower.speed_mps -= kBrake_mps2 * kGap_s;
+  drive.see(kAgain_s, DetectionSource::kRadar, {slower});
+  ASSERT_EQ(drive.tracks.list.size(), 1U);
+  EXPECT_EQ(drive.tracks.list[0].newest.frame.at, at_s(kAgain_s));
 }
 
 TEST(RoadFilter, SecondCarBesideIsASecondTrack) {
