@@ -111,10 +111,9 @@ class Scorer {
       const double distance_m = std::hypot(car.x_m - moment.ours.x_m, car.y_m - moment.ours.y_m);
       const bool is_required = distance_m <= kRequired_m && seen_[i].since_s < kInSight_s;
       const auto id = static_cast<std::uint32_t>(i);
-      if (seen_[i].since_s > kForgotten_s && !seen_[i].is_forgotten) {
+      if (seen_[i].unseen_s > kForgotten_s) {
         mot_.let_go(id);
-        seen_[i].is_forgotten = true;
-        ++row_->reborn;
+        row_->reborn += !std::exchange(seen_[i].is_forgotten, true);
       }
       objects.push_back({id, car.x_m, car.y_m, is_required});
     }
@@ -171,9 +170,9 @@ class Scorer {
       for (const sensors::DetectionSensor& sensor : scene_->sensors) {
         if (!sensors::is_in_sight(sensor, moment.cars(), i)) continue;
         if (sight.unseen_s > kHidden_s) sight.hidden_s = sight.unseen_s, sight.back_s = 0.0;
-        sight.unseen_s = 0.0;
+        sight.unseen_s = 0.0, sight.is_forgotten = false;
         if (sensor.source == world::DetectionSource::kRadar) continue;
-        sight.since_s = 0.0, sight.is_forgotten = false;
+        sight.since_s = 0.0;
         break;
       }
       const CarPose& car = moment.others[i];
