@@ -119,7 +119,7 @@ class Scorer {
     }
     std::vector<Opponent> claimed;
     std::ranges::copy_if(known.cars, std::back_inserter(claimed), [now](const Opponent& track) {
-      return (now - track.measured_at).seconds() <= kClaimed_s;
+      return !track.is_tentative && (now - track.measured_at).seconds() <= kClaimed_s;
     });
     for (const Opponent& track : claimed) tracks.push_back({track.id, track.x_m, track.y_m});
     for (const SpotPair& pair : mot_.add(objects, tracks)) {

@@ -6,7 +6,8 @@
 //          of our own place does not count; beside them those in Map
 //   rate   the tracker at 100 Hz; scored at 20 Hz, between frames too
 //   MOTA   of tracks with a detection within the last kClaimed_s; one that only coasts says so by
-//          its time and is no claim, as in the published evaluations
+//          its time and is no claim, as in the published evaluations; nor is one whose number is
+//          tentative: its car counts as missed
 //   scored for errors: cars that some LiDAR or camera could see within the last kInSight_s, whose
 //          track is older than kSettled_s
 // SPDX-License-Identifier: Apache-2.0
@@ -26,7 +27,7 @@ inline constexpr double kInSight_s = 0.2, kSettled_s = 1.0, kWarmUp_s = 3.0;
 inline constexpr double kClaimed_s = 0.5;
 inline constexpr double kGate_m = 2.0;        // a track that is further away is not the car's
 inline constexpr double kRequired_m = 100.0;  // cars that are nearer, and in sight, must be known
-// A car that no sensor could see for this time may be another one when it comes back.
+// A car that no sensor, radars too, could see for this time may be another one when it comes back.
 inline constexpr double kForgotten_s = 4.0;
 // A switch within kBack_s after at least kHidden_s out of sight of every sensor is counted apart.
 inline constexpr double kHidden_s = 1.5, kBack_s = 1.0;

@@ -4,11 +4,15 @@
 #include <algorithm>
 #include <cmath>
 
+#include "vehicle/autonomy/tracking/filter/cholesky.hpp"
+#include "vehicle/autonomy/tracking/filter/measurement.hpp"
 #include "vehicle/autonomy/tracking/filter/modes.hpp"
 #include "vehicle/autonomy/tracking/filter/motion.hpp"
 
 namespace pitwall::tracking {
 namespace {
+
+constexpr double kSpeedLeast_mps = 10.0;
 
 // A constant one, for some seconds at most; then the car keeps the speed that it came to.
 void add_acceleration(const RoadParams& params, double unseen_s, Track& track) {
@@ -20,6 +24,17 @@ void add_acceleration(const RoadParams& params, double unseen_s, Track& track) {
     p[kSpeed][kSpeed] += speed * speed;
     p[kAlong][kSpeed] += along * speed;
     p[kSpeed][kAlong] += along * speed;
+  }
+}
+
+// Anywhere between two lanes, in the direction that a change of lanes needs.
+void add_lane_change(const RoadParams& params, double unseen_s, Track& track) {
+  const double rate = params.unseen_lane_sigma_mps;
+  const double across = rate * std::min(unseen_s, params.unseen_lane_s);
+  const double heading = rate / std::max(std::abs(track.x[kSpeed]), kSpeedLeast_mps);
+  for (RoadMatrix& p : track.modes.p) {
+    p[kAcross][kAcross] += across * across;
+    p[kHeading][kHeading] += heading * heading;
   }
 }
 
@@ -40,22 +55,38 @@ Courses courses_of(const RoadParams& params, Duration unseen, const Track& track
   c.track.fill(track);
   for (std::size_t i = 0; i < kCourses; ++i) {
     if (i != kAsBefore) add_acceleration(params, unseen.seconds(), c.track[i]);
-    if (i != kOtherLane) keep_lane(params, c.track[i]);
+    if (i == kOtherLane)
+      add_lane_change(params, unseen.seconds(), c.track[i]);
+    else
+      keep_lane(params, c.track[i]);
     join_modes(c.track[i]);
     c.cost[i] = -2.0 * std::log(share[i]);
   }
   return c;
 }
 
-CourseFit course_fit(const Courses& courses, const Expectation& e, const Innovation& in) {
-  constexpr double kMost = 1e6;
+RoadVector difference_of(const world::TrackMap* map, const Track& from, const Track& to) {
+  RoadVector d{};
+  for (std::size_t i = 0; i < kRoadStates; ++i) d[i] = to.x[i] - from.x[i];
+  d[kAlong] = way_m(map, from.x[kAlong], to.x[kAlong]);
+  d[kHeading] = full_turn(d[kHeading]);
+  return d;
+}
+
+CourseFit course_fit(const Courses& courses, const world::TrackMap* map, const Track& seen) {
   CourseFit fit;
   std::array<double, kCourses> cost{};
   for (std::size_t i = 0; i < kCourses; ++i) {
-    const Distance distance = distance_of(spread_of(e, courses.track[i].p), in, kMost);
-    cost[i] = distance.square + distance.log_det + courses.cost[i];
+    const Track& course = courses.track[i];
+    const auto l = factor<kRoadStates>(kRoadStates, [&](std::size_t row, std::size_t column) {
+      return course.p[row][column] + seen.p[row][column];
+    });
+    const RoadVector y = solved(l, kRoadStates, difference_of(map, course, seen));
+    double square = 0.0, det = 1.0;
+    for (std::size_t k = 0; k < kRoadStates; ++k) square += y[k] * y[k], det *= l[k][k];
+    cost[i] = square + 2.0 * std::log(det) + courses.cost[i];
     if (cost[i] < cost[fit.best]) fit.best = i;
-    fit.square = distance.square;
+    fit.square = square;
   }
   double sum = 0.0;
   for (const double c : cost) sum += std::exp(0.5 * (cost[fit.best] - c));

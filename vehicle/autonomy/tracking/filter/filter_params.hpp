@@ -44,11 +44,15 @@ struct RoadParams {
   // where two modes are one normal distribution.
   double gate_1 = 19.51, gate_2 = 23.03, gate_3 = 25.90;
   double apart_m = 1.8;  // closer to a confirmed track no track begins
-  // Of a car that is out of sight (courses.hpp): its acceleration, how long it may have it; how
-  // often it has one, and how often it changes its lane; sigma across the road of one that keeps
-  // it, as a share.
+  // Of a car that is out of sight (courses.hpp): its acceleration, how long it may have it; its
+  // speed across the road in a change of lanes, and for how long; how often it has an acceleration,
+  // and how often it changes its lane; sigma across the road of one that keeps it, as a share.
   double unseen_accel_sigma_mps2 = 2.5, unseen_accel_s = 3.0;
+  double unseen_lane_sigma_mps = 1.5, unseen_lane_s = 2.0;
   double other_speed_share = 0.2, other_lane_share = 0.2, lane_sigma_share = 0.5;
+  // Chi-square gate of six states; a car that came into sight is taken for one that was lost when
+  // -2 log of the likelihood is by so much less than for any other, or after this time.
+  double same_car_gate = 33.1, sure_difference = 13.8, decide_within_s = 1.5;
   // So long a car is known when it is seen again. After coast_s it then has a new number: no other
   // car gets the number of one that may have come to its place.
   double remembered_s = 30.0;
@@ -95,6 +99,11 @@ inline constexpr auto kRoadRanges = std::to_array<world::NamedRange<RoadParams>>
     {"apart_m", &RoadParams::apart_m, 0.0, 5.0},
     {"unseen_accel_sigma_mps2", &RoadParams::unseen_accel_sigma_mps2, 0.0, 10.0},
     {"unseen_accel_s", &RoadParams::unseen_accel_s, 0.0, 20.0},
+    {"unseen_lane_sigma_mps", &RoadParams::unseen_lane_sigma_mps, 0.0, 10.0},
+    {"unseen_lane_s", &RoadParams::unseen_lane_s, 0.0, 20.0},
+    {"same_car_gate", &RoadParams::same_car_gate, 5.0, 100.0},
+    {"sure_difference", &RoadParams::sure_difference, 0.0, 100.0},
+    {"decide_within_s", &RoadParams::decide_within_s, 0.0, 5.0},
     {"other_speed_share", &RoadParams::other_speed_share, 0.001, 0.999},
     {"other_lane_share", &RoadParams::other_lane_share, 0.001, 0.999},
     {"lane_sigma_share", &RoadParams::lane_sigma_share, 0.05, 1.0},

@@ -19,15 +19,9 @@ bool is_unseen(const Frame& frame, Duration coast, const Track& t) {
 }
 
 bool has_ended(const Frame& frame, Duration coast, const Track& t) {
-  const FrameKey& first = t.tried.frame;
+  const FrameKey& first = t.first.frame;
   const bool same_sensor = frame.key.source == first.source && frame.key.unit == first.unit;
   return is_unseen(frame, coast, t) || (!t.confirmed && same_sensor && t.newest.frame != frame.key);
-}
-
-// By a detection of the frame.
-bool is_confirmed_heir(const Frame& frame, const Track& t) {
-  return t.confirmed && t.is_heir && t.newest.frame == frame.key &&
-         t.detections == kDetectionsToConfirm;
 }
 
 template <class Ended>
@@ -43,7 +37,7 @@ void remove_tracks(Tracks& tracks, Ended&& ended) {
 }  // namespace
 
 void note_first(const Frame& frame, std::size_t index, Track& track) {
-  track.first = track.previous = track.newest = track.tried = key_of(frame, index);
+  track.first = track.previous = track.newest = key_of(frame, index);
   track.detections = 1;
   track.confidence = frame.measurements[index].confidence;
 }
@@ -55,24 +49,11 @@ void note_detection(const Frame& frame, std::size_t index, Track& track) {
   ++track.detections;
   if (track.confirmed || track.detections < kDetectionsToConfirm) return;
   track.confirmed = true;
-  if (track.first == track.tried) track.born_at = frame.key.at;
+  track.born_at = frame.key.at;
 }
 
 bool is_lost(const Frame& frame, const Track& t) {
   return t.confirmed && frame.key.at - t.newest.frame.at > kLostAfter;
-}
-
-Track heir_of(const Track& lost, Duration coast, const Frame& frame, std::size_t index) {
-  Track heir = lost;
-  heir.confirmed = false;
-  heir.is_heir = true;
-  heir.lost = lost.first;
-  heir.previous = lost.newest;
-  heir.newest = heir.tried = key_of(frame, index);
-  if (is_unseen(frame, coast, lost)) heir.first = heir.previous = heir.tried;
-  heir.detections = 1;
-  heir.confidence = frame.measurements[index].confidence;
-  return heir;
 }
 
 void add_track(const Track& track, Tracks& tracks) {
@@ -95,15 +76,11 @@ void end_unseen(const Frame& frame, Duration coast, Tracks& tracks) {
 
 void end_tracks(const Frame& frame, Duration coast, Tracks& tracks) {
   remove_tracks(tracks, [&](const Track& t) { return has_ended(frame, coast, t); });
-  for (std::size_t i = 0; i < tracks.list.size(); ++i) {
-    const DetectionKey lost = tracks.list[i].lost, tried = tracks.list[i].tried;
-    if (!is_confirmed_heir(frame, tracks.list[i])) continue;
-    const std::size_t before = tracks.list.size();
-    remove_tracks(tracks, [&](const Track& t) {
-      return (t.first == lost || (t.is_heir && t.lost == lost)) && t.tried != tried;
-    });
-    if (tracks.list.size() < before) i = 0;
-  }
+}
+
+void end_track(std::size_t index, Tracks& tracks) {
+  const Track* const ended = &tracks.list[index];
+  remove_tracks(tracks, [ended](const Track& t) { return &t == ended; });
 }
 
 }  // namespace pitwall::tracking

@@ -2,7 +2,7 @@
 //   invariants
 //          a track is confirmed by its second detection; on trial it ends with the first frame of
 //          the sensor that began it without a detection of it. A confirmed track ends when its
-//          newest detection is too old, or when its heir is confirmed
+//          newest detection is too old, or when another one takes its place
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -18,12 +18,8 @@ void note_first(const Frame& frame, std::size_t index, Track& track);
 void note_detection(const Frame& frame, std::size_t index, Track& track);
 
 // Whether a confirmed track was not seen for so long that a detection near it may be another car's,
-// or none: it does not go on with one detection, but with a heir.
+// or none: what is seen there begins a track of its own.
 bool is_lost(const Frame& frame, const Track& track);
-
-// The track as it is with a detection of the frame, on trial. Confirmed, it takes the place of the
-// lost track; its name too, unless nothing was seen of that for longer than `coast`.
-Track heir_of(const Track& lost, Duration coast, const Frame& frame, std::size_t index);
 
 // Adds a track on trial; counts it in `crowded` where there is no room.
 void add_track(const Track& track, Tracks& tracks);
@@ -38,5 +34,6 @@ void end_unseen(const Frame& frame, Duration coast, Tracks& tracks);
 // After the detections of a frame: removes tracks, also those on trial; the others keep
 // their order.
 void end_tracks(const Frame& frame, Duration coast, Tracks& tracks);
+void end_track(std::size_t index, Tracks& tracks);
 
 }  // namespace pitwall::tracking

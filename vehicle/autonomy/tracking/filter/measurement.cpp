@@ -177,17 +177,6 @@ Expectation expectation_of(DetectionSource source, const OwnMotion& own, const P
   return e;
 }
 
-Expectation expectation_at(const world::TrackMap* map, DetectionSource source, const OwnMotion& own,
-                           const world::Curvilinear& at, const StateVector& x) {
-  StateVector there = x;
-  there[kAlong] = at.s_m, there[kAcross] = at.n_m;
-  Expectation e = expectation_of(source, own, place_of(map, there));
-  const double ahead_m = way_m(map, at.s_m, x[kAlong]), left_m = x[kAcross] - at.n_m;
-  for (std::size_t i = 0; i < kValuesMax; ++i)
-    e.value[i] += e.jacobian[i][kAlong] * ahead_m + e.jacobian[i][kAcross] * left_m;
-  return e;
-}
-
 double way_m(const world::TrackMap* map, double from_m, double to_m) {
   return map == nullptr ? to_m - from_m : std::remainder(to_m - from_m, map->length_m());
 }

@@ -39,11 +39,6 @@ struct Expectation {
 };
 Expectation expectation_of(world::DetectionSource source, const OwnMotion& own, const Place& place);
 
-// The same from the place of a detection, in the frame of the first states; a track may be far away
-// from it, where the road has another direction.
-Expectation expectation_at(const world::TrackMap* map, world::DetectionSource source,
-                           const OwnMotion& own, const world::Curvilinear& at,
-                           const StateVector& x);
 // Way along the road from one place to another.
 double way_m(const world::TrackMap* map, double from_m, double to_m);
 

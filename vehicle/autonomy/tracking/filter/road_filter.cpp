@@ -7,12 +7,12 @@
 #include <numbers>
 
 #include "vehicle/autonomy/tracking/filter/association.hpp"
-#include "vehicle/autonomy/tracking/filter/courses.hpp"
 #include "vehicle/autonomy/tracking/filter/life.hpp"
 #include "vehicle/autonomy/tracking/filter/measurement.hpp"
 #include "vehicle/autonomy/tracking/filter/modes.hpp"
 #include "vehicle/autonomy/tracking/filter/motion.hpp"
 #include "vehicle/autonomy/tracking/filter/own_drift.hpp"
+#include "vehicle/autonomy/tracking/filter/reidentification.hpp"
 
 namespace pitwall::tracking {
 namespace {
@@ -20,10 +20,9 @@ namespace {
 using world::DetectionSource;
 using world::TrackMap;
 
-constexpr double kTrialCost = 1e3, kLostCost = 2e3;  // a confirmed track has the first choice
+constexpr double kTrialCost = 1e3;  // a confirmed track has the first choice
 // A detection this many gates away from a track without another one is no new car.
 constexpr double kNearGates = 2.0;
-constexpr double kFarNoise_m = 5.0;        // of the position by camera or radar, at most
 constexpr double kBackwards_mps = 2.0;     // faster than that a car does not roll back
 constexpr double kPlaneHeading_rad = 0.6;  // without map and box: about our own direction
 
@@ -32,7 +31,6 @@ struct Gates {
   std::array<Expectation, kTracksMax> expected;
   std::array<Position, kTracksMax> place;
   std::array<Innovation, kMeasurementsMax> reading;
-  std::array<world::Curvilinear, kMeasurementsMax> spot;  // as the first states; for lost tracks
   std::array<std::array<bool, kMeasurementsMax>, kTracksMax> near;
   Costs costs;
 };
@@ -41,33 +39,9 @@ double gate_of(const RoadParams& p, std::size_t values) {
   return values == 1 ? p.gate_1 : values == 2 ? p.gate_2 : p.gate_3;
 }
 
-// Beyond it no gate can be met.
-bool may_fit(const TrackMap* map, const Track& wide, const world::Curvilinear& spot,
-             double noise_m2) {
-  constexpr double kSigmas = 7.5;
-  const auto is_near = [&](double apart_m, double variance_m2) {
-    return apart_m * apart_m <= kSigmas * kSigmas * (variance_m2 + noise_m2);
-  };
-  return is_near(way_m(map, spot.s_m, wide.x[kAlong]), wide.p[kAlong][kAlong]) &&
-         is_near(spot.n_m - wide.x[kAcross], wide.p[kAcross][kAcross]);
-}
-
-void judge_lost(const RoadParams& params, const TrackMap* map, const Frame& frame,
-                const Track& track, std::size_t t, Gates& g) {
-  const Courses courses = courses_of(params, frame.key.at - track.newest.frame.at, track);
-  for (std::size_t d = 0; d < frame.measurements.size(); ++d) {
-    g.near[t][d] = false;
-    g.costs.cost[t][d] = Costs::kOutside;
-    const double noise_m2 = frame.key.source == DetectionSource::kLidar ? g.reading[d].variance[0]
-                                                                        : kFarNoise_m * kFarNoise_m;
-    if (!may_fit(map, courses.track[kOtherLane], g.spot[d], noise_m2)) continue;
-    const Expectation e = expectation_at(map, frame.key.source, frame.own, g.spot[d], track.x);
-    const Innovation in = innovation_of(frame.key.source, g.reading[d], e);
-    const double gate = gate_of(params, in.size);
-    const CourseFit fit = course_fit(courses, e, in);
-    g.near[t][d] = fit.square <= kNearGates * gate;
-    if (fit.square <= gate) g.costs.cost[t][d] = fit.cost + kLostCost;
-  }
+void judge_lost(std::size_t detections, std::size_t t, Gates& g) {
+  for (std::size_t d = 0; d < detections; ++d)
+    g.near[t][d] = false, g.costs.cost[t][d] = Costs::kOutside;
 }
 
 // The gates are those of a car that has begun a maneuver: the mean of the modes would shut it out
@@ -87,32 +61,20 @@ void judge_seen(const RoadParams& params, const Frame& frame, const Place& place
   }
 }
 
-// Unset for a bearing without a depth.
-world::Curvilinear spot_of(const TrackMap* map, const Frame& frame, std::size_t d) {
-  const Position at = position_of(frame.key.source, frame.own, frame.measurements[d]);
-  if (map == nullptr || !std::isfinite(at.x_m)) return {at.x_m, at.y_m};
-  return station_of(*map, frame.own, at);
-}
-
 void judge_pairs(const RoadParams& params, const TrackMap* map, const Frame& frame, double dt_s,
                  Tracks& tracks, Gates& g) {
   g.costs.tracks = tracks.list.size(), g.costs.detections = frame.measurements.size();
   for (std::size_t d = 0; d < frame.measurements.size(); ++d)
     g.reading[d] = reading_of(params, frame.key, frame.own, frame.measurements[d]);
-  bool has_spots = false;
   for (std::size_t t = 0; t < tracks.list.size(); ++t) {
     Track& track = tracks.list[t];
     const Place place = place_of(map, track.x);
     add_own_drift(params, frame.own, place, dt_s, track.modes);
     g.place[t] = {place.x_m, place.y_m};
-    if (!is_lost(frame, track)) {
+    if (is_lost(frame, track))
+      judge_lost(frame.measurements.size(), t, g);
+    else
       judge_seen(params, frame, place, track, t, g);
-      continue;
-    }
-    for (std::size_t d = 0; d < frame.measurements.size() && !has_spots; ++d)
-      g.spot[d] = spot_of(map, frame, d);
-    has_spots = true;
-    judge_lost(params, map, frame, track, t, g);
   }
 }
 
@@ -150,53 +112,39 @@ void update_track(const RoadParams& params, const TrackMap* map, const Frame& fr
     average_size(params, frame.measurements[d], track);
 }
 
-// Of a lost track with a detection: on the course that fits best.
-Track heir_on_course(const RoadParams& params, const TrackMap* map, Duration coast_for,
-                     const Frame& frame, const Gates& g, std::size_t d, const Track& lost) {
-  const Courses courses = courses_of(params, frame.key.at - lost.newest.frame.at, lost);
-  const Expectation e = expectation_at(map, frame.key.source, frame.own, g.spot[d], lost.x);
-  const Innovation in = innovation_of(frame.key.source, g.reading[d], e);
-  const CourseFit fit = course_fit(courses, e, in);
-  Track heir = heir_of(courses.track[fit.best], coast_for, frame, d);
-  update_track(params, map, frame, g, e, d, heir);
-  return heir;
-}
-
-void update_tracks(const RoadParams& params, const TrackMap* map, Duration coast_for,
-                   const Frame& frame, const Gates& g, const Assignment& a, Tracks& tracks) {
+void update_tracks(const RoadParams& params, const TrackMap* map, const Frame& frame,
+                   const Gates& g, const Assignment& a, Tracks& tracks) {
   for (std::size_t t = 0; t < g.costs.tracks; ++t) {
+    Track& track = tracks.list[t];
     const std::size_t d = a.of_track[t];
-    const bool lost = is_lost(frame, tracks.list[t]);
-    if (d == kNone || lost) join_modes(tracks.list[t]);
-    if (d == kNone) continue;
-    if (lost) {
-      add_track(heir_on_course(params, map, coast_for, frame, g, d, tracks.list[t]), tracks);
-    } else {
-      update_track(params, map, frame, g, g.expected[t], d, tracks.list[t]);
-      note_detection(frame, d, tracks.list[t]);
+    if (d == kNone) {
+      join_modes(track);
+      continue;
     }
+    update_track(params, map, frame, g, g.expected[t], d, track);
+    note_detection(frame, d, track);
   }
 }
 
-// Whether a detection without a track belongs all the same to a car that was seen since `oldest`.
-bool is_known(const RoadParams& params, Instant oldest, const Gates& g, const Assignment& a,
+// Whether a detection without a track belongs all the same to a car that is in sight.
+bool is_known(const RoadParams& params, const Frame& frame, const Gates& g, const Assignment& a,
               const Tracks& tracks, std::size_t d, const Position& at) {
   for (std::size_t t = 0; t < g.costs.tracks; ++t) {
-    if (!tracks.list[t].confirmed || tracks.list[t].newest.frame.at < oldest) continue;
+    if (!tracks.list[t].confirmed || is_lost(frame, tracks.list[t])) continue;
     if (a.of_track[t] == kNone && g.near[t][d]) return true;
     if (std::hypot(at.x_m - g.place[t].x_m, at.y_m - g.place[t].y_m) < params.apart_m) return true;
   }
   return false;
 }
 
-void begin_tracks(const RoadParams& params, const TrackMap* map, Duration coast_for,
-                  const Frame& frame, const Gates& g, const Assignment& a, Tracks& tracks) {
+void begin_tracks(const RoadParams& params, const TrackMap* map, const Frame& frame, const Gates& g,
+                  const Assignment& a, Tracks& tracks) {
   for (std::size_t d = 0; d < frame.measurements.size(); ++d) {
     if (a.of_detection[d] != kNone) continue;
     const std::optional<Track> track = first_track(params, map, frame, d);
     if (!track) continue;
     const Position at = position_of(frame.key.source, frame.own, frame.measurements[d]);
-    if (!is_known(params, frame.key.at - coast_for, g, a, tracks, d, at)) add_track(*track, tracks);
+    if (!is_known(params, frame, g, a, tracks, d, at)) add_track(*track, tracks);
   }
 }
 
@@ -251,9 +199,10 @@ void filter_road(const RoadParams& params, const TrackMap* map, Duration coast_f
   Gates g;
   judge_pairs(params, map, frame, dt_s, tracks, g);
   const Assignment a = assign(g.costs, Search::kBestTwo);
-  update_tracks(params, map, coast_for, frame, g, a, tracks);
-  begin_tracks(params, map, coast_for, frame, g, a, tracks);
+  update_tracks(params, map, frame, g, a, tracks);
+  begin_tracks(params, map, frame, g, a, tracks);
   end_tracks(frame, known_for, tracks);
+  identify(params, map, coast_for, frame, tracks);
 }
 
 std::optional<Track> first_track(const RoadParams& params, const TrackMap* map, const Frame& frame,
@@ -265,6 +214,7 @@ std::optional<Track> first_track(const RoadParams& params, const TrackMap* map, 
   if (!std::isfinite(at.x_m) || !std::isfinite(at.y_m)) return std::nullopt;
   Track track;
   note_first(frame, index, track);
+  track.undecided = true;
   double road_rad = 0.0, left = 1.0;  // direction of the first state, and its scale
   track.x[kAlong] = at.x_m, track.x[kAcross] = at.y_m;
   if (map != nullptr) {

@@ -2,9 +2,9 @@
 //
 //     coast to the frame -> gates -> assignment -> updates -> birth and death
 //
-// A car that was not seen for a while is looked for on the courses that it may have taken
-// (courses.hpp). One that was gone for longer than `coast` is still known: what comes to its place
-// is a new car, and not another one that is out of sight.
+// What is seen where only a lost car can be begins a track; which car it is shows soon
+// (reidentification.hpp). One that was gone for longer than `coast` is still known: what comes to
+// its place is a new car, and not another one that is out of sight.
 //
 //   in     tracks at the time of an older frame, the frame
 //   out    tracks at the time of the frame

@@ -55,10 +55,8 @@ struct Track {
   std::uint32_t detections = 0;  // that belong to it
   bool confirmed = false;
   DetectionKey first, previous, newest;
-  DetectionKey tried;  // first one of the trial
-  DetectionKey lost;   // of a heir: the first one of the track that it takes the place of
-  bool is_heir = false;
-  Instant born_at{};  // confirmed
+  bool undecided = false;  // confirmed, but may be one of the cars that were lost
+  Instant born_at{};       // confirmed
 };
 
 inline constexpr std::size_t kTracksMax = 24;  // confirmed and on trial

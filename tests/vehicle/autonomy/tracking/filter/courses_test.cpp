@@ -4,7 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 
+#include "tests/vehicle/autonomy/tracking/filter/circle.hpp"
 #include "vehicle/autonomy/tracking/filter/modes.hpp"
 #include "vehicle/autonomy/tracking/filter/motion.hpp"
 
@@ -44,7 +46,17 @@ TEST(Courses, ACarThatKeepsItsLaneIsLessFarAcross) {
     EXPECT_NEAR(c.track[i].p[kAcross][kAcross], 0.25 * t.p[kAcross][kAcross], 1e-12);
     EXPECT_NEAR(c.track[i].p[kAlong][kAcross], 0.5 * t.p[kAlong][kAcross], 1e-12);
   }
-  EXPECT_NEAR(c.track[kOtherLane].p[kAcross][kAcross], t.p[kAcross][kAcross], 1e-12);
+}
+
+// By hand: 1.5 m/s for 1 s, and for 2 s at most; at 60 m/s it needs a heading of 0.025.
+TEST(Courses, ACarThatChangesItsLaneIsFurtherAcross) {
+  const Track t = unseen_track();
+  for (const auto& [unseen_s, across_m] : {std::array{1.0, 1.5}, std::array{8.0, 3.0}}) {
+    const RoadParams params{.unseen_lane_sigma_mps = 1.5, .unseen_lane_s = 2.0};
+    const RoadMatrix p = courses_of(params, from_seconds(unseen_s), t).track[kOtherLane].modes.p[0];
+    EXPECT_NEAR(p[kAcross][kAcross], t.p[kAcross][kAcross] + across_m * across_m, 1e-9);
+    EXPECT_NEAR(p[kHeading][kHeading], t.p[kHeading][kHeading] + 0.025 * 0.025, 1e-12);
+  }
 }
 
 TEST(Courses, ProbabilitiesAreThoseOfAllTogether) {
@@ -54,24 +66,46 @@ TEST(Courses, ProbabilitiesAreThoseOfAllTogether) {
   EXPECT_NEAR(sum, 1.0, 1e-12);
 }
 
-// The likelihood against the sum of three normal densities of one value, written out.
+// The likelihood against the sum of three normal densities, written out: of a track whose states
+// are all known well, the covariance of the lost one has two pairs of states that depend on each
+// other (along and across, along and speed), and three more.
 TEST(Courses, FitIsTheSumOfTheDensities) {
-  const Courses c = courses_of(RoadParams{}, seconds(3), unseen_track());
-  Expectation e;
-  e.jacobian[0] = {1.0, 0.0, 0.0, 0.0};
-  for (const double away_m : {0.5, 6.0, 20.0}) {
-    const CourseFit fit =
-        course_fit(c, e, {.size = 1, .value = {away_m, 0.0, 0.0}, .variance = {0.04, 0.0, 0.0}});
-    double sum = 0.0;
-    for (std::size_t i = 0; i < kCourses; ++i) {
-      const double variance = c.track[i].p[kAlong][kAlong] + 0.04;
-      sum += std::exp(-0.5 * (c.cost[i] + away_m * away_m / variance)) / std::sqrt(variance);
+  Track lost = unseen_track();
+  lost.p[kAlong][kAcross] = lost.p[kAcross][kAlong] = 0.0;
+  begin_modes(RoadParams{}, lost);
+  const Courses c = courses_of(RoadParams{}, seconds(3), lost);
+  for (const double away_m : {0.2, 12.0, 40.0}) {
+    Track seen = lost;
+    seen.x[kAlong] += away_m, seen.x[kSpeed] += 0.3 * away_m;
+    seen.p = {};
+    for (std::size_t i = 0; i < kRoadStates; ++i) seen.p[i][i] = 0.04;
+    const CourseFit fit = course_fit(c, nullptr, seen);
+    double sum = 0.0, last_square = 0.0;
+    for (std::size_t k = 0; k < kCourses; ++k) {
+      const StateMatrix& p = c.track[k].p;
+      const double a = p[kAlong][kAlong] + 0.04, b = p[kSpeed][kSpeed] + 0.04,
+                   ab = p[kAlong][kSpeed];
+      double det = a * b - ab * ab;
+      last_square = away_m * away_m * (b - 2.0 * 0.3 * ab + 0.3 * 0.3 * a) / det;
+      for (const std::size_t i : {kAcross, kHeading, kAccel, kTurn}) det *= p[i][i] + 0.04;
+      sum += std::exp(-0.5 * (c.cost[k] + last_square)) / std::sqrt(det);
     }
-    EXPECT_NEAR(fit.cost, -2.0 * std::log(sum), 1e-9);
-    EXPECT_NEAR(fit.square, away_m * away_m / (c.track[kOtherLane].p[kAlong][kAlong] + 0.04),
-                1e-12);
-    EXPECT_EQ(fit.best == kAsBefore, away_m < 1.0);
+    EXPECT_NEAR(fit.cost, -2.0 * std::log(sum), 1e-9) << away_m;
+    EXPECT_NEAR(fit.square, last_square, 1e-9) << away_m;
+    EXPECT_EQ(fit.best == kAsBefore, away_m < 1.0) << away_m;
   }
+}
+
+// Around the end of a lap and around half a turn.
+TEST(Courses, DifferenceIsTheShortWay) {
+  const world::TrackMap map = testing::circle();
+  Track from = unseen_track(), to = from;
+  from.x[kAlong] = map.length_m() - 3.0, to.x[kAlong] = 4.0;
+  from.x[kHeading] = 3.1, to.x[kHeading] = -3.1;
+  const RoadVector d = difference_of(&map, from, to);
+  EXPECT_NEAR(d[kAlong], 7.0, 1e-9);
+  EXPECT_NEAR(d[kHeading], 2.0 * std::numbers::pi - 6.2, 1e-12);
+  EXPECT_EQ(d[kSpeed], 0.0);
 }
 
 }  // namespace

@@ -78,38 +78,25 @@ TEST(Life, UnseenTrackEndsBeforeTheDetections) {
   EXPECT_EQ(tracks.list.size(), 0U);
 }
 
-Tracks with_a_lost_one() {
+TEST(Life, TrackIsLostWhereItIsNotSeenForLong) {
   Tracks tracks = with_one_on_trial();
+  EXPECT_FALSE(is_lost(frame_at(400), tracks.list[0])) << "on trial";
   note_detection(frame_at(50), 0, tracks.list[0]);
-  return tracks;
+  EXPECT_FALSE(is_lost(frame_at(350), tracks.list[0]));
+  EXPECT_TRUE(is_lost(frame_at(351), tracks.list[0]));
 }
 
-// A heir is on trial; its second detection gives it the place and the name of the lost track.
-TEST(Life, HeirTakesThePlaceOfTheLostTrack) {
-  Tracks tracks = with_a_lost_one();
-  const DetectionKey name = tracks.list[0].first;
-  ASSERT_TRUE(is_lost(frame_at(1000), tracks.list[0]));
-  add_track(heir_of(tracks.list[0], seconds(5), frame_at(1000), 0), tracks);
-  add_track(heir_of(tracks.list[0], seconds(5), frame_at(1000), 1), tracks);
-  end_tracks(frame_at(1000), seconds(30), tracks);
-  ASSERT_EQ(tracks.list.size(), 3U);
-  note_detection(frame_at(1050), 0, tracks.list[2]);
-  end_tracks(frame_at(1050), seconds(30), tracks);
-  ASSERT_EQ(tracks.list.size(), 1U);
-  EXPECT_TRUE(tracks.list[0].confirmed);
-  EXPECT_EQ(tracks.list[0].first, name);
-  EXPECT_EQ(tracks.list[0].born_at, at_ms(50));
-}
-
-// After `coast` the car was gone for the others: what comes to its place is a new one to them.
-TEST(Life, HeirOfATrackThatHasEndedIsNew) {
-  Tracks tracks = with_a_lost_one();
-  add_track(heir_of(tracks.list[0], seconds(5), frame_at(6000), 1), tracks);
-  note_detection(frame_at(6050), 0, tracks.list[1]);
-  end_tracks(frame_at(6050), seconds(30), tracks);
-  ASSERT_EQ(tracks.list.size(), 1U);
-  EXPECT_EQ(tracks.list[0].first, (DetectionKey{frame_at(6000).key, 1}));
-  EXPECT_EQ(tracks.list[0].born_at, at_ms(6050));
+TEST(Life, OneTrackEndsByItsPlace) {
+  Tracks tracks;
+  for (std::int64_t ms = 0; ms < 3; ++ms) {
+    Track track;
+    note_first(frame_at(ms), 0, track);
+    add_track(track, tracks);
+  }
+  end_track(1, tracks);
+  ASSERT_EQ(tracks.list.size(), 2U);
+  EXPECT_EQ(tracks.list[0].first.frame.at, at_ms(0));
+  EXPECT_EQ(tracks.list[1].first.frame.at, at_ms(2));
 }
 
 TEST(Life, OthersKeepTheirOrder) {

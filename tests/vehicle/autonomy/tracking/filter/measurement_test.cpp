@@ -68,21 +68,6 @@ TEST(TrackMeasurement, ExpectsWhatIsMeasured) {
   }
 }
 
-// A track that is half of a turn of the road away from the box: from the place of the track its
-// direction is wrong, from that of the box both agree on the way between them.
-TEST(TrackMeasurement, FarAwayTheRoadHasTheDirectionOfTheBox) {
-  const world::TrackMap map = circle();
-  const OwnMotion own = own_motion(kOwn);
-  const StateVector far = state_at(330.0, 3.0);
-  const TruePose car = on_circle(270.0, 3.0, far[kHeading], far[kSpeed]);
-  const Expectation e = expectation_at(&map, DetectionSource::kLidar, own, {270.0, 3.0}, far);
-  const double left = 1.0 - 3.0 / testing::kRadius_m;
-  EXPECT_NEAR(e.value[0], car.x_m + 60.0 * e.jacobian[0][kAlong], 1e-6);
-  EXPECT_NEAR(std::hypot(e.jacobian[0][kAlong], e.jacobian[1][kAlong]), left, 1e-9);
-  EXPECT_NEAR(std::hypot(e.value[0] - car.x_m, e.value[1] - car.y_m), 60.0 * left, 1e-6);
-  EXPECT_NEAR(wrap_pi(e.value[2] - car.yaw_rad), 60.0 / testing::kRadius_m, 1e-6);
-}
-
 // The nearest way along a closed road.
 TEST(TrackMeasurement, WayIsTheShorterOne) {
   const world::TrackMap map = circle();

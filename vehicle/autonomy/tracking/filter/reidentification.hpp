@@ -1,0 +1,32 @@
+// Re-identification: which of the cars that were lost a car is that came into sight. It begins as a
+// track of its own, which soon knows its place, speed and acceleration; all of them together say
+// more than its place alone, as a car that braked is behind and slow.
+//
+//     lost tracks, predicted   one assignment   confirmed tracks, undecided
+//                              of all to all
+//
+//   in     tracks at the time of the frame
+//   out    tracks, of which a decided one has the name and the size of the car that it is, and the
+//          states of both; the lost track ends
+//   invariants
+//          a car is decided once: at its second detection where no other assignment is nearly as
+//          likely, else when decide_within_s are over. It is not one that was seen after it
+//   cost   without an undecided track nothing; 3 us for each pair; no allocation
+//   source Blackman (2004), IEEE AES Magazine 19, p. 5: a difficult assignment is put off until
+//          later measurements decide it; Bar-Shalom, Li and Kirubarajan (2001), section 8.3: fusion
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "protocol/vocabulary/time.hpp"
+#include "vehicle/autonomy/tracking/filter/filter_params.hpp"
+#include "vehicle/autonomy/tracking/filter/frame.hpp"
+#include "vehicle/autonomy/tracking/filter/track.hpp"
+#include "vehicle/world/track_map.hpp"
+
+namespace pitwall::tracking {
+
+// Tracks that were seen for the last time before `coast` give no name.
+void identify(const RoadParams& params, const world::TrackMap* map, Duration coast,
+              const Frame& frame, Tracks& tracks);
+
+}  // namespace pitwall::tracking
