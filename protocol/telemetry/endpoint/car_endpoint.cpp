@@ -23,7 +23,7 @@ struct CarEndpoint::Parts {
   void draw() {
     std::array<std::uint8_t, 2> drawn{};
     randomness->fill(drawn);
-    latch.draw(static_cast<std::uint16_t>(drawn[0] | drawn[1] << 8));
+    latch.draw(load<std::uint16_t>(drawn, 0));
     drawn_for = latch.challenge();
   }
 

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <utility>
 
-#include "protocol/telemetry/little_endian.hpp"
 #include "protocol/telemetry/registry/schema.hpp"
+#include "protocol/vocabulary/bytes.hpp"
 
 namespace pitwall::telemetry {
 namespace {

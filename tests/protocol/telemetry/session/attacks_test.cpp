@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "protocol/telemetry/little_endian.hpp"
+#include "protocol/vocabulary/bytes.hpp"
 #include "tests/protocol/telemetry/session/rig.hpp"
 
 namespace pitwall::telemetry::testing {
