@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "protocol/telemetry/registry/schema.hpp"
 #include "protocol/vocabulary/bytes.hpp"
 
 namespace pitwall::telemetry {
