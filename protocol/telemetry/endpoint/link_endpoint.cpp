@@ -41,6 +41,7 @@ LinkEndpoint::LinkEndpoint(const LinkEndpointConfig& config, Direction sends,
       own_schema_(&schema_of(config)),
       schema_(*own_schema_, sends),
       sends_(sends),
+      state_(sends, config.early_share),
       policy_(config.policy),
       paths_(config.association.paths),
       lanes_{PathLane(config.budget[0]), PathLane(config.budget[1])} {
@@ -76,6 +77,7 @@ bool LinkEndpoint::note_session(bool& peer_restarted, Instant at) {
   acked_at_ = at;
   receipts_.forget();
   sent_.forget();
+  state_.forget();
   stats_.new_session();
   recent_.fill({});
   path_receipts_.forget();
@@ -95,7 +97,6 @@ const ReceivedBody* LinkEndpoint::open(const Opened& opened, std::size_t size, P
   auto body = parse_body(opened.body, schema_.reading());
   if (!body) return ++bad_bodies_[static_cast<std::size_t>(body.error())], nullptr;
   received_.body = *body;
-  received_.delivered.clear();
   lanes_[path].received_at = at;
   lanes_[path].newest = std::max(lanes_[path].newest, opened.sequence);
   recent_[opened.sequence % recent_.size()] = {opened.sequence, body->tx_time_100us,
@@ -119,7 +120,7 @@ const ReceivedBody* LinkEndpoint::open(const Opened& opened, std::size_t size, P
 
 void LinkEndpoint::take_ack(const Ack& ack, Instant peer_sent, Instant at) {
   const SentPackets::News news = sent_.take(ack);
-  received_.delivered = news.delivered;
+  for (const Delivery& delivery : news.delivered) state_.acked(delivery.sequence);
   if (!news.delivered.empty()) acked_at_ = at;
   if (!news.newest) return;
   const Instant peer_received = peer_sent - ack.hold;
@@ -243,8 +244,8 @@ std::size_t LinkEndpoint::room(const PacketPlan& plan, std::size_t safety, Insta
   return room > kAround ? room - kAround : 0;
 }
 
-PacketRoom LinkEndpoint::room_for(const PacketPlan& plan, std::size_t state, std::size_t records,
-                                  Instant now) const {
+LinkEndpoint::PacketRoom LinkEndpoint::room_for(const PacketPlan& plan, std::size_t state,
+                                                std::size_t records, Instant now) const {
   const std::size_t groups = kBodyFixed + (receipts_.ack(now) ? kAckSize : 0) + state;
   const std::size_t wanted = groups + records + path_records_size(plan);
   const std::size_t safety = std::min(wanted, plan.safety_room);
@@ -353,6 +354,7 @@ void LinkEndpoint::report(LinkReport& out, Instant now) const {
   }
   out.both_lost = stats_.both_lost();
   out.ack_nonsense = sent_.nonsense();
+  state_.report(out);
   for (PathId path = 0; path < paths_; ++path) {
     const PathLane& lane = lanes_[path];
     PathReport& to = out.paths[path];
