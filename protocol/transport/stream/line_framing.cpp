@@ -4,35 +4,19 @@
 #include <algorithm>
 #include <cstring>
 
+#include "protocol/bits/crc.hpp"
 #include "protocol/vocabulary/bytes.hpp"
 #include "protocol/vocabulary/check.hpp"
 
 namespace pitwall::transport {
 namespace {
 
-constexpr std::array<std::uint32_t, 256> make_crc32_table() {
-  std::array<std::uint32_t, 256> table{};
-  for (std::uint32_t i = 0; i < table.size(); ++i) {
-    std::uint32_t c = i;
-    for (int bit = 0; bit < 8; ++bit) c = (c & 1U) != 0U ? (c >> 1U) ^ 0xEDB88320U : c >> 1U;
-    table[i] = c;
-  }
-  return table;
-}
-constexpr auto kCrc32Table = make_crc32_table();
-
 std::uint32_t frame_crc(std::span<const std::uint8_t> length_bytes,
                         std::span<const std::uint8_t> payload) {
-  return line_crc32(payload, line_crc32(length_bytes));
+  return bits::crc32_ieee(payload, bits::crc32_ieee(length_bytes));
 }
 
 }  // namespace
-
-std::uint32_t line_crc32(std::span<const std::uint8_t> bytes, std::uint32_t before) {
-  std::uint32_t c = ~before;
-  for (const std::uint8_t byte : bytes) c = kCrc32Table[(c ^ byte) & 0xFFU] ^ (c >> 8U);
-  return ~c;
-}
 
 std::uint8_t line_crc8(std::span<const std::uint8_t> bytes) {
   unsigned c = 0;

@@ -197,7 +197,7 @@ TEST_F(Consoles, WhatTheHolderSetsIsToldToAll) {
           "settings");
   while (!(reported.number("revision") == 1.0)) reported = receive(web_client, "settings");
   EXPECT_FALSE(reported.flag("kept")) << "there is no file";
-  // The first catalogue after the join has been skipped until here: this is that of the change.
+  // That of the join came before the answers above: this one is that of the change.
   for (const json::JsonValue& row : receive(web_client, "catalogue").items("fields")) {
     if (row.text("path") == "electric.battery") {
       EXPECT_EQ(row.find("limits")->number("bad_low"), 11.0);
