@@ -212,7 +212,7 @@ std::optional<PacketPlan> LinkEndpoint::plan(Instant now, Waits waits) {
 
 bool LinkEndpoint::on_trial() const {
   for (PathId path = 0; path < paths_; ++path) {
-    if (association_.on_trial(path)) return true;
+    if (association_.addresses(path).on_trial()) return true;
   }
   return false;
 }
@@ -285,7 +285,7 @@ void LinkEndpoint::add_path_records(BodyWriter& body, const PacketPlan& plan, In
   for (PathId path = 0; path < paths_; ++path) {
     PathLane& lane = lanes_[path];
     if (!has(plan.paths, path)) continue;
-    if (const auto token = association_.probe(path); plan.trial && token) {
+    if (const auto token = association_.addresses(path).token(); plan.trial && token) {
       store<std::uint64_t>(bytes, 0, *token);
       body.add_record(RecordType::kPathProbe, bytes);
     }
@@ -313,8 +313,8 @@ std::uint64_t LinkEndpoint::send(const BodyWriter& body, const PacketPlan& plan,
 
 void LinkEndpoint::queue_datagram(PathId path, std::span<const std::uint8_t> datagram,
                                   const PacketPlan& plan, std::size_t safety, Instant now) {
-  const UdpAddress to =
-      plan.trial ? association_.targets(path, datagram.size()).back() : association_.proved(path);
+  const UdpAddress to = plan.trial ? association_.addresses(path).targets(datagram.size()).back()
+                                   : association_.addresses(path).proved();
   lanes_[path].spend(datagram.size(), safety, now);
   association_.note_sent(path, to, datagram.size());
   CHECK(out_.push({path, to, datagram}));
@@ -363,8 +363,8 @@ void LinkEndpoint::report(LinkReport& out, Instant now) const {
     to.budget_use = lane.use(now);
     to.rate_factor = lane.factor;
     to.queue_delay = lane.rate.queue_delay();
-    to.peer = association_.proved(path);
-    to.validated = to.peer.known() && !association_.on_trial(path);
+    to.peer = association_.addresses(path).proved();
+    to.validated = to.peer.known() && !association_.addresses(path).on_trial();
   }
 }
 

@@ -345,18 +345,6 @@ std::optional<Association::Due> Association::poll(PathId path, Instant now,
   return open(path, now, out);
 }
 
-FixedVector<UdpAddress, 2> Association::targets(PathId path, std::size_t size) const {
-  return paths_[path].addresses.targets(size);
-}
-
-void Association::note_sent(PathId path, UdpAddress to, std::size_t size) {
-  paths_[path].addresses.note_sent(to, size);
-}
-
-std::optional<std::uint64_t> Association::probe(PathId path) const {
-  return paths_[path].addresses.token();
-}
-
 void Association::take_proof(PathId path, UdpAddress from, std::uint64_t token, Instant now) {
   if (paths_[path].addresses.take_proof(from, token, now)) ++counters_.roams;
 }
