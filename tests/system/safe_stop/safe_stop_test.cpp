@@ -62,10 +62,10 @@ TEST(SafeStop, ColdTyresAreBeyondTheirShareAt68BeforeAnyBrake) {
   EXPECT_GT(warm.use_before / left, kUseMax);
 }
 
-// Some of these places with all the brake there is: else the tests above would prove nothing. With
-// 54 % of the brakes' torque in front, as the AV-21 has it, and 37 to 43 % of what the tyres can do,
-// the front wheels lock first: the car does not spin, it stops turning and slides metres off its
-// path, mostly into the wall.
+// Some of these places with all the brake there is: else the tests above would prove nothing.
+// With 54 % of the brakes' torque in front, as the AV-21 has it, and 37 to 43 % of what the tyres
+// can do, the front wheels lock first: the car does not spin, it stops turning and slides metres
+// off its path, mostly into the wall.
 class FullBrakeFrom : public ::testing::TestWithParam<double> {};
 
 TEST_P(FullBrakeFrom, LocksTheFrontWheelsAndSlidesStraightOn) {
