@@ -38,7 +38,7 @@ struct StationEndpoint::Parts {
   std::array<std::uint64_t, kGroups> sequence_of{};  // of the packet that brought the group
   GroupSet mapped;  // groups whose time was told by compared clocks
   StopTransmitter stop;
-  StopState stop_sent, stop_asked;  // by the newest packet; when none was made at last
+  StopState stop_sent, stop_asked;  // in the newest packet; when nothing was left to send
   AuthorityRegister authority;
   JoystickSender joystick;
   CommandTransmitter transmitter;

@@ -28,7 +28,8 @@ scenario::Scenario scenario_of(const std::string& name) {
   return read ? read->scenario : scenario::Scenario{};
 }
 
-TEST(ImpactBound, OfEveryCarAndTrack) {
+// A car of the three for each of the tracks.
+TEST(ImpactBound, OnEachTrack) {
   constexpr std::array kTracks{"lvms", "ims", "tms"};
   for (std::size_t i = 0; i < kTracks.size(); ++i) {
     const plant::Params car = plant_of(kRacingCars[i]);

@@ -31,13 +31,13 @@ Result<scenario::Scenario, Problem> read_alone(const std::string& name) {
   return text ? scenario::read_scenario(*text, name) : Unexpected{text.error()};
 }
 
-struct FilesForHere {
+struct LockstepFiles {
   std::vector<std::string> all, with_faults;
 };
 
-const FilesForHere& files_for_here() {
-  static const FilesForHere found = [] {
-    FilesForHere files;
+const LockstepFiles& lockstep_files() {
+  static const LockstepFiles found = [] {
+    LockstepFiles files;
     for (const auto& entry : std::filesystem::directory_iterator(kRoot + "/hil/scenarios")) {
       if (entry.path().extension() != ".yaml") continue;
       const std::string name = entry.path().stem().string();
@@ -73,7 +73,7 @@ TEST_P(ScenarioFile, Holds) {
     EXPECT_TRUE(verdict.pass) << verdict.name << ": " << verdict.text << ": " << verdict.reason;
 }
 
-INSTANTIATE_TEST_SUITE_P(All, ScenarioFile, ::testing::ValuesIn(files_for_here().all),
+INSTANTIATE_TEST_SUITE_P(All, ScenarioFile, ::testing::ValuesIn(lockstep_files().all),
                          [](const auto& file) { return file.param; });
 
 // What has failed for good stays failed: the rest of the run says nothing more.
@@ -104,18 +104,18 @@ TEST_P(FaultFile, WithoutItsFaultItFails) {
   EXPECT_EQ(until_it_fails(*loaded).passed(), kShrugged.contains(GetParam()));
 }
 
-INSTANTIATE_TEST_SUITE_P(All, FaultFile, ::testing::ValuesIn(files_for_here().with_faults),
+INSTANTIATE_TEST_SUITE_P(All, FaultFile, ::testing::ValuesIn(lockstep_files().with_faults),
                          [](const auto& file) { return file.param; });
 
 TEST(ScenarioFiles, FaultFilesAreSeveralAndTheShruggedOnesAmongThem) {
-  const std::vector<std::string>& files = files_for_here().with_faults;
+  const std::vector<std::string>& files = lockstep_files().with_faults;
   EXPECT_GE(files.size(), 10u);
   for (const std::string& name : kShrugged) EXPECT_EQ(std::ranges::count(files, name), 1) << name;
 }
 
 TEST(ScenarioFiles, AnOperatorWhoSaysNothingIsNoticed) {
   std::size_t with_words = 0;
-  for (const std::string& name : files_for_here().all) {
+  for (const std::string& name : lockstep_files().all) {
     auto loaded = load_scenario(name);
     ASSERT_TRUE(loaded);
     if (loaded->scenario.operator_texts.empty()) continue;

@@ -34,7 +34,7 @@ Worst over(const LqrParams& params, std::vector<LoopCase> cars, bool learned) {
 }
 
 // The whole family is judged once, for the bounds and for the page.
-TEST(LqrMargins, TheWorstCarsOfTheFamilyAreThoseOfThePage) {
+TEST(LqrMargins, TheWorstCarsHoldTheBoundsAndAreThoseOfThePage) {
   const LqrParams& law = recommended().lqr_ff;
   const Worst learned = over(law, family(), true), not_yet = over(law, family(), false);
   expect_margins_of_a_family(learned);
