@@ -9,7 +9,6 @@
 //   invariants  it evaluates, records and sends the same with any set of publishers
 //               a request is executed, and a stop given to the radio, before anything is published
 //   cost   advance(): some microseconds per 10 ms of elapsed time, about 50 with a measurement
-//   errors execute(): Problem; audited as request_executor.hpp describes
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -64,15 +63,10 @@ class CarService {
   // Returns true for a new authentic packet of the car, which is then at link().arrival().
   bool receive(std::span<const std::uint8_t> datagram, telemetry::PathId path, UdpAddress from,
                Instant at);
-  std::optional<telemetry::Outgoing> poll(Instant now) { return station_.poll(now); }
   // Brings all up to `now`; once per turn of the loop, after requests and before publishers.
   void advance(Instant now);
   Instant due() const { return std::min(station_.due(), measured_ + kMeasureEvery); }
 
-  Result<bool, Problem> execute(const command::Request& request, const command::Person& by,
-                                Instant now) {
-    return requests_.execute(request, by, now);
-  }
   command::RequestExecutor& requests() { return requests_; }
   // Adds a line to the log of the race.
   void mark(const std::string& text, const command::Person& by, Instant now);

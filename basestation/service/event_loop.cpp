@@ -73,7 +73,8 @@ class CarTurn {
   }
 
   void send(Instant now) {
-    while (const auto out = service_.poll(now)) car_.radio[out->path].send_to(out->to, out->bytes);
+    while (const auto out = service_.link().poll(now))
+      car_.radio[out->path].send_to(out->to, out->bytes);
   }
 
   void take_stops(std::span<transport::UdpDatagram> batch) {

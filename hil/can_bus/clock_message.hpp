@@ -10,6 +10,7 @@
 #include <optional>
 #include <span>
 
+#include "protocol/vocabulary/bytes.hpp"
 #include "protocol/vocabulary/time.hpp"
 
 namespace pitwall::can_bus {
@@ -21,16 +22,13 @@ using ClockMessage = std::array<std::uint8_t, 8>;
 
 constexpr ClockMessage encode_clock(Instant at) {
   ClockMessage word{};
-  for (std::size_t i = 0; i < word.size(); ++i)
-    word[i] = static_cast<std::uint8_t>(static_cast<std::uint64_t>(at.ns) >> (8 * i));
+  store(word, static_cast<std::uint64_t>(at.ns));
   return word;
 }
 
 constexpr std::optional<Instant> decode_clock(std::span<const std::uint8_t> word) {
   if (word.size() != ClockMessage{}.size()) return std::nullopt;
-  std::uint64_t ns = 0;
-  for (std::size_t i = 0; i < word.size(); ++i) ns |= std::uint64_t{word[i]} << (8 * i);
-  return Instant{static_cast<std::int64_t>(ns)};
+  return Instant{static_cast<std::int64_t>(load(word))};
 }
 
 }  // namespace pitwall::can_bus

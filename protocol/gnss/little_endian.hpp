@@ -10,6 +10,7 @@
 #include <span>
 #include <type_traits>
 
+#include "protocol/vocabulary/bytes.hpp"
 #include "protocol/vocabulary/check.hpp"
 
 namespace pitwall::gnss {
@@ -31,12 +32,9 @@ class ByteReader {
       at_ = bytes_.size();
       return T{};
     }
-    std::uint64_t raw = 0;
-    for (std::size_t i = 0; i < sizeof(T); ++i) {
-      raw |= static_cast<std::uint64_t>(bytes_[at_ + i]) << (8 * i);
-    }
+    const auto raw = load<BitsOf<T>>(bytes_, at_);
     at_ += sizeof(T);
-    return std::bit_cast<T>(static_cast<BitsOf<T>>(raw));
+    return std::bit_cast<T>(raw);
   }
 
   bool ok() const { return ok_; }
@@ -54,10 +52,7 @@ class ByteWriter {
   template <class T>
   void put(T value) {
     CHECK(bytes_.size() - at_ >= sizeof(T));
-    const std::uint64_t raw = std::bit_cast<BitsOf<T>>(value);
-    for (std::size_t i = 0; i < sizeof(T); ++i) {
-      bytes_[at_ + i] = static_cast<std::uint8_t>(raw >> (8 * i));
-    }
+    store(bytes_, at_, std::bit_cast<BitsOf<T>>(value));
     at_ += sizeof(T);
   }
 

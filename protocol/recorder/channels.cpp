@@ -9,6 +9,7 @@
 #include "protocol/recorder/can_record.hpp"
 #include "protocol/recorder/raw_record.hpp"
 #include "protocol/recorder/tick_record.hpp"
+#include "protocol/vocabulary/bytes.hpp"
 #include "protocol/vocabulary/check.hpp"
 
 namespace pitwall::recorder {
@@ -27,15 +28,11 @@ std::string path_of(const FieldRow& row) {
   return std::string{telemetry::row_of(row.group).name} + "." + std::string{row.name};
 }
 
-void put(std::uint64_t bits, std::uint8_t* at) {
-  for (std::size_t i = 0; i < sizeof bits; ++i) at[i] = static_cast<std::uint8_t>(bits >> (8 * i));
-}
+// Where the number of this index begins.
+std::size_t place_of(std::size_t index) { return kCdrHeader + index * sizeof(std::uint64_t); }
 
-std::uint64_t get(std::span<const std::uint8_t> sample, std::size_t number) {
-  std::uint64_t bits = 0;
-  const std::size_t at = kCdrHeader + number * sizeof bits;
-  for (std::size_t i = sizeof bits; i-- > 0;) bits = bits << 8U | sample[at + i];
-  return bits;
+std::uint64_t get(std::span<const std::uint8_t> sample, std::size_t index) {
+  return load<std::uint64_t>(sample, place_of(index));
 }
 
 bool is_cdr(std::span<const std::uint8_t> sample, std::size_t numbers) {
@@ -136,7 +133,7 @@ GroupBytes encode(telemetry::Group group, const telemetry::Values& values) {
   const auto [first, count] = telemetry::fields_of(group);
   for (FieldIndex i = first; i < first + count; ++i) {
     std::array<std::uint8_t, sizeof(double)> number{};
-    put(std::bit_cast<std::uint64_t>(values[i]), number.data());
+    store(number, std::bit_cast<std::uint64_t>(values[i]));
     for (const std::uint8_t byte : number) CHECK(bytes.push(byte));
   }
   return bytes;
@@ -156,12 +153,9 @@ void Known::take(telemetry::Group group, std::span<const std::uint8_t> sample, I
 std::vector<std::uint8_t> encode(const Known& known) {
   std::vector<std::uint8_t> bytes(kCdrHeader + 2 * kFieldCount * sizeof(double));
   std::ranges::copy(kLittleEndianCdr, bytes.begin());
-  std::uint8_t* at = bytes.data() + kCdrHeader;
-  for (FieldIndex i = 0; i < kFieldCount; ++i, at += sizeof(double)) {
-    put(std::bit_cast<std::uint64_t>(known.value[i]), at);
-  }
-  for (FieldIndex i = 0; i < kFieldCount; ++i, at += sizeof(double)) {
-    put(static_cast<std::uint64_t>(known.sampled[i].ns), at);
+  for (FieldIndex i = 0; i < kFieldCount; ++i) {
+    store(bytes, place_of(i), std::bit_cast<std::uint64_t>(known.value[i]));
+    store(bytes, place_of(kFieldCount + i), static_cast<std::uint64_t>(known.sampled[i].ns));
   }
   return bytes;
 }

@@ -19,6 +19,8 @@
 #include <optional>
 #include <span>
 
+#include "protocol/vocabulary/bytes.hpp"
+
 namespace pitwall::recorder {
 
 inline constexpr const char* kDatagramEncoding = "x-pitwall-datagram";
@@ -39,22 +41,18 @@ inline std::span<const std::uint8_t> encode(const RadioDatagram& datagram, Datag
   const std::size_t length = std::min(datagram.bytes.size(), kDatagramMax);
   bytes[0] = kDatagramVersion;
   bytes[1] = datagram.path;
-  for (unsigned i = 0; i < 2; ++i) {
-    bytes[2 + i] = static_cast<std::uint8_t>(datagram.port >> (8 * i));
-  }
-  for (unsigned i = 0; i < 4; ++i) bytes[4 + i] = static_cast<std::uint8_t>(datagram.ip >> (8 * i));
+  store(bytes, 2, datagram.port);
+  store(bytes, 4, datagram.ip);
   std::ranges::copy(datagram.bytes.first(length), bytes.begin() + kDatagramHead);
   return std::span{bytes}.first(kDatagramHead + length);
 }
 
 inline std::optional<RadioDatagram> decode_datagram(std::span<const std::uint8_t> record) {
   if (record.size() < kDatagramHead || record[0] != kDatagramVersion) return std::nullopt;
-  RadioDatagram datagram{.path = record[1], .bytes = record.subspan(kDatagramHead)};
-  for (unsigned i = 0; i < 2; ++i) {
-    datagram.port = static_cast<std::uint16_t>(datagram.port | record[2 + i] << (8 * i));
-  }
-  for (unsigned i = 0; i < 4; ++i) datagram.ip |= std::uint32_t{record[4 + i]} << (8 * i);
-  return datagram;
+  return RadioDatagram{.path = record[1],
+                       .ip = load<std::uint32_t>(record, 4),
+                       .port = load<std::uint16_t>(record, 2),
+                       .bytes = record.subspan(kDatagramHead)};
 }
 
 }  // namespace pitwall::recorder

@@ -19,6 +19,7 @@
 #include <type_traits>
 
 #include "protocol/recording/cdr_struct.hpp"
+#include "protocol/vocabulary/bytes.hpp"
 #include "protocol/vocabulary/fixed_vector.hpp"
 #include "protocol/vocabulary/time.hpp"
 #include "protocol/vocabulary/units.hpp"
@@ -119,9 +120,8 @@ inline std::optional<FixedVector<TickCommand, kTickCommandsMax>> commands_of(
   FixedVector<TickCommand, kTickCommandsMax> commands;
   std::span<const std::uint8_t> rest = tick.commands.span();
   if (rest.size() % kTickCommandBytes != 0) return std::nullopt;
-  const auto get = [&](unsigned bytes) {
-    std::uint64_t bits = 0;
-    for (unsigned i = 0; i < bytes; ++i) bits |= std::uint64_t{rest[i]} << (8 * i);
+  const auto get = [&](std::size_t bytes) {
+    const std::uint64_t bits = load(rest.first(bytes));
     rest = rest.subspan(bytes);
     return bits;
   };

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "protocol/recording/mcap_wire.hpp"
 
+#include "protocol/vocabulary/bytes.hpp"
+
 namespace pitwall::recording {
 
 void McapAppender::string(std::string_view v) {
@@ -34,7 +36,7 @@ void McapAppender::little_endian(std::uint64_t v, std::size_t bytes) {
 }
 
 void McapAppender::patch(std::size_t at, std::uint64_t v, std::size_t bytes) {
-  for (std::size_t i = 0; i < bytes; ++i) out_[at + i] = static_cast<std::uint8_t>(v >> (8 * i));
+  store(std::span(out_).subspan(at, bytes), v);
 }
 
 std::span<const std::uint8_t> McapCursor::bytes(std::uint64_t count) {
@@ -52,14 +54,6 @@ std::string_view McapCursor::string() {
   return {reinterpret_cast<const char*>(taken.data()), taken.size()};
 }
 
-std::uint64_t McapCursor::little_endian(std::size_t count) {
-  std::uint64_t v = 0;
-  std::size_t shift = 0;
-  for (const std::uint8_t byte : bytes(count)) {
-    v |= std::uint64_t{byte} << shift;
-    shift += 8;
-  }
-  return v;
-}
+std::uint64_t McapCursor::little_endian(std::size_t count) { return load(bytes(count)); }
 
 }  // namespace pitwall::recording

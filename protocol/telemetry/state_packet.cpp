@@ -6,8 +6,8 @@
 
 #include "protocol/bits/bit_stream.hpp"
 #include "protocol/bits/crc.hpp"
-#include "protocol/telemetry/little_endian.hpp"
 #include "protocol/telemetry/registry/schema.hpp"
+#include "protocol/vocabulary/bytes.hpp"
 
 namespace pitwall::telemetry {
 namespace {

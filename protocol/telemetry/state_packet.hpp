@@ -32,7 +32,9 @@ inline constexpr Duration kMaxSampleAge = microseconds((std::int64_t{1} << kAgeB
 
 inline constexpr std::size_t kHeaderBytes = 24, kChecksumBytes = 4;
 inline constexpr std::size_t kStatePacketBytes =
-    kHeaderBytes + (groups_of(Direction::kDown).count() * kAgeBits + kValueBits + 7) / 8 +
+    kHeaderBytes +
+    (groups_of(Direction::kDown).count() * kAgeBits + bits_of(groups_of(Direction::kDown)) + 7) /
+        8 +
     kChecksumBytes;
 
 struct StatePacket {

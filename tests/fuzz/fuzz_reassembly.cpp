@@ -12,7 +12,7 @@
 
 #include "protocol/telemetry/delivery/bulk.hpp"
 #include "protocol/telemetry/delivery/events.hpp"
-#include "protocol/telemetry/little_endian.hpp"
+#include "protocol/vocabulary/bytes.hpp"
 #include "protocol/vocabulary/check.hpp"
 
 namespace {

@@ -156,8 +156,6 @@ bool enough_to_drive(world::SensorUse use) {
   return position && (use.uses(kImu0) || use.uses(kImu1) || use.uses(kWheels));
 }
 
-double lower_limit_mps(double a_mps, double b_mps) { return std::fmin(a_mps, b_mps); }
-
 world::RaceControl acted_on(const world::RaceControl& received, TrackFlag of_base,
                             double speed_max_mps) {
   world::RaceControl out = received;

@@ -68,8 +68,6 @@ void conclude(OperatorOrders& orders, world::Mode before, const safety::Supervis
 
 // Whether the remaining sensors give a position and a motion measurement.
 bool enough_to_drive(world::SensorUse use);
-// The lower limit; NaN means no limit.
-double lower_limit_mps(double a_mps, double b_mps);
 // Race control as the car acts on it: the flag of the base can only make it more restrictive, and
 // no round speed lets the car drive faster than its file.
 world::RaceControl acted_on(const world::RaceControl& received, world::TrackFlag of_base,

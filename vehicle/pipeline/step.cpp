@@ -212,9 +212,10 @@ void apply_operator(const Setup& setup, Car& car, const Inputs& in, Outputs& out
   car.fuel.enter(car.orders.fuel_entered_l);
   out.race_control = acted_on(out.received.race_control, car.orders.flag,
                               setup.params.planning.line.speed_max_mps);
+  // The lowest; fmin takes NaN as no limit.
   out.speed_limit_mps =
-      lower_limit_mps(lower_limit_mps(in.operator_speed_limit_mps, car.orders.speed_limit_mps),
-                      car.link_loss.speed_limit_mps);
+      std::fmin(std::fmin(in.operator_speed_limit_mps, car.orders.speed_limit_mps),
+                car.link_loss.speed_limit_mps);
 }
 
 void follow_fuel(Car& car, const gateway::InboundOutput& received) {

@@ -38,7 +38,7 @@ ConsoleService::ConsoleService(ConsoleConfig config, service::CarService& car,
       car_(car),
       server_(server),
       clients_(catalogue_of(car), car.messages()),
-      catalogue_of_(car.requests().settings().revision()) {
+      catalogue_of_(car.identity().alarm_config) {
   car.messages().subscribe([this](std::string_view type, std::string_view text, Instant) {
     if (type != "hello") clients_.send_to_all(std::string{text});
   });
@@ -75,9 +75,9 @@ void ConsoleService::execute(web::ClientId client, const Request& request, Insta
   const command::Person by = clients_.person(client);
   Result<bool, Problem> done = true;
   if (const auto* const ask = std::get_if<command::Request>(&request)) {
-    done = car_.execute(*ask, by, now);
+    done = car_.requests().execute(*ask, by, now);
   } else if (const auto* const ask_send = std::get_if<AskSend>(&request)) {
-    done = car_.execute(with_second_person(*ask_send), by, now);
+    done = car_.requests().execute(with_second_person(*ask_send), by, now);
   } else if (const auto* const ask_mark = std::get_if<AskMark>(&request)) {
     car_.mark(ask_mark->text, by, now);
   } else if (const auto* const ask_of_bench = std::get_if<AskBench>(&request)) {
@@ -137,10 +137,10 @@ void ConsoleService::attach(bench::BenchLink& bench) {
 void ConsoleService::publish(const service::CarService& car, Instant now) {
   if (car.evaluator().link_state() != link_shown_) clients_.receive();
   link_shown_ = car.evaluator().link_state();
-  clients_.identify(car.identity(), now);
-  const std::uint64_t revision = car.requests().settings().revision();
-  if (revision != catalogue_of_) clients_.send_catalogue(catalogue_of(car));
-  catalogue_of_ = revision;
+  const service::CarIdentity identity = car.identity();
+  clients_.identify(identity, now);
+  if (identity.alarm_config != catalogue_of_) clients_.send_catalogue(catalogue_of(car));
+  catalogue_of_ = identity.alarm_config;
   if (auto text = pauses_.news(transport::bench_pause(), now))
     car_.messages().set_state("bench_time", *std::move(text), now);
   clients_.serve(*this, transport::utc_now(), now);

@@ -64,7 +64,7 @@ class ConsoleService : public service::Publisher, private StateSource {
   ClientRegistry clients_;
   PauseReport pauses_;
   bench::BenchLink* bench_ = nullptr;
-  std::uint64_t catalogue_of_ = 0;  // the revision of the settings in the catalogue
+  std::string catalogue_of_;  // CarIdentity::alarm_config of the limits in the catalogue
   state::LinkState link_shown_ = state::LinkState::kNone;
 };
 

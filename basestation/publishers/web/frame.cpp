@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <bit>
 
-#include "protocol/telemetry/little_endian.hpp"
+#include "protocol/vocabulary/bytes.hpp"
 
 namespace pitwall::publishers::web {
 namespace {
@@ -27,7 +27,7 @@ template <class Number>
 void put(std::vector<std::uint8_t>& out, Number number) {
   const std::size_t at = out.size();
   out.resize(at + sizeof number);
-  telemetry::store(std::span{out}, at, number);
+  store(std::span{out}, at, number);
 }
 
 }  // namespace
@@ -38,10 +38,10 @@ std::array<std::uint8_t, kFrameHeader> header_of(const Frame& frame, std::uint32
   header[1] = kFrameVersion;
   header[2] = frame.car;
   header[3] = frame.flags;
-  telemetry::store(header, 4, frame.count);
-  telemetry::store(header, 8, frame.sequence);
-  telemetry::store(header, 12, dropped);
-  telemetry::store(header, 16, static_cast<std::uint64_t>(frame.at.ns));
+  store(header, 4, frame.count);
+  store(header, 8, frame.sequence);
+  store(header, 12, dropped);
+  store(header, 16, static_cast<std::uint64_t>(frame.at.ns));
   return header;
 }
 

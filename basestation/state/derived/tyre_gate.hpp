@@ -1,10 +1,10 @@
 // Tyre temperature required for a speed: a table, not one number, because a cold oval may never
 // warm the tyres to the temperature of the highest speed.
-//   in     speed [m/s], temperature of the coldest tyre [degC]
-//   out    the lowest temperature for a speed, the highest speed for a temperature
+//   in     speed [m/s]
+//   out    the lowest temperature of the coldest tyre [degC] for it
 //   invariants
 //          linear between the rows; no requirement below the first row; beyond the last row its
-//          temperature. Both directions are the same relation
+//          temperature
 //   source Saba et al.: spin above 62.6 m/s (140 mph) at 29 degC, where 79 degC were needed; the
 //          rows between are our own, at the passing competition's speeds of 80 to 125 mph
 // SPDX-License-Identifier: Apache-2.0
@@ -26,6 +26,5 @@ struct TyreGate {
   std::array<double, kRows> temperature_c{25.0, 40.0, 50.0, 60.0, 79.0};
 };
 double tyre_needed_c(const TyreGate& gate, double speed_mps);
-double speed_allowed_mps(const TyreGate& gate, double tyre_c);
 
 }  // namespace pitwall::state

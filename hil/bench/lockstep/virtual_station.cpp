@@ -139,7 +139,7 @@ void VirtualStation::collect(Way way, std::deque<Waiting>& queue, Instant at) {
 
 void VirtualStation::serve_base(Instant at) {
   const auto answer = [&] {
-    while (const auto out = base_->poll(base_time(at)))
+    while (const auto out = base_->link().poll(base_time(at)))
       channel_.offer(Way::kUp, out->path, {out->bytes, base_address(out->path, at).port}, at);
   };
   for (const Waiting& came : std::exchange(to_base_, {})) {

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "protocol/telemetry/little_endian.hpp"
+#include "protocol/vocabulary/bytes.hpp"
 
 namespace pitwall::telemetry {
 namespace {

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "protocol/telemetry/command/circular.hpp"
+#include "protocol/vocabulary/sequence.hpp"
 
 namespace pitwall::telemetry {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "protocol/telemetry/command/circular.hpp"
+#include "protocol/vocabulary/sequence.hpp"
 
 namespace pitwall::telemetry {
 namespace {

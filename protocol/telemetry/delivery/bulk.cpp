@@ -4,14 +4,14 @@
 #include <algorithm>
 
 #include "protocol/bits/crc.hpp"
-#include "protocol/telemetry/little_endian.hpp"
+#include "protocol/vocabulary/bytes.hpp"
 #include "protocol/vocabulary/check.hpp"
 
 namespace pitwall::telemetry {
 
 namespace {
 
-constexpr std::size_t kObjectKindAt = 2, kTotalAt = 3, kFirstAt = 6, kBulkFixed = 8;
+constexpr std::size_t kObjectKindAt = 2, kTotalAt = 3, kTotalSize = 3, kFirstAt = 6, kBulkFixed = 8;
 constexpr std::size_t kMissingAt = 3, kAckFixed = 5;
 static_assert(kBulkPieces <= 0xFFFF && kBulkObject <= 0xFF'FFFF);
 
@@ -36,7 +36,7 @@ std::optional<Run> read_run(std::span<const std::uint8_t> record) {
   Run run;
   run.object = load<std::uint16_t>(record, 0);
   run.kind = record[kObjectKindAt];
-  run.total = load<std::uint16_t>(record, kTotalAt) | std::size_t{record[kTotalAt + 2]} << 16U;
+  run.total = load(record.subspan(kTotalAt, kTotalSize));
   run.first = load<std::uint16_t>(record, kFirstAt);
   run.bytes = record.subspan(kBulkFixed);
   run.count = (run.bytes.size() + kBulkPiece - 1) / kBulkPiece;
@@ -154,8 +154,7 @@ bool BulkSender::write(BodyWriter& body, std::size_t kind, std::size_t first,
   std::array<std::uint8_t, kMaxBody> record;
   store<std::uint16_t>(record, 0, slot.object);
   record[kObjectKindAt] = static_cast<std::uint8_t>(kind);
-  store<std::uint16_t>(record, kTotalAt, static_cast<std::uint16_t>(slot.bytes));
-  record[kTotalAt + 2] = static_cast<std::uint8_t>(slot.bytes >> 16U);
+  store(std::span(record).subspan(kTotalAt, kTotalSize), slot.bytes);
   store<std::uint16_t>(record, kFirstAt, static_cast<std::uint16_t>(first));
   std::copy(run.begin(), run.end(), record.begin() + kBulkFixed);
   return body.add_record(RecordType::kBulk,

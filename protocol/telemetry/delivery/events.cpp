@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "protocol/telemetry/little_endian.hpp"
+#include "protocol/vocabulary/bytes.hpp"
 #include "protocol/vocabulary/check.hpp"
 
 namespace pitwall::telemetry {
@@ -90,9 +90,7 @@ bool EventSender::write(BodyWriter& body, std::uint16_t number, Instant now) {
   const auto payload = kept.event.payload.span();
   std::array<std::uint8_t, kEventFixed + kEventPayload> record{};
   store<std::uint16_t>(record, 0, number);
-  const std::uint32_t time = time_code(kept.event.at, now);
-  store<std::uint16_t>(record, kTimeAt, static_cast<std::uint16_t>(time));
-  store<std::uint8_t>(record, kTimeAt + 2, static_cast<std::uint8_t>(time >> 16U));
+  store(std::span(record).subspan(kTimeAt, kTimeSize), time_code(kept.event.at, now));
   record[kKindAt] = static_cast<std::uint8_t>(kept.event.kind);
   std::copy(payload.begin(), payload.end(), record.begin() + kEventFixed);
   const auto bytes = std::span<const std::uint8_t>(record).first(kEventFixed + payload.size());
@@ -155,8 +153,7 @@ bool EventReceiver::take(const Record& record, const Received& received) {
     ++counters_.repeated;
     return true;
   }
-  const std::uint32_t time =
-      load<std::uint16_t>(bytes, kTimeAt) | static_cast<std::uint32_t>(bytes[kTimeAt + 2]) << 16U;
+  const auto time = static_cast<std::uint32_t>(load(bytes.subspan(kTimeAt, kTimeSize)));
   const std::uint32_t ticks_ago = (received.tx_time_100us - time) & kTimeMask;
   Event& event = events_[slot];
   event.kind = static_cast<EventKind>(bytes[kKindAt]);

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "protocol/telemetry/little_endian.hpp"
+#include "protocol/vocabulary/bytes.hpp"
 
 namespace pitwall::telemetry {
 namespace {
@@ -25,8 +25,8 @@ struct Place {
 };
 
 bool is_near(Place a, Place b) {
-  constexpr std::int32_t kStep = 30'000;  // kPathStep_m
-  return std::abs(a.x - b.x) <= kStep && std::abs(a.y - b.y) <= kStep;
+  const std::int32_t step = centi(kPathStep_m);
+  return std::abs(a.x - b.x) <= step && std::abs(a.y - b.y) <= step;
 }
 
 template <class T, class Value>

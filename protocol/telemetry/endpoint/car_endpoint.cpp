@@ -3,7 +3,6 @@
 
 #include <algorithm>
 
-#include "protocol/telemetry/endpoint/state_lane.hpp"
 #include "protocol/telemetry/registry/schema_listing.hpp"
 #include "protocol/vocabulary/bytes.hpp"
 
@@ -15,7 +14,6 @@ struct CarEndpoint::Parts {
         schema_text(endpoint.schema().safety_text.empty()
                         ? safety_text()
                         : std::string(endpoint.schema().safety_text)),
-        lane(Direction::kDown, config.early_share),
         ledger(endpoint.own().boot) {
     draw();
   }
@@ -23,7 +21,7 @@ struct CarEndpoint::Parts {
   void draw() {
     std::array<std::uint8_t, 2> drawn{};
     randomness->fill(drawn);
-    latch.draw(static_cast<std::uint16_t>(drawn[0] | drawn[1] << 8));
+    latch.draw(load<std::uint16_t>(drawn, 0));
     drawn_for = latch.challenge();
   }
 
@@ -31,16 +29,10 @@ struct CarEndpoint::Parts {
   void receive(const ReceivedBody& incoming);
   void hear_groups(const Body& body, const Received& received);
   void take(const Record& record, const Received& received);
-  void make_packet(const PacketPlan& plan, Instant now);
-  void add_what_waits(BodyWriter& body, Instant now);
-  bool something_waits() const { return events.waiting() > 0 || !bulk.idle(); }
-  Waits waits() const { return something_waits() ? Waits::kContent : Waits::kNothing; }
 
   Randomness* randomness;
   LinkEndpoint endpoint;
   std::string schema_text;  // of the safety groups, made once
-  StateLane lane;
-  Snapshot snapshot;
   StopLatch latch;
   std::uint16_t drawn_for = 0;
   JoystickReceiver joystick;
@@ -64,7 +56,6 @@ void CarEndpoint::Parts::begin_session(bool peer_restarted) {
   if (endpoint.peer()) ledger.set_peer_boot(endpoint.peer()->boot);
   // The base says what differs; it needs our side of it.
   if (!endpoint.schema_agrees()) bulk.offer(BulkKind::kSchema, as_bytes(schema_text));
-  lane.forget();
 }
 
 void CarEndpoint::Parts::receive(const ReceivedBody& incoming) {
@@ -72,7 +63,6 @@ void CarEndpoint::Parts::receive(const ReceivedBody& incoming) {
   if (received.sent_earliest) {
     alive_at = alive_at ? std::max(*alive_at, *received.sent_earliest) : *received.sent_earliest;
   }
-  for (const Delivery& delivery : incoming.delivered) lane.acked(delivery.sequence);
   hear_groups(incoming.body, received);
   for (const Record& record : incoming.body.records) take(record, received);
 }
@@ -118,39 +108,25 @@ void CarEndpoint::feed(std::span<const std::uint8_t> datagram, PathId path, UdpA
   if (fed.body) parts_->receive(*fed.body);
 }
 
-std::optional<Outgoing> CarEndpoint::poll(const Snapshot& snapshot, Instant now) {
-  for (;;) {
-    if (const auto out = parts_->endpoint.take(now, parts_->waits())) return out;
-    const auto plan = parts_->endpoint.plan(now, parts_->waits());
-    if (!plan) return {};
-    parts_->snapshot = snapshot;
-    parts_->make_packet(*plan, now);
+// Content of the packets, as LinkEndpoint::poll() asks for it.
+struct CarEndpoint::Sender {
+  Waits waits() const {
+    return parts.events.waiting() > 0 || !parts.bulk.idle() ? Waits::kContent : Waits::kNothing;
   }
-}
+  const Snapshot& sample(Instant) const { return snapshot; }
+  std::size_t safety_size() const { return parts.ledger.wanted(); }
+  void add_safety(BodyWriter& body, Instant now) { parts.ledger.fill(body, now); }
+  void add_others(BodyWriter& body, Instant now) {
+    parts.events.fill(body, now);
+    parts.bulk.fill(body, parts.endpoint.round_trip(), now);
+  }
 
-void CarEndpoint::Parts::make_packet(const PacketPlan& plan, Instant now) {
-  const std::size_t safe =
-      lane.choose(snapshot, endpoint.sendable_groups(), {endpoint.round_trip(), plan.rate}, now);
-  const PacketRoom room = endpoint.room_for(plan, safe, ledger.wanted(), now);
-  BodyWriter body = endpoint.begin(plan, room.whole, now);
-  const std::size_t fixed = body.bytes().size();
-  body.hold_back(room.records);
-  const std::size_t of_state = lane.write(body, snapshot,
-                                          {.only_safety = room.only_safety,
-                                           .between = plan.between,
-                                           .something_waits = something_waits()},
-                                          now);
-  body.hold_back(0);
-  const std::size_t written = body.bytes().size();
-  endpoint.add_path_records(body, plan, now);
-  ledger.fill(body, now);
-  const std::size_t safety = fixed + of_state + body.bytes().size() - written;
-  if (!room.only_safety) {
-    body.hold_back(endpoint.safety_reserve(plan, room, safety, now));
-    events.fill(body, now);
-    bulk.fill(body, endpoint.round_trip(), now);
-  }
-  lane.sent(endpoint.send(body, plan, safety, now), snapshot, now);
+  Parts& parts;
+  const Snapshot& snapshot;
+};
+
+std::optional<Outgoing> CarEndpoint::poll(const Snapshot& snapshot, Instant now) {
+  return parts_->endpoint.poll(Sender{*parts_, snapshot}, now);
 }
 
 Instant CarEndpoint::due() const { return parts_->endpoint.due(); }
@@ -199,7 +175,6 @@ LinkReport CarEndpoint::report(Instant now) const {
   LinkReport report;
   p.endpoint.report(report, now);
   report.bad_records = p.bad_records;
-  p.lane.report(report);
   report.ledger = p.ledger.counters();
   report.events = p.events.counters();
   report.bulk = p.bulk.counters();

@@ -70,6 +70,7 @@ class CarEndpoint {
 
  private:
   struct Parts;
+  struct Sender;
   std::unique_ptr<Parts> parts_;
 };
 

@@ -4,8 +4,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "protocol/telemetry/little_endian.hpp"
-#include "protocol/telemetry/registry/schema.hpp"
+#include "protocol/vocabulary/bytes.hpp"
 
 namespace pitwall::telemetry {
 namespace {
@@ -42,6 +41,7 @@ LinkEndpoint::LinkEndpoint(const LinkEndpointConfig& config, Direction sends,
       own_schema_(&schema_of(config)),
       schema_(*own_schema_, sends),
       sends_(sends),
+      state_(sends, config.early_share),
       policy_(config.policy),
       paths_(config.association.paths),
       lanes_{PathLane(config.budget[0]), PathLane(config.budget[1])} {
@@ -77,6 +77,7 @@ bool LinkEndpoint::note_session(bool& peer_restarted, Instant at) {
   acked_at_ = at;
   receipts_.forget();
   sent_.forget();
+  state_.forget();
   stats_.new_session();
   recent_.fill({});
   path_receipts_.forget();
@@ -96,7 +97,6 @@ const ReceivedBody* LinkEndpoint::open(const Opened& opened, std::size_t size, P
   auto body = parse_body(opened.body, schema_.reading());
   if (!body) return ++bad_bodies_[static_cast<std::size_t>(body.error())], nullptr;
   received_.body = *body;
-  received_.delivered.clear();
   lanes_[path].received_at = at;
   lanes_[path].newest = std::max(lanes_[path].newest, opened.sequence);
   recent_[opened.sequence % recent_.size()] = {opened.sequence, body->tx_time_100us,
@@ -120,7 +120,7 @@ const ReceivedBody* LinkEndpoint::open(const Opened& opened, std::size_t size, P
 
 void LinkEndpoint::take_ack(const Ack& ack, Instant peer_sent, Instant at) {
   const SentPackets::News news = sent_.take(ack);
-  received_.delivered = news.delivered;
+  for (const Delivery& delivery : news.delivered) state_.acked(delivery.sequence);
   if (!news.delivered.empty()) acked_at_ = at;
   if (!news.newest) return;
   const Instant peer_received = peer_sent - ack.hold;
@@ -212,7 +212,7 @@ std::optional<PacketPlan> LinkEndpoint::plan(Instant now, Waits waits) {
 
 bool LinkEndpoint::on_trial() const {
   for (PathId path = 0; path < paths_; ++path) {
-    if (association_.on_trial(path)) return true;
+    if (association_.addresses(path).on_trial()) return true;
   }
   return false;
 }
@@ -244,8 +244,8 @@ std::size_t LinkEndpoint::room(const PacketPlan& plan, std::size_t safety, Insta
   return room > kAround ? room - kAround : 0;
 }
 
-PacketRoom LinkEndpoint::room_for(const PacketPlan& plan, std::size_t state, std::size_t records,
-                                  Instant now) const {
+LinkEndpoint::PacketRoom LinkEndpoint::room_for(const PacketPlan& plan, std::size_t state,
+                                                std::size_t records, Instant now) const {
   const std::size_t groups = kBodyFixed + (receipts_.ack(now) ? kAckSize : 0) + state;
   const std::size_t wanted = groups + records + path_records_size(plan);
   const std::size_t safety = std::min(wanted, plan.safety_room);
@@ -285,7 +285,7 @@ void LinkEndpoint::add_path_records(BodyWriter& body, const PacketPlan& plan, In
   for (PathId path = 0; path < paths_; ++path) {
     PathLane& lane = lanes_[path];
     if (!has(plan.paths, path)) continue;
-    if (const auto token = association_.probe(path); plan.trial && token) {
+    if (const auto token = association_.addresses(path).token(); plan.trial && token) {
       store<std::uint64_t>(bytes, 0, *token);
       body.add_record(RecordType::kPathProbe, bytes);
     }
@@ -313,8 +313,8 @@ std::uint64_t LinkEndpoint::send(const BodyWriter& body, const PacketPlan& plan,
 
 void LinkEndpoint::queue_datagram(PathId path, std::span<const std::uint8_t> datagram,
                                   const PacketPlan& plan, std::size_t safety, Instant now) {
-  const UdpAddress to =
-      plan.trial ? association_.targets(path, datagram.size()).back() : association_.proved(path);
+  const UdpAddress to = plan.trial ? association_.addresses(path).targets(datagram.size()).back()
+                                   : association_.addresses(path).proved();
   lanes_[path].spend(datagram.size(), safety, now);
   association_.note_sent(path, to, datagram.size());
   CHECK(out_.push({path, to, datagram}));
@@ -354,6 +354,7 @@ void LinkEndpoint::report(LinkReport& out, Instant now) const {
   }
   out.both_lost = stats_.both_lost();
   out.ack_nonsense = sent_.nonsense();
+  state_.report(out);
   for (PathId path = 0; path < paths_; ++path) {
     const PathLane& lane = lanes_[path];
     PathReport& to = out.paths[path];
@@ -362,8 +363,8 @@ void LinkEndpoint::report(LinkReport& out, Instant now) const {
     to.budget_use = lane.use(now);
     to.rate_factor = lane.factor;
     to.queue_delay = lane.rate.queue_delay();
-    to.peer = association_.proved(path);
-    to.validated = to.peer.known() && !association_.on_trial(path);
+    to.peer = association_.addresses(path).proved();
+    to.validated = to.peer.known() && !association_.addresses(path).on_trial();
   }
 }
 

@@ -1,6 +1,6 @@
-// Link endpoint: the part of the radio that car and base share (association, budgets,
-// acknowledgements, clock, statistics). It is independent of the content of the packets.
-//   in     datagrams of each path; bodies to send
+// Link endpoint: the part of the radio that car and base share (association, budgets, packets of
+// state, acknowledgements, clock, statistics). Records of its end's own come from that end.
+//   in     datagrams of each path; the end's state and records, when a packet is made
 //   out    opened bodies, each once; datagrams for each path, within its budget
 //   invariants
 //          one packet is sent each kSlot, and one half a slot later if content waits. A packet for
@@ -57,17 +57,10 @@ struct Outgoing {
   std::span<const std::uint8_t> bytes;  // valid until the next call
 };
 
-struct PacketRoom {
-  std::size_t whole = 0;    // bytes of the body
-  std::size_t records = 0;  // part of it for safety records, which are written after the groups
-  bool only_safety = false;
-};
-
 // A received body; a duplicate gives none.
 struct ReceivedBody {
   Body body;
   Received received;
-  FixedVector<Delivery, 33> delivered;  // packets newly acknowledged by it
 };
 
 class LinkEndpoint {
@@ -82,23 +75,14 @@ class LinkEndpoint {
   };
   Fed feed(std::span<const std::uint8_t> datagram, PathId path, UdpAddress from, Instant at);
 
-  // Sending: call take() until it is empty, then plan(). For each plan call begin(), fill the body,
-  // call send(), and start again.
-  std::optional<Outgoing> take(Instant now, Waits waits);
-  std::optional<PacketPlan> plan(Instant now, Waits waits);
-  // Room of a packet whose safety groups take `state` bytes and whose records need `records`.
-  PacketRoom room_for(const PacketPlan& plan, std::size_t state, std::size_t records,
-                      Instant now) const;
-  // Bytes of `room` that only safety content may use if the body has `safety` bytes of it.
-  std::size_t safety_reserve(const PacketPlan& plan, const PacketRoom& room, std::size_t safety,
-                             Instant now) const;
-  // The body starts with the acknowledgement.
-  BodyWriter begin(const PacketPlan& plan, std::size_t room, Instant now);
-  // Adds the records of the paths; they are written before all others.
-  void add_path_records(BodyWriter& body, const PacketPlan& plan, Instant now);
-  // `safety` bytes of the body are safety content. Returns the sequence number of the packet.
-  std::uint64_t send(const BodyWriter& body, const PacketPlan& plan, std::size_t safety,
-                     Instant now);
+  // The next datagram that is due; call until it is empty. Of its end it asks
+  //   end.waits()                  what waits to be sent
+  //   end.sample(now)              the snapshot of a packet that is made
+  //   end.safety_size()            bytes of its safety records
+  //   end.add_safety(body, now)    writes them
+  //   end.add_others(body, now)    writes records that are no safety content
+  template <class End>
+  std::optional<Outgoing> poll(End&& end, Instant now);
   Instant due() const { return due_; }
 
   const std::optional<Greeting>& peer() const { return association_.peer(); }
@@ -110,8 +94,6 @@ class LinkEndpoint {
   Duration round_trip() const;  // 60 ms until it is measured
   bool schema_agrees() const;
   const SchemaDescription& schema() const { return *own_schema_; }
-  // Groups that may be sent now.
-  GroupSet sendable_groups() const;
   // True for the record types that this class handles itself.
   bool handles(RecordType type) const;
   void place(double station_m, double lap_length_m, Instant now) {
@@ -138,6 +120,31 @@ class LinkEndpoint {
   void take_path_records(PathId path, UdpAddress from, Instant at);
   void note_duplicate(std::uint64_t sequence, std::size_t size, PathId path, Instant at);
   bool note_session(bool& peer_restarted, Instant at);
+  struct PacketRoom {
+    std::size_t whole = 0;    // bytes of the body
+    std::size_t records = 0;  // part of it for safety records, which are written after the groups
+    bool only_safety = false;
+  };
+  // A datagram that is ready; if there is none, the plan of a packet to make.
+  std::optional<Outgoing> take(Instant now, Waits waits);
+  std::optional<PacketPlan> plan(Instant now, Waits waits);
+  template <class End>
+  void make_packet(End& end, const PacketPlan& plan, Instant now);
+  // Room of a packet whose safety groups take `state` bytes and whose records need `records`.
+  PacketRoom room_for(const PacketPlan& plan, std::size_t state, std::size_t records,
+                      Instant now) const;
+  // Bytes of `room` that only safety content may use if the body has `safety` bytes of it.
+  std::size_t safety_reserve(const PacketPlan& plan, const PacketRoom& room, std::size_t safety,
+                             Instant now) const;
+  // The body starts with the acknowledgement.
+  BodyWriter begin(const PacketPlan& plan, std::size_t room, Instant now);
+  // Adds the records of the paths; they are written before all others.
+  void add_path_records(BodyWriter& body, const PacketPlan& plan, Instant now);
+  // `safety` bytes of the body are safety content. Returns the sequence number of the packet.
+  std::uint64_t send(const BodyWriter& body, const PacketPlan& plan, std::size_t safety,
+                     Instant now);
+  // Groups that may be sent now.
+  GroupSet sendable_groups() const;
   void exchange(Instant now);
   bool lay_out(Slots::Turn turn, Instant now);
   bool on_trial() const;
@@ -153,6 +160,7 @@ class LinkEndpoint {
   const SchemaDescription* own_schema_;
   SchemaExchange schema_;
   Direction sends_;
+  StateLane state_;
   PathPolicy policy_;
   std::uint8_t paths_;
   std::array<PathLane, kPaths> lanes_;
@@ -180,5 +188,41 @@ class LinkEndpoint {
   std::array<std::uint8_t, kMaxBody> body_{}, plain_{};
   ReceivedBody received_;
 };
+
+template <class End>
+std::optional<Outgoing> LinkEndpoint::poll(End&& end, Instant now) {
+  for (;;) {
+    if (const auto out = take(now, end.waits())) return out;
+    const auto packet = plan(now, end.waits());
+    if (!packet) return {};
+    make_packet(end, *packet, now);
+  }
+}
+
+template <class End>
+void LinkEndpoint::make_packet(End& end, const PacketPlan& plan, Instant now) {
+  const Snapshot& snapshot = end.sample(now);
+  const std::size_t safety_groups =
+      state_.choose(snapshot, sendable_groups(), {round_trip(), plan.rate}, now);
+  const PacketRoom room = room_for(plan, safety_groups, end.safety_size(), now);
+  BodyWriter body = begin(plan, room.whole, now);
+  const std::size_t fixed = body.bytes().size();
+  body.hold_back(room.records);
+  const std::size_t of_state = state_.write(body, snapshot,
+                                            {.only_safety = room.only_safety,
+                                             .between = plan.between,
+                                             .something_waits = end.waits() == Waits::kContent},
+                                            now);
+  body.hold_back(0);
+  const std::size_t written = body.bytes().size();
+  add_path_records(body, plan, now);
+  end.add_safety(body, now);
+  const std::size_t safety = fixed + of_state + body.bytes().size() - written;
+  if (!room.only_safety) {
+    body.hold_back(safety_reserve(plan, room, safety, now));
+    end.add_others(body, now);
+  }
+  state_.sent(send(body, plan, safety, now), snapshot, now);
+}
 
 }  // namespace pitwall::telemetry

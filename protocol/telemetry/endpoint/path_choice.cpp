@@ -42,7 +42,7 @@ PacketPlan PathChoice::plan(std::uint8_t paths, Kind kind, Instant now) const {
     if (!has(paths, path)) continue;
     const double rate = lanes[path].budget.present_rate();
     plan.rate = plan.rate > 0.0 ? std::min(plan.rate, rate) : rate;
-    const bool proved = association.proved(path).known();
+    const bool proved = association.addresses(path).proved().known();
     const std::size_t trial = kind.between && proved ? 0 : trial_room(path);
     if (trial > 0 && paths == bit_of(path)) {
       plan.trial = true;
@@ -57,10 +57,10 @@ PacketPlan PathChoice::plan(std::uint8_t paths, Kind kind, Instant now) const {
 // The largest datagram that may go to the address on trial; 0: none.
 std::size_t PathChoice::trial_room(PathId path) const {
   constexpr std::size_t kLeast = kAround + kLeastBody + kTokenSize, kGrain = 32;
-  if (!association.on_trial(path)) return 0;
+  if (!association.addresses(path).on_trial()) return 0;
   for (std::size_t size = kMaxDatagram; size >= kLeast; size -= kGrain) {
-    const auto targets = association.targets(path, size);
-    if (!targets.empty() && targets.back() != association.proved(path)) return size;
+    const auto targets = association.addresses(path).targets(size);
+    if (!targets.empty() && targets.back() != association.addresses(path).proved()) return size;
   }
   return 0;
 }
@@ -69,16 +69,16 @@ bool PathChoice::has_room(PathId path, bool between, Instant now) const {
   const PathBudget& budget = lanes[path].budget;
   constexpr std::size_t kLeast = kAround + kLeastBody;
   const bool ample = budget.room_beside(kLeast, now) >= kLeast + kLeastBetween;
-  const bool enough = !between || association.on_trial(path) || in_doubt || at_once;
+  const bool enough = !between || association.addresses(path).on_trial() || in_doubt || at_once;
   const bool room = ample || (enough && budget.room_for_safety(now) >= kLeast);
-  return room && (association.proved(path).known() || trial_room(path) > 0);
+  return room && (association.addresses(path).proved().known() || trial_room(path) > 0);
 }
 
 // A path that must prove itself, or that has much less room than the other, has its own packet.
 std::uint8_t PathChoice::apart(std::uint8_t paths, Instant now) const {
   if (paths != (bit_of(0) | bit_of(1))) return 0;
-  if (lanes[0].proof || association.on_trial(0)) return bit_of(0);
-  if (lanes[1].proof || association.on_trial(1)) return bit_of(1);
+  if (lanes[0].proof || association.addresses(0).on_trial()) return bit_of(0);
+  if (lanes[1].proof || association.addresses(1).on_trial()) return bit_of(1);
   const std::size_t room[] = {lanes[0].budget.room_beside(kAround + kLeastBody, now),
                               lanes[1].budget.room_beside(kAround + kLeastBody, now)};
   if (room[0] * kMuchLess < room[1]) return bit_of(0);

@@ -3,8 +3,8 @@
 
 #include <algorithm>
 
-#include "protocol/telemetry/little_endian.hpp"
 #include "protocol/telemetry/registry/schema.hpp"
+#include "protocol/vocabulary/bytes.hpp"
 
 namespace pitwall::telemetry {
 namespace {

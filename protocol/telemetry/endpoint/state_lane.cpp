@@ -4,7 +4,6 @@
 #include <algorithm>
 
 #include "protocol/telemetry/endpoint/slots.hpp"
-#include "protocol/telemetry/registry/schema.hpp"
 
 namespace pitwall::telemetry {
 namespace {

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <vector>
 
-#include "protocol/telemetry/endpoint/state_lane.hpp"
 #include "protocol/telemetry/registry/schema_difference.hpp"
 #include "protocol/telemetry/registry/schema_listing.hpp"
 
@@ -23,16 +22,23 @@ struct StationEndpoint::Parts {
   bool stop_waits() const {
     return stop.state().level != StopLevel::kNone && stop.state() != stop_sent;
   }
-  Snapshot sample(Instant now) const;
-  void make_packet(const PacketPlan& plan, Instant now);
+
+  // Content of the packets, as LinkEndpoint::poll() asks for it.
+  Waits waits() const { return stop_waits() ? Waits::kStop : Waits::kNothing; }
+  Snapshot sample(Instant now);
+  std::size_t safety_size() const { return transmitter.wanted() + events.wanted(); }
+  void add_safety(BodyWriter& body, Instant now) {
+    transmitter.fill(body, now);
+    events.fill(body, now);
+  }
+  void add_others(BodyWriter& body, Instant now) { bulk.fill(body, now); }
 
   LinkEndpoint endpoint;
-  StateLane lane{Direction::kUp};
   Snapshot state;
   std::array<std::uint64_t, kGroups> sequence_of{};  // of the packet that brought the group
   GroupSet mapped;  // groups whose time was told by compared clocks
   StopTransmitter stop;
-  StopState stop_sent, stop_asked;  // by the newest packet; when it was last tried to make one
+  StopState stop_sent, stop_asked;  // in the newest packet; when nothing was left to send
   AuthorityRegister authority;
   JoystickSender joystick;
   CommandTransmitter transmitter;
@@ -55,14 +61,12 @@ void StationEndpoint::Parts::begin_session(bool peer_restarted, Instant now) {
     schema_size = 0;
   }
   if (endpoint.peer()) transmitter.set_peer_boot(endpoint.peer()->boot, now);
-  lane.forget();
 }
 
 Arrival StationEndpoint::Parts::receive(const ReceivedBody& incoming) {
   const Received& received = incoming.received;
   Arrival arrival{
       .groups = {}, .sequence = received.sequence, .path = received.path, .received = received.at};
-  for (const Delivery& delivery : incoming.delivered) lane.acked(delivery.sequence);
   take_groups(incoming, arrival);
   for (const Record& record : incoming.body.records) take(record, received);
   note_release();
@@ -136,18 +140,14 @@ std::optional<Arrival> StationEndpoint::feed(std::span<const std::uint8_t> datag
 }
 
 std::optional<Outgoing> StationEndpoint::poll(Instant now) {
-  for (;;) {
-    const Waits waits = parts_->stop_waits() ? Waits::kStop : Waits::kNothing;
-    if (const auto out = parts_->endpoint.take(now, waits)) return out;
-    parts_->stop_asked = parts_->stop.state();
-    const auto plan = parts_->endpoint.plan(now, waits);
-    if (!plan) return {};
-    parts_->make_packet(*plan, now);
-  }
+  const auto out = parts_->endpoint.poll(*parts_, now);
+  if (!out) parts_->stop_asked = parts_->stop.state();
+  return out;
 }
 
 // What the operator wants is sampled when the packet is made.
-Snapshot StationEndpoint::Parts::sample(Instant now) const {
+Snapshot StationEndpoint::Parts::sample(Instant now) {
+  stop_sent = stop.state();
   Snapshot snapshot;
   put(stop.state(), snapshot.values);
   joystick.put(snapshot.values, now);
@@ -156,31 +156,6 @@ Snapshot StationEndpoint::Parts::sample(Instant now) const {
     snapshot.at(group) = now;
   }
   return snapshot;
-}
-
-void StationEndpoint::Parts::make_packet(const PacketPlan& plan, Instant now) {
-  const Snapshot snapshot = sample(now);
-  stop_sent = stop.state();
-  const std::size_t wants = transmitter.wanted() + events.wanted();
-  const std::size_t safe =
-      lane.choose(snapshot, endpoint.sendable_groups(), {endpoint.round_trip(), plan.rate}, now);
-  const PacketRoom room = endpoint.room_for(plan, safe, wants, now);
-  BodyWriter body = endpoint.begin(plan, room.whole, now);
-  const std::size_t fixed = body.bytes().size();
-  body.hold_back(room.records);
-  const std::size_t of_state =
-      lane.write(body, snapshot, {.only_safety = room.only_safety, .between = plan.between}, now);
-  body.hold_back(0);
-  const std::size_t written = body.bytes().size();
-  endpoint.add_path_records(body, plan, now);
-  transmitter.fill(body, now);
-  events.fill(body, now);
-  const std::size_t safety = fixed + of_state + body.bytes().size() - written;
-  if (!room.only_safety) {
-    body.hold_back(endpoint.safety_reserve(plan, room, safety, now));
-    bulk.fill(body, now);
-  }
-  lane.sent(endpoint.send(body, plan, safety, now), snapshot, now);
 }
 
 Instant StationEndpoint::due() const {
@@ -258,7 +233,6 @@ LinkReport StationEndpoint::report(Instant now) const {
   LinkReport report;
   p.endpoint.report(report, now);
   report.bad_records = p.bad_records;
-  p.lane.report(report);
   report.events = p.events.counters();
   report.bulk = p.bulk.counters();
   return report;

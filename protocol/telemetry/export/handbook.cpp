@@ -3,7 +3,9 @@
 
 #include <string_view>
 
-#include "protocol/telemetry/registry/vehicle_state.hpp"
+#include "protocol/telemetry/command/command_table.hpp"
+#include "protocol/telemetry/packet/vehicle_state.hpp"
+#include "protocol/telemetry/registry/schema_text.hpp"
 
 namespace pitwall::telemetry {
 namespace {

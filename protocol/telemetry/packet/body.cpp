@@ -5,7 +5,7 @@
 #include <array>
 #include <bit>
 
-#include "protocol/telemetry/little_endian.hpp"
+#include "protocol/vocabulary/bytes.hpp"
 #include "protocol/vocabulary/check.hpp"
 
 namespace pitwall::telemetry {
@@ -62,9 +62,7 @@ BodyWriter::BodyWriter(std::span<std::uint8_t> buffer, std::size_t room, const L
 void BodyWriter::begin(Instant now, std::uint8_t paths_mask) {
   CHECK(at_ == 0 && room_ >= kBodyFixed && paths_mask <= kAllPaths);
   const auto ticks = static_cast<std::uint64_t>(now.ns / kTick.ns);
-  for (std::size_t i = 0; i < kTimeSize; ++i) {
-    buffer_[i] = static_cast<std::uint8_t>(ticks >> (8 * i));
-  }
+  store(buffer_.first(kTimeSize), ticks);
   buffer_[kFlagsAt] = static_cast<std::uint8_t>(paths_mask << kPathsShift);
   at_ = kBodyFixed;
 }
@@ -111,9 +109,9 @@ FixedVector<Group, kGroups> BodyWriter::write_set(GroupSet set) {
     present |= std::uint64_t{1} << k;
     CHECK(groups.push(*own));
   }
-  for (std::size_t i = 0; i < set_size(*layout_); ++i) {
-    buffer_[at_++] = static_cast<std::uint8_t>(present >> (8 * i));
-  }
+  const std::size_t size = set_size(*layout_);
+  store(buffer_.subspan(at_, size), present);
+  at_ += size;
   return groups;
 }
 
@@ -195,12 +193,6 @@ class Rest {
 
 using Verdict = std::optional<BodyError>;  // none: good so far
 
-std::uint64_t little_endian(std::span<const std::uint8_t> bytes) {
-  std::uint64_t value = 0;
-  for (std::size_t i = bytes.size(); i > 0; --i) value = value << 8U | bytes[i - 1];
-  return value;
-}
-
 Verdict read_ack(Rest& rest, Body& body) {
   if (!rest.has(kAckSize)) return BodyError::kTooShort;
   const auto bytes = rest.take(kAckSize);
@@ -213,7 +205,7 @@ Verdict read_ack(Rest& rest, Body& body) {
 Verdict read_set(Rest& rest, const Layout& sender, std::uint64_t& set) {
   const std::size_t size = set_size(sender);
   if (!rest.has(size)) return BodyError::kTooShort;
-  set = little_endian(rest.take(size));
+  set = load(rest.take(size));
   const auto used = static_cast<std::size_t>(std::bit_width(set));
   if (used == 0 || used > sender.size()) return BodyError::kBadGroups;
   return {};
@@ -284,7 +276,7 @@ Verdict read_record(Rest& rest, Body& body) {
 
 Verdict read_body(Rest rest, const Layout& sender, Body& body) {
   if (!rest.has(kBodyFixed)) return BodyError::kTooShort;
-  body.tx_time_100us = static_cast<std::uint32_t>(little_endian(rest.take(kTimeSize)));
+  body.tx_time_100us = static_cast<std::uint32_t>(load(rest.take(kTimeSize)));
   const std::uint8_t flags = rest.take_byte();
   if ((flags & ~kFlagsUsed) != 0) return BodyError::kBadFlags;
   body.paths_mask = static_cast<std::uint8_t>(flags >> kPathsShift);

@@ -51,6 +51,21 @@ constexpr std::uint8_t bit_of(PathId path) { return static_cast<std::uint8_t>(1U
 inline constexpr std::size_t kMaxRecords = 48;
 inline constexpr std::size_t kBodyFixed = 4, kAckSize = 8;
 
+// Bytes of a set of groups of our registry: the set, their age codes, their values.
+constexpr std::size_t state_bytes(GroupSet set, Direction direction) {
+  const std::size_t bits = kAgeCodeBits * set.count() + bits_of(set);
+  return (groups_of(direction).count() + 7) / 8 + (bits + 7) / 8;
+}
+
+inline constexpr std::size_t kSafetyShare = 40;  // bytes of every packet, each way
+static_assert(bytes_of(groups_of(Direction::kDown, Class::kSafety)) <= kSafetyShare,
+              "the safety groups of the car take more than their share of every packet");
+static_assert(bytes_of(groups_of(Direction::kUp, Class::kSafety)) <= kSafetyShare,
+              "the safety groups of the base take more than their share of every packet");
+static_assert(kBodyFixed + kAckSize + state_bytes(groups_of(Direction::kDown), Direction::kDown) <=
+                  kMaxBody,
+              "everything that the car tells must fit into one datagram");
+
 // Acknowledgement of the last 33 packets: the newest one, and bit k for newest - 1 - k.
 struct Ack {
   std::uint16_t newest_low = 0;  // low 16 bits of the sequence

@@ -110,13 +110,13 @@ inline constexpr auto kGroupBits = [] {
 }();
 constexpr std::size_t group_bits(Group group) { return kGroupBits[index_of(group)]; }
 
-// Bits of all groups that the car sends.
-inline constexpr std::size_t kValueBits = [] {
+constexpr std::size_t bits_of(GroupSet set) {
   std::size_t bits = 0;
   for (const GroupRow& row : kGroupTable)
-    if (row.direction == Direction::kDown) bits += group_bits(row.group);
+    if (set.has(row.group)) bits += group_bits(row.group);
   return bits;
-}();
+}
+constexpr std::size_t bytes_of(GroupSet set) { return (bits_of(set) + 7) / 8; }
 
 static_assert(
     [] {

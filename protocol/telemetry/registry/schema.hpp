@@ -1,5 +1,4 @@
-// Compile-time properties of the registry: sizes, shares of the radio, and the hashes by which two
-// ends compare their registries.
+// Hashes of the registry, by which two ends compare theirs.
 //   invariants
 //          a hash is the 64-bit FNV-1a of the canonical text (schema_text.hpp). It detects
 //          accidental differences; the key exchange that carries it protects against forgery
@@ -14,40 +13,9 @@
 #include <string_view>
 
 #include "protocol/telemetry/command/command_table.hpp"
-#include "protocol/telemetry/packet/header.hpp"
 #include "protocol/telemetry/registry/schema_text.hpp"
 
 namespace pitwall::telemetry {
-
-// ---- Sizes
-
-constexpr std::size_t bits_of(GroupSet set) {
-  std::size_t bits = 0;
-  for (const GroupRow& row : kGroupTable)
-    if (set.has(row.group)) bits += group_bits(row.group);
-  return bits;
-}
-constexpr std::size_t bytes_of(GroupSet set) { return (bits_of(set) + 7) / 8; }
-
-// Size on the wire: the set, one age code of four bits for each group, the values.
-constexpr std::size_t state_bytes(GroupSet set, Direction direction) {
-  const std::size_t codes = 4 * set.count() + bits_of(set);
-  return (groups_of(direction).count() + 7) / 8 + (codes + 7) / 8;
-}
-
-inline constexpr std::size_t kSafetyShare = 40;  // bytes of every packet, each way
-static_assert(bytes_of(groups_of(Direction::kDown, Class::kSafety)) <= kSafetyShare,
-              "the safety groups of the car take more than their share of every packet");
-static_assert(bytes_of(groups_of(Direction::kUp, Class::kSafety)) <= kSafetyShare,
-              "the safety groups of the base take more than their share of every packet");
-// Fixed part and acknowledgement of a body, as defined in packet/body.hpp.
-inline constexpr std::size_t kBodyOverhead = 4 + 8;
-static_assert(kBodyOverhead + state_bytes(groups_of(Direction::kDown), Direction::kDown) <=
-                  kMaxBody,
-              "everything that the car tells must fit into one datagram");
-static_assert(groups_of(Direction::kDown).count() + groups_of(Direction::kUp).count() == kGroups);
-
-// ---- Hashes
 
 class SchemaHash {
  public:

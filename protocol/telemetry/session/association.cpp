@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "protocol/telemetry/little_endian.hpp"
+#include "protocol/vocabulary/bytes.hpp"
 #include "protocol/vocabulary/check.hpp"
 
 namespace pitwall::telemetry {
@@ -343,18 +343,6 @@ std::optional<Association::Due> Association::poll(PathId path, Instant now,
   }
   if (!opening_due(path, now)) return std::nullopt;
   return open(path, now, out);
-}
-
-FixedVector<UdpAddress, 2> Association::targets(PathId path, std::size_t size) const {
-  return paths_[path].addresses.targets(size);
-}
-
-void Association::note_sent(PathId path, UdpAddress to, std::size_t size) {
-  paths_[path].addresses.note_sent(to, size);
-}
-
-std::optional<std::uint64_t> Association::probe(PathId path) const {
-  return paths_[path].addresses.token();
 }
 
 void Association::take_proof(PathId path, UdpAddress from, std::uint64_t token, Instant now) {

@@ -131,12 +131,11 @@ class Association {
   std::optional<Sealed> seal(std::span<const std::uint8_t> body, Instant now,
                              std::span<std::uint8_t> out);
 
-  // Destinations of packets of this path: the validated address, and the address on trial if
-  // `size` more bytes may be sent there.
-  FixedVector<UdpAddress, 2> targets(PathId path, std::size_t size) const;
-  void note_sent(PathId path, UdpAddress to, std::size_t size);
-  // Payload of the kPathProbe for the next packet to the address on trial.
-  std::optional<std::uint64_t> probe(PathId path) const;
+  // Addresses of the peer on this path.
+  const PathAddresses& addresses(PathId path) const { return paths_[path].addresses; }
+  void note_sent(PathId path, UdpAddress to, std::size_t size) {
+    paths_[path].addresses.note_sent(to, size);
+  }
   void take_proof(PathId path, UdpAddress from, std::uint64_t token, Instant now);
 
   const std::optional<Greeting>& peer() const { return peer_; }  // of the session in use
@@ -144,8 +143,6 @@ class Association {
   const AssociationCounters& counters() const { return counters_; }
   // Base: the greatest stamp of an opening, for its next start.
   Stamp newest_stamp() const { return responder_.newest_stamp(); }
-  UdpAddress proved(PathId path) const { return paths_[path].addresses.proved(); }
-  bool on_trial(PathId path) const { return paths_[path].addresses.token().has_value(); }
 
  private:
   struct Path {

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <string_view>
 
-#include "protocol/telemetry/little_endian.hpp"
+#include "protocol/vocabulary/bytes.hpp"
 #include "protocol/vocabulary/check.hpp"
 
 namespace pitwall::telemetry {

@@ -43,10 +43,14 @@ class PathAddresses {
   // Returns true if the token validates the address on trial.
   bool take_proof(UdpAddress from, std::uint64_t token, Instant now);
 
+  // Destinations of packets: the validated address, and the address on trial if `size` more bytes
+  // may be sent there.
   FixedVector<UdpAddress, 2> targets(std::size_t size) const;
   void note_sent(UdpAddress to, std::size_t size);
-  std::optional<std::uint64_t> token() const;
   UdpAddress proved() const { return proved_; }
+  bool on_trial() const { return trial_.has_value(); }
+  // Payload of the kPathProbe for the next packet to the address on trial.
+  std::optional<std::uint64_t> token() const;
 
  private:
   friend struct Fingerprint;  // for the exhaustive state exploration of the tests

@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "protocol/vocabulary/check.hpp"
+#include "protocol/vocabulary/sequence.hpp"
 
 namespace pitwall::telemetry {
 

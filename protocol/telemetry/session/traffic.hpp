@@ -65,15 +65,6 @@ class Sealer {
   Instant phase_since_;
 };
 
-// The number nearest to `near` with these low 32 bits; never negative.
-constexpr std::uint64_t whole_number(std::uint32_t low, std::uint64_t near) {
-  constexpr std::uint64_t kTurn = std::uint64_t{1} << 32, kHalf = kTurn / 2;
-  const std::uint64_t same_turn = (near & ~(kTurn - 1)) | low;
-  if (same_turn + kHalf < near) return same_turn + kTurn;
-  if (same_turn > near + kHalf && same_turn >= kTurn) return same_turn - kTurn;
-  return same_turn;
-}
-
 class Opener {
  public:
   // `window`: replay window of the session whose numbers continue here.

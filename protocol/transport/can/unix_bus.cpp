@@ -6,15 +6,15 @@
 #include <sys/eventfd.h>
 #include <sys/socket.h>
 
-#include <cstring>
 #include <string>
 #include <utility>
+
+#include "protocol/vocabulary/bytes.hpp"
 
 namespace pitwall::transport {
 namespace {
 
 constexpr std::size_t kCountAt = 4;  // in the data of a notice
-constexpr std::size_t kCountBytes = 4;
 
 PosixOutcome set_flag(int fd, int name) {
   const int on = 1;
@@ -84,18 +84,14 @@ can_frame loss_notice(std::uint32_t lost_so_far) {
   out.len = CAN_ERR_DLC;
   out.__res0 = kNoticeMark;
   out.data[1] = CAN_ERR_CRTL_RX_OVERFLOW;
-  for (std::size_t i = 0; i < kCountBytes; ++i)
-    out.data[kCountAt + i] = static_cast<std::uint8_t>(lost_so_far >> (8 * i));
+  store(out.data, kCountAt, lost_so_far);
   return out;
 }
 
 std::optional<std::uint32_t> read_loss_notice(const CanWire& wire, std::size_t bytes) {
   if (bytes != kCanWireBytes || !is_error_frame(wire) || wire.__res0 != kNoticeMark)
     return std::nullopt;
-  std::uint32_t lost = 0;
-  for (std::size_t i = 0; i < kCountBytes; ++i)
-    lost |= static_cast<std::uint32_t>(wire.data[kCountAt + i]) << (8 * i);
-  return lost;
+  return load<std::uint32_t>(wire.data, kCountAt);
 }
 
 Result<UnixBusEnd, Problem> UnixBusEnd::open(std::string_view interface, UnixBusOptions options) {

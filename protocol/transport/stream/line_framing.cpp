@@ -4,34 +4,19 @@
 #include <algorithm>
 #include <cstring>
 
+#include "protocol/bits/crc.hpp"
+#include "protocol/vocabulary/bytes.hpp"
 #include "protocol/vocabulary/check.hpp"
 
 namespace pitwall::transport {
 namespace {
 
-constexpr std::array<std::uint32_t, 256> make_crc32_table() {
-  std::array<std::uint32_t, 256> table{};
-  for (std::uint32_t i = 0; i < table.size(); ++i) {
-    std::uint32_t c = i;
-    for (int bit = 0; bit < 8; ++bit) c = (c & 1U) != 0U ? (c >> 1U) ^ 0xEDB88320U : c >> 1U;
-    table[i] = c;
-  }
-  return table;
-}
-constexpr auto kCrc32Table = make_crc32_table();
-
 std::uint32_t frame_crc(std::span<const std::uint8_t> length_bytes,
                         std::span<const std::uint8_t> payload) {
-  return line_crc32(payload, line_crc32(length_bytes));
+  return bits::crc32_ieee(payload, bits::crc32_ieee(length_bytes));
 }
 
 }  // namespace
-
-std::uint32_t line_crc32(std::span<const std::uint8_t> bytes, std::uint32_t before) {
-  std::uint32_t c = ~before;
-  for (const std::uint8_t byte : bytes) c = kCrc32Table[(c ^ byte) & 0xFFU] ^ (c >> 8U);
-  return ~c;
-}
 
 std::uint8_t line_crc8(std::span<const std::uint8_t> bytes) {
   unsigned c = 0;
@@ -48,13 +33,10 @@ std::size_t encode_line_frame(std::span<const std::uint8_t> datagram,
   const auto n = datagram.size();
   out[0] = kLineMagic[0];
   out[1] = kLineMagic[1];
-  out[2] = static_cast<std::uint8_t>(n & 0xFFU);
-  out[3] = static_cast<std::uint8_t>(n >> 8U);
+  store(out, 2, static_cast<std::uint16_t>(n));
   out[4] = line_crc8(out.first<4>());
   std::copy(datagram.begin(), datagram.end(), out.begin() + kLineHeaderBytes);
-  const std::uint32_t crc = frame_crc(out.subspan<2, 2>(), datagram);
-  for (std::size_t i = 0; i < kLineTrailerBytes; ++i)
-    out[kLineHeaderBytes + n + i] = static_cast<std::uint8_t>(crc >> (8U * i));
+  store(out, kLineHeaderBytes + n, frame_crc(out.subspan<2, 2>(), datagram));
   return kLineHeaderBytes + n + kLineTrailerBytes;
 }
 
@@ -81,7 +63,7 @@ std::optional<std::span<const std::uint8_t>> LineDecoder::next() {
     skip_foreign();
     const auto bytes = pending();
     if (bytes.size() < kLineHeaderBytes) return std::nullopt;
-    const std::size_t length = bytes[2] + (std::size_t{bytes[3]} << 8U);
+    const std::size_t length = load<std::uint16_t>(bytes, 2);
     if (line_crc8(bytes.first(4)) != bytes[4] || length > kMaxLineDatagramBytes) {
       ++counters_.bad_header;
       ++counters_.foreign_bytes;
@@ -91,9 +73,7 @@ std::optional<std::span<const std::uint8_t>> LineDecoder::next() {
     const std::size_t whole = kLineHeaderBytes + length + kLineTrailerBytes;
     if (bytes.size() < whole) return std::nullopt;
     const auto payload = bytes.subspan(kLineHeaderBytes, length);
-    std::uint32_t stored = 0;
-    for (std::size_t i = 0; i < kLineTrailerBytes; ++i)
-      stored |= std::uint32_t{bytes[kLineHeaderBytes + length + i]} << (8U * i);
+    const auto stored = load<std::uint32_t>(bytes, kLineHeaderBytes + length);
     if (stored != frame_crc(bytes.subspan(2, 2), payload)) {
       ++counters_.bad_crc;
       ++counters_.foreign_bytes;

@@ -7,7 +7,7 @@
 // next magic from the byte after a false one. Pure: bytes in, datagrams out.
 //   units  bytes, at most kMaxLineDatagramBytes per datagram
 //   errors counters only
-//   source CRC-32 ISO-HDLC (check "123456789" = CBF43926); CRC-8 SMBUS (check F4)
+//   source CRC-32 of bits/crc.hpp; CRC-8 SMBUS (check "123456789" = F4)
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -27,7 +27,6 @@ inline constexpr std::size_t kMaxLineFrameBytes =
     kLineHeaderBytes + kMaxLineDatagramBytes + kLineTrailerBytes;
 inline constexpr std::array<std::uint8_t, 2> kLineMagic{0xA7, 0x5C};
 
-std::uint32_t line_crc32(std::span<const std::uint8_t> bytes, std::uint32_t before = 0);
 std::uint8_t line_crc8(std::span<const std::uint8_t> bytes);
 
 // Writes the framed datagram to `out` and returns its length; 0 if it is longer than allowed.

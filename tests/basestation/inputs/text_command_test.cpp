@@ -69,7 +69,7 @@ TEST(TextCommand, AGateHoldsItBackAsAConsole) {
   const auto text = pit.execute("command speed_limit 30");
   ASSERT_FALSE(text);
   const command::Person by_hand{.console = 7, .name = "Ada"};
-  const auto hand = pit.base->execute(
+  const auto hand = pit.base->requests().execute(
       command::IssueCommand{.type = CommandType::kSpeedLimit, .argument = 30.0}, by_hand, pit.now);
   ASSERT_FALSE(hand);
   EXPECT_EQ(text.error().what, hand.error().what);

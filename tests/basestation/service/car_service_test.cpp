@@ -44,7 +44,8 @@ TEST(CarService, JudgesWithoutAnyPublisher) {
   pit.loses = [](bool to_base, telemetry::PathId) { return to_base; };
   pit.run(seconds(1));
   EXPECT_EQ(pit.alarm("link_lost"), alarms::State::kUnack);
-  ASSERT_TRUE(pit.base->execute(command::AcknowledgeAlarms{.key = "link_lost"}, kAda, pit.now));
+  ASSERT_TRUE(
+      pit.base->requests().execute(command::AcknowledgeAlarms{.key = "link_lost"}, kAda, pit.now));
   EXPECT_EQ(pit.alarm("link_lost"), alarms::State::kAcked);
   pit.loses = [](bool, telemetry::PathId) { return false; };
   pit.run(seconds(5));
@@ -61,17 +62,17 @@ TEST(CarService, JudgesWithoutAnyPublisher) {
 TEST(CarService, ACommandPassesTheGatesOfThisMoment) {
   Pit pit;
   pit.run(seconds(2));
-  ASSERT_TRUE(pit.base->execute(command::ClaimAuthority{}, kAda, pit.now));
+  ASSERT_TRUE(pit.base->requests().execute(command::ClaimAuthority{}, kAda, pit.now));
   pit.run(milliseconds(100));
   const command::IssueCommand faster{.type = telemetry::CommandType::kSpeedLimit, .argument = 80.0};
-  const auto refused = pit.base->execute(faster, kAda, pit.now);
+  const auto refused = pit.base->requests().execute(faster, kAda, pit.now);
   ASSERT_FALSE(refused);
   EXPECT_NE(refused.error().what.find("tyres: not received yet"), std::string::npos)
       << refused.error().what;
   EXPECT_NE(pit.base->requests().audit().lines().back().result.find("refused: gates"),
             std::string::npos);
   const command::IssueCommand slower{.type = telemetry::CommandType::kSpeedLimit, .argument = 40.0};
-  ASSERT_TRUE(pit.base->execute(slower, kAda, pit.now));
+  ASSERT_TRUE(pit.base->requests().execute(slower, kAda, pit.now));
   pit.run(milliseconds(200));
   ASSERT_EQ(pit.reported.size(), 1U);
   EXPECT_NEAR(pit.reported[0].command.argument, 40.0, 0.05);
@@ -108,8 +109,8 @@ TEST(CarService, TimesTheLapsOfItsCourse) {
 TEST(CarService, AStopIsInTheNextPacketWhoeverSaysIt) {
   Pit pit;
   pit.run(seconds(1));
-  ASSERT_TRUE(pit.base->execute(command::Stop{telemetry::StopLevel::kEmergency},
-                                {.console = 200, .name = "nobody"}, pit.now));
+  ASSERT_TRUE(pit.base->requests().execute(command::Stop{telemetry::StopLevel::kEmergency},
+                                           {.console = 200, .name = "nobody"}, pit.now));
   pit.run(milliseconds(50));
   EXPECT_EQ(pit.car->view(pit.now).stop, telemetry::StopLevel::kEmergency);
 }
@@ -162,22 +163,23 @@ TEST(CarService, AfterAStopItLeadsBackToDrivingStepByStep) {
       const telemetry::OperatorView seen = pit.car->view(pit.now);
       pit.set(field("mode.stop_latch"), static_cast<double>(seen.stop));
       pit.set(field("mode.stop_challenge"), static_cast<double>(seen.stop_challenge));
-      (void)pit.base->execute(command::ClaimAuthority{.claim = command::Claim::kRenew}, kAda,
-                              pit.now);
+      (void)pit.base->requests().execute(command::ClaimAuthority{.claim = command::Claim::kRenew},
+                                         kAda, pit.now);
       pit.run(milliseconds(100));
     }
   };
   const auto recover = [&](command::RecoveryStep step, std::optional<double> challenge = {}) {
-    const auto done =
-        pit.base->execute(command::Recover{.step = step, .challenge = challenge}, kAda, pit.now);
+    const auto done = pit.base->requests().execute(
+        command::Recover{.step = step, .challenge = challenge}, kAda, pit.now);
     return done ? std::string{} : done.error().what;
   };
   constexpr double kDisarmed = 0.0, kStandby = 1.0, kDriving = 2.0, kStopping = 3.0, kHalted = 5.0;
   live(kDriving, 50.0);
   EXPECT_FALSE(pit.base->stopped());
-  ASSERT_TRUE(pit.base->execute(command::Stop{telemetry::StopLevel::kControlled}, kAda, pit.now));
-  ASSERT_TRUE(
-      pit.base->execute(command::ClaimAuthority{.claim = command::Claim::kTake}, kAda, pit.now));
+  ASSERT_TRUE(pit.base->requests().execute(command::Stop{telemetry::StopLevel::kControlled}, kAda,
+                                           pit.now));
+  ASSERT_TRUE(pit.base->requests().execute(command::ClaimAuthority{.claim = command::Claim::kTake},
+                                           kAda, pit.now));
   live(kStopping, 30.0);
   ASSERT_TRUE(pit.base->stopped());
   EXPECT_EQ(pit.base->stopped()->by, "Ada");

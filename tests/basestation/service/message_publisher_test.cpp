@@ -44,7 +44,7 @@ TEST(MessagePublisher, AHeldAuthorityIsPublishedEachSecond) {
   Published base;
   base.run(seconds(1));
   for (int i = 0; i < 10; ++i) {
-    ASSERT_TRUE(base.base->execute(command::ClaimAuthority{}, kBea, base.now));
+    ASSERT_TRUE(base.base->requests().execute(command::ClaimAuthority{}, kBea, base.now));
     const int published = base.during(seconds(1))["authority"];
     EXPECT_GE(published, 1) << i;
     EXPECT_LE(published, 2) << i;
@@ -57,7 +57,7 @@ TEST(MessagePublisher, EachEventAndEachAuditLineIsPublishedOnce) {
   base.counts.clear();
   for (const char* const text : {"one", "two", "three"}) {
     ASSERT_TRUE(base.car->log(telemetry::make_event(telemetry::TextEvent{text}, base.now)));
-    ASSERT_TRUE(base.base->execute(command::Stop{}, kBea, base.now));
+    ASSERT_TRUE(base.base->requests().execute(command::Stop{}, kBea, base.now));
     base.run(milliseconds(200));
   }
   EXPECT_EQ(base.counts["event"], 3);
@@ -67,8 +67,8 @@ TEST(MessagePublisher, EachEventAndEachAuditLineIsPublishedOnce) {
 TEST(MessagePublisher, EntriesArePublishedEachMinute) {
   Published base;
   base.run(seconds(1));
-  ASSERT_TRUE(base.base->execute(command::ClaimAuthority{}, kBea, base.now));
-  ASSERT_TRUE(base.base->execute(command::ReportFuel{.litres = 40.0}, kBea, base.now));
+  ASSERT_TRUE(base.base->requests().execute(command::ClaimAuthority{}, kBea, base.now));
+  ASSERT_TRUE(base.base->requests().execute(command::ReportFuel{.litres = 40.0}, kBea, base.now));
   EXPECT_EQ(base.during(seconds(1))["expected"], 1);
   EXPECT_EQ(base.during(seconds(60))["expected"], 1);
 }

@@ -84,7 +84,7 @@ class Session : public testing::Test {
       car.turn();
       for (const auto& d : std::span(inbox).first(loop.radio[0].receive(inbox))) {
         session->service().receive(d.payload(), 0, d.from, d.at);
-        while (const auto out = session->service().poll(transport::monotonic_now())) {
+        while (const auto out = session->service().link().poll(transport::monotonic_now())) {
           loop.radio[0].send_to(out->to, out->bytes);
         }
       }

@@ -9,7 +9,7 @@
 
 #include <vector>
 
-#include "protocol/telemetry/registry/vehicle_state.hpp"
+#include "protocol/telemetry/packet/vehicle_state.hpp"
 #include "protocol/vocabulary/time.hpp"
 
 namespace pitwall::codec {

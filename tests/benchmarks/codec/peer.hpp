@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-#include "protocol/telemetry/registry/vehicle_state.hpp"
+#include "protocol/telemetry/packet/vehicle_state.hpp"
 
 namespace pitwall::codec {
 

@@ -16,7 +16,7 @@
 #include "protocol/can/decode.hpp"
 #include "protocol/can/message_monitor.hpp"
 #include "protocol/telemetry/packet/group_codec.hpp"
-#include "protocol/telemetry/registry/vehicle_state.hpp"
+#include "protocol/telemetry/packet/vehicle_state.hpp"
 #include "protocol/telemetry/state_packet.hpp"
 
 namespace pitwall {

@@ -4,7 +4,7 @@
  * in turns within one run. Real processes in real time: other work on the machine shows in the
  * figures, so the best round counts, see console/blocks.mjs.
  *
- *   multicast.sh node bench_publishers.mjs [--json FILE]   exit code 1 when a gate is missed
+ *   own_network.sh node bench_publishers.mjs [--json FILE]   exit code 1 when a gate is missed
  *
  * PITWALL_BASE and PITWALL_CAR name the programs.
  */

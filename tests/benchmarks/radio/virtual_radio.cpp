@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "protocol/telemetry/packet/header.hpp"
-#include "protocol/telemetry/registry/vehicle_state.hpp"
+#include "protocol/telemetry/packet/vehicle_state.hpp"
 #include "protocol/vocabulary/check.hpp"
 
 namespace pitwall::radio {

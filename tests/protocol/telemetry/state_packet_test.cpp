@@ -186,7 +186,7 @@ TEST(StatePacket, SealedNonsenseIsRefusedByKind) {
   EXPECT_EQ(with(3, 0x83), PacketError::kBadFlags);
   EXPECT_EQ(with(4, static_cast<std::uint8_t>(good[4] ^ 1U)), PacketError::kOtherSchema);
   EXPECT_EQ(with(23, 0xFF), PacketError::kBadCode);  // sent in the year 292 000
-  if ((kDownGroups * kAgeBits + kValueBits) % 8 != 0) {
+  if ((kDownGroups * kAgeBits + bits_of(groups_of(Direction::kDown))) % 8 != 0) {
     const std::size_t last = good.size() - kChecksumBytes - 1;
     EXPECT_EQ(with(last, static_cast<std::uint8_t>(good[last] | 1U)), PacketError::kBadCode);
   }

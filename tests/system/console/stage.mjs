@@ -12,7 +12,7 @@ import { Double } from "./double.mjs";
 import { chromium, kRoot } from "./packages.mjs";
 import { Programs } from "./programs.mjs";
 
-const kChromium = process.env.PITWALL_CHROMIUM || "/usr/bin/chromium";
+const kChromium = "/usr/bin/chromium-headless-shell";
 /** A browser that does not end is killed with the test's process. */
 const kCloseMs = 10_000;
 export const kScreenshots = join(kRoot, "build/console/screenshots");

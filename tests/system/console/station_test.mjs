@@ -87,10 +87,10 @@ test("within a second of loading: the live car, its flags and its link", async (
   assert.ok(best.firstMs <= 1000 * slowness, JSON.stringify(tries));
 });
 
-test("nothing outside this machine is needed", (t) => {
-  if (!process.env.PITWALL_OFFLINE) return t.skip("this kernel gives no network namespace");
+test("nothing outside this machine is needed", () => {
   const routes = readFileSync("/proc/net/route", "utf8").trim().split("\n").slice(1);
-  assert.deepEqual(routes, [], "the tests of this file run where no route leads out");
+  const out = routes.filter((route) => !route.startsWith("lo\t"));
+  assert.deepEqual(out, [], "the tests of this file run where no route leads out");
 });
 
 test("a layout that is none is told of, and the page is drawn as usual", async () => {

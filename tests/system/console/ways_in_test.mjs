@@ -153,7 +153,6 @@ test("in the source, commands come by these places, and one folder speaks to the
     "inputs/command_socket.cpp",
     "inputs/text_operator.cpp",
     "publishers/console/console_service.cpp",
-    "service/car_service.hpp",
     "service/event_loop.cpp",
   ]);
   // Whoever can change what goes up to the car.

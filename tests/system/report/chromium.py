@@ -17,13 +17,13 @@ START_LIMIT_S = 60.0
 
 class Chromium:
     def __init__(self, profile, width, height):
-        program = shutil.which("chromium") or shutil.which("chromium-browser")
+        program = shutil.which("chromium-headless-shell")
         if program is None:
-            raise SystemExit("chromium is missing: install the Debian package chromium "
-                             "(./pitwall setup does)")
+            raise SystemExit("the Debian package chromium-headless-shell is missing "
+                             "(./pitwall setup installs it)")
         to_read, self._to = os.pipe()
         self._from, to_write = os.pipe()
-        arguments = [program, "--headless=new", "--no-sandbox", "--disable-gpu", "--no-first-run",
+        arguments = [program, "--no-sandbox", "--disable-gpu", "--no-first-run",
                      "--disable-dev-shm-usage", f"--user-data-dir={profile}",
                      f"--window-size={width},{height}", "--remote-debugging-pipe", "about:blank"]
         self._process = subprocess.Popen(

@@ -15,6 +15,7 @@ namespace {
 constexpr double kWarm_c = 85.0, kCold_c = 30.0;
 // Entry, both thirds and exit of either end.
 const auto kPlaces = ::testing::Values(440.0, 560.0, 700.0, 850.0, 1560.0, 1680.0, 1830.0, 1970.0);
+const auto kSomePlaces = ::testing::Values(440.0, 850.0, 1680.0);
 
 constexpr double kCrossTrackMax_m = 0.6, kUseMax = 0.9, kJerkMax_mps3 = 15.0;
 // On cold tyres the rear axle, which alone drives, limits the speed of the turns to 59.2 m/s.
@@ -61,10 +62,10 @@ TEST(SafeStop, ColdTyresAreBeyondTheirShareAt68BeforeAnyBrake) {
   EXPECT_GT(warm.use_before / left, kUseMax);
 }
 
-// The same places with all the brake there is: else the tests above would prove nothing. With 54 %
-// of the brakes' torque in front, as the AV-21 has it, and 37 to 43 % of what the tyres can do, the
-// front wheels lock first: the car does not spin, it stops turning and slides metres off its path,
-// mostly into the wall.
+// Some of these places with all the brake there is: else the tests above would prove nothing.
+// With 54 % of the brakes' torque in front, as the AV-21 has it, and 37 to 43 % of what the tyres
+// can do, the front wheels lock first: the car does not spin, it stops turning and slides metres
+// off its path, mostly into the wall.
 class FullBrakeFrom : public ::testing::TestWithParam<double> {};
 
 TEST_P(FullBrakeFrom, LocksTheFrontWheelsAndSlidesStraightOn) {
@@ -75,7 +76,7 @@ TEST_P(FullBrakeFrom, LocksTheFrontWheelsAndSlidesStraightOn) {
   EXPECT_GE(f.use, 1.0);
 }
 
-INSTANTIATE_TEST_SUITE_P(Turns, FullBrakeFrom, kPlaces);
+INSTANTIATE_TEST_SUITE_P(Turns, FullBrakeFrom, kSomePlaces);
 
 // Where the rear wheels lock first it spins: half the torque of the front brakes is gone, the tyres
 // are cold. The controlled stop of the same car from the same place stays in bounds.
@@ -95,7 +96,7 @@ TEST_P(RearBrakesFrom, AFullBrakeSpinsWhereTheControlledStopStands) {
   EXPECT_LT(controlled.slip_deg, 3.0);
 }
 
-INSTANTIATE_TEST_SUITE_P(Turns, RearBrakesFrom, kPlaces);
+INSTANTIATE_TEST_SUITE_P(Turns, RearBrakesFrom, kSomePlaces);
 
 TEST(SafeStop, AnEmergencyIsShorterAndStillWithinTheEllipse) {
   for (const double tyre_c : {kWarm_c, kCold_c}) {

@@ -16,7 +16,7 @@ import unittest
 from cluster import Cluster
 
 HIL = sys.argv.pop(1)
-CASES = 24
+CASES = 16
 
 PLAN = f"""schema: 1
 name: cluster

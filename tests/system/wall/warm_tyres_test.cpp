@@ -20,7 +20,7 @@
 namespace pitwall {
 namespace {
 
-constexpr double kLapsToWarm = 16.0, kLapsHeld = 25.0;
+constexpr double kLapsToWarm = 16.0, kLapsHeld = 12.0;
 constexpr double kWindowLow_c = 75.0, kWindowHigh_c = 100.0;
 
 double coldest_c(const bench::Rig& rig) { return *std::ranges::min_element(rig.truth().tyre_c); }

@@ -42,10 +42,10 @@ TEST(CarFile, EveryNumberIsRefusedWithItsLineWhenItIsWrong) {
   std::size_t n = 0;
   for (const Piece& number : testing::numbers(av21())) {
     const std::string place = "car.yaml:" + std::to_string(number.line) + ":";
-    for (const char* bad : {"1e30", "-1e30", ".nan", "many"}) check(number, bad, place);
+    for (const char* bad : {"1e30", "-1e30"}) check(number, bad, place);
     if (++n % 5 != 0) continue;  // these do not depend on the number's range
     for (const char* bad :
-         {".inf", "-.inf", "nan", "\"1\"", "~", "[]", "{}", "1.2.3", "0x", "1e999"})
+         {".nan", ".inf", "-.inf", "nan", "many", "\"1\"", "~", "[]", "{}", "1.2.3", "0x", "1e999"})
       check(number, bad, place);
     check(number, "", "car.yaml:");  // its place is where the next thing is written
   }

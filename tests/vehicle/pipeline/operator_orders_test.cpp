@@ -272,11 +272,7 @@ TEST(OperatorOrders, ARoundSpeedAboveTheCarsIsCappedAndTold) {
   }
 }
 
-TEST(OperatorOrders, OfTwoLimitsTheLowerHolds) {
-  EXPECT_EQ(lower_limit_mps(30.0, 20.0), 20.0);
-  EXPECT_EQ(lower_limit_mps(kUnset, 20.0), 20.0);
-  EXPECT_EQ(lower_limit_mps(30.0, kUnset), 30.0);
-  EXPECT_TRUE(std::isnan(lower_limit_mps(kUnset, kUnset)));
+TEST(OperatorOrders, ASpeedLimitHoldsAndNoNegativeOneIsTaken) {
   Rig rig;
   EXPECT_EQ(rig.done(OperatorCommandKind::kSpeedLimit, 33.0), CommandAnswer::kApplied);
   EXPECT_EQ(rig.orders.speed_limit_mps, 33.0);

@@ -71,11 +71,18 @@ DiscreteSystem<kStates, 1, kOuts> held(const Matrix<kStates, kStates>& a,
   return out;
 }
 
+// Without the cases of infinite parts that operator* looks for.
+inline std::complex<double> times(std::complex<double> left, std::complex<double> right) {
+  return {left.real() * right.real() - left.imag() * right.imag(),
+          left.real() * right.imag() + left.imag() * right.real()};
+}
+
 // c (z - a)^-1 b + d, by elimination with pivots.
 template <std::size_t kStates, std::size_t kIns, std::size_t kOuts>
 Matrix<kOuts, kIns, std::complex<double>> response(
     const DiscreteSystem<kStates, kIns, kOuts>& system, std::complex<double> z) {
-  Matrix<kStates, kStates + kIns, std::complex<double>> m{};
+  constexpr std::size_t kWidth = kStates + kIns;
+  Matrix<kStates, kWidth, std::complex<double>> m{};
   for (std::size_t i = 0; i < kStates; ++i) {
     for (std::size_t j = 0; j < kStates; ++j) m[i][j] = (i == j ? z : 0.0) - system.a[i][j];
     for (std::size_t j = 0; j < kIns; ++j) m[i][kStates + j] = system.b[i][j];
@@ -85,20 +92,23 @@ Matrix<kOuts, kIns, std::complex<double>> response(
       return std::norm(one[k]) < std::norm(other[k]);
     };
     std::swap(m[k], *std::max_element(m.begin() + static_cast<std::ptrdiff_t>(k), m.end(), larger));
-    for (std::size_t i = 0; i < kStates; ++i) {
-      if (i == k) continue;
-      const std::complex<double> factor = m[i][k] / m[k][k];
+    const std::complex<double> inverse = 1.0 / m[k][k];
+    for (std::size_t j = k + 1; j < kWidth; ++j) m[k][j] = times(m[k][j], inverse);
+    for (std::size_t i = k + 1; i < kStates; ++i) {
+      const std::complex<double> factor = m[i][k];
       if (factor == 0.0) continue;
-      for (std::size_t j = k; j < kStates + kIns; ++j) m[i][j] -= factor * m[k][j];
+      for (std::size_t j = k + 1; j < kWidth; ++j) m[i][j] -= times(factor, m[k][j]);
     }
   }
   Matrix<kOuts, kIns, std::complex<double>> out{};
-  for (std::size_t o = 0; o < kOuts; ++o)
-    for (std::size_t j = 0; j < kIns; ++j) {
+  for (std::size_t j = 0; j < kIns; ++j) {
+    for (std::size_t k = kStates; k-- > 0;)
+      for (std::size_t i = 0; i < k; ++i) m[i][kStates + j] -= times(m[i][k], m[k][kStates + j]);
+    for (std::size_t o = 0; o < kOuts; ++o) {
       out[o][j] = system.d[o][j];
-      for (std::size_t k = 0; k < kStates; ++k)
-        out[o][j] += system.c[o][k] * m[k][kStates + j] / m[k][k];
+      for (std::size_t k = 0; k < kStates; ++k) out[o][j] += system.c[o][k] * m[k][kStates + j];
     }
+  }
   return out;
 }
 

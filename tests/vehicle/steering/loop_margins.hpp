@@ -34,7 +34,7 @@ double crossing(Fn f, double low, double high) {
 
 template <class Fn>
 double largest(Fn f, double low, double high) {
-  for (int i = 0; i < 60; ++i) {
+  for (int i = 0; i < 30; ++i) {
     const double third = (high - low) / 3.0;
     if (f(low + third) < f(high - third))
       low += third;

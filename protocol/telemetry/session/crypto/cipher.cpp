@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "protocol/telemetry/little_endian.hpp"
+#include "protocol/vocabulary/bytes.hpp"
 #include "protocol/vocabulary/check.hpp"
 
 namespace pitwall::telemetry {

@@ -5,8 +5,8 @@
 
 #include <array>
 
-#include "protocol/telemetry/little_endian.hpp"
 #include "protocol/telemetry/session/crypto/cipher.hpp"
+#include "protocol/vocabulary/bytes.hpp"
 
 namespace pitwall::telemetry {
 

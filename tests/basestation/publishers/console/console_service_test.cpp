@@ -197,6 +197,12 @@ TEST_F(Consoles, WhatTheHolderSetsIsToldToAll) {
           "settings");
   while (!(reported.number("revision") == 1.0)) reported = receive(web_client, "settings");
   EXPECT_FALSE(reported.flag("kept")) << "there is no file";
+  // That of the join came before the answers above: this one is that of the change.
+  for (const json::JsonValue& row : receive(web_client, "catalogue").items("fields")) {
+    if (row.text("path") == "electric.battery") {
+      EXPECT_EQ(row.find("limits")->number("bad_low"), 11.0);
+    }
+  }
   EXPECT_EQ(rig_.base->evaluator().limits().of(state::field_id("electric.battery")).bad_low, 11.0);
   // A set of values; the other one stays as it was.
   constexpr state::FieldId kMode = state::field_id("mode.mode");

@@ -3,20 +3,26 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 namespace pitwall::state {
 namespace {
 
 TEST(TyreGate, ThePapersSpinWasFarBelowIt) {
   const TyreGate gate;
   EXPECT_DOUBLE_EQ(tyre_needed_c(gate, from_mph(140)), 79.0);
-  EXPECT_LT(speed_allowed_mps(gate, 29.0), from_mph(100));
+  EXPECT_GT(tyre_needed_c(gate, from_mph(100)), 29.0);
 }
 
-TEST(TyreGate, BothDirectionsAreOneRelation) {
+TEST(TyreGate, IsThatOfItsRowsAndLinearBetweenThem) {
   const TyreGate gate;
-  for (double speed = gate.speed_mps.front(); speed < gate.speed_mps.back(); speed += 0.1) {
-    EXPECT_NEAR(speed_allowed_mps(gate, tyre_needed_c(gate, speed)), speed, 1e-9);
+  for (std::size_t i = 0; i + 1 < TyreGate::kRows; ++i) {
+    const double middle_mps = (gate.speed_mps[i] + gate.speed_mps[i + 1]) / 2.0;
+    const double middle_c = (gate.temperature_c[i] + gate.temperature_c[i + 1]) / 2.0;
+    EXPECT_DOUBLE_EQ(tyre_needed_c(gate, gate.speed_mps[i]), gate.temperature_c[i]);
+    EXPECT_NEAR(tyre_needed_c(gate, middle_mps), middle_c, 1e-9);
   }
+  EXPECT_EQ(tyre_needed_c(gate, std::nexttoward(gate.speed_mps.front(), 0.0)), kNoTyreGate_c);
 }
 
 TEST(TyreGate, AFasterCarNeverNeedsColderTyres) {
@@ -30,10 +36,9 @@ TEST(TyreGate, AFasterCarNeverNeedsColderTyres) {
   EXPECT_DOUBLE_EQ(before, gate.temperature_c.back());
 }
 
-TEST(TyreGate, AnUnknownSpeedOrTemperatureIsTheWorst) {
+TEST(TyreGate, AnUnknownSpeedIsTheWorst) {
   const TyreGate gate;
   EXPECT_DOUBLE_EQ(tyre_needed_c(gate, kUnset), gate.temperature_c.back());
-  EXPECT_DOUBLE_EQ(speed_allowed_mps(gate, kUnset), gate.speed_mps.front());
 }
 
 }  // namespace

@@ -14,7 +14,7 @@
 
 #include "protocol/telemetry/endpoint/car_endpoint.hpp"
 #include "protocol/telemetry/endpoint/station_endpoint.hpp"
-#include "protocol/telemetry/registry/vehicle_state.hpp"
+#include "protocol/telemetry/packet/vehicle_state.hpp"
 #include "protocol/transport/readiness.hpp"
 #include "protocol/transport/udp_socket.hpp"
 #include "tests/benchmarks/protocol_comparison/peers/peer.hpp"

@@ -31,14 +31,25 @@ Result<scenario::Scenario, Problem> read_alone(const std::string& name) {
   return text ? scenario::read_scenario(*text, name) : Unexpected{text.error()};
 }
 
-std::vector<std::string> scenario_files() {
-  std::vector<std::string> files;
-  for (const auto& entry : std::filesystem::directory_iterator(kRoot + "/hil/scenarios"))
-    if (entry.path().extension() == ".yaml" &&
-        is_for_here(read_alone(entry.path().stem().string())))
-      files.push_back(entry.path().stem().string());
-  std::sort(files.begin(), files.end());
-  return files;
+struct LockstepFiles {
+  std::vector<std::string> all, with_faults;
+};
+
+const LockstepFiles& lockstep_files() {
+  static const LockstepFiles found = [] {
+    LockstepFiles files;
+    for (const auto& entry : std::filesystem::directory_iterator(kRoot + "/hil/scenarios")) {
+      if (entry.path().extension() != ".yaml") continue;
+      const std::string name = entry.path().stem().string();
+      const auto read = read_alone(name);
+      if (!is_for_here(read)) continue;
+      files.all.push_back(name);
+      if (read && !read->faults.empty()) files.with_faults.push_back(name);
+    }
+    std::ranges::sort(files.all), std::ranges::sort(files.with_faults);
+    return files;
+  }();
+  return found;
 }
 
 class ScenarioFile : public ::testing::TestWithParam<std::string> {};
@@ -62,7 +73,7 @@ TEST_P(ScenarioFile, Holds) {
     EXPECT_TRUE(verdict.pass) << verdict.name << ": " << verdict.text << ": " << verdict.reason;
 }
 
-INSTANTIATE_TEST_SUITE_P(All, ScenarioFile, ::testing::ValuesIn(scenario_files()),
+INSTANTIATE_TEST_SUITE_P(All, ScenarioFile, ::testing::ValuesIn(lockstep_files().all),
                          [](const auto& file) { return file.param; });
 
 // What has failed for good stays failed: the rest of the run says nothing more.
@@ -82,15 +93,6 @@ const std::set<std::string> kShrugged{
     "base_blink", "base_restarted_commands", "gnss_bytes_damaged",    "gnss_one_unit_bad",
     "grip_low",   "operator_emergency",      "steering_slow_at_speed"};
 
-std::vector<std::string> fault_files() {
-  std::vector<std::string> files;
-  for (const std::string& name : scenario_files()) {
-    const auto read = read_alone(name);
-    if (read && !read->faults.empty()) files.push_back(name);
-  }
-  return files;
-}
-
 // Every fault file must fail without its fault, or it would prove nothing about the fault: this is
 // the test of the tests.
 class FaultFile : public ::testing::TestWithParam<std::string> {};
@@ -102,18 +104,18 @@ TEST_P(FaultFile, WithoutItsFaultItFails) {
   EXPECT_EQ(until_it_fails(*loaded).passed(), kShrugged.contains(GetParam()));
 }
 
-INSTANTIATE_TEST_SUITE_P(All, FaultFile, ::testing::ValuesIn(fault_files()),
+INSTANTIATE_TEST_SUITE_P(All, FaultFile, ::testing::ValuesIn(lockstep_files().with_faults),
                          [](const auto& file) { return file.param; });
 
 TEST(ScenarioFiles, FaultFilesAreSeveralAndTheShruggedOnesAmongThem) {
-  const std::vector<std::string> files = fault_files();
+  const std::vector<std::string>& files = lockstep_files().with_faults;
   EXPECT_GE(files.size(), 10u);
   for (const std::string& name : kShrugged) EXPECT_EQ(std::ranges::count(files, name), 1) << name;
 }
 
 TEST(ScenarioFiles, AnOperatorWhoSaysNothingIsNoticed) {
   std::size_t with_words = 0;
-  for (const std::string& name : scenario_files()) {
+  for (const std::string& name : lockstep_files().all) {
     auto loaded = load_scenario(name);
     ASSERT_TRUE(loaded);
     if (loaded->scenario.operator_texts.empty()) continue;

@@ -6,7 +6,7 @@
 #include <memory>
 #include <random>
 
-#include "protocol/telemetry/little_endian.hpp"
+#include "protocol/vocabulary/bytes.hpp"
 #include "tests/protocol/telemetry/delivery/delivery_rig.hpp"
 #include "tests/support/allocation_guard.hpp"
 

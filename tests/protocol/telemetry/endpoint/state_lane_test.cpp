@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "protocol/telemetry/registry/schema.hpp"
+#include "protocol/telemetry/packet/body.hpp"
 #include "tests/support/instants.hpp"
 
 namespace pitwall::telemetry {

@@ -15,11 +15,11 @@
 #include <string>
 #include <vector>
 
-#include "protocol/telemetry/little_endian.hpp"
 #include "protocol/telemetry/packet/body.hpp"
 #include "protocol/telemetry/registry/schema_text.hpp"
 #include "protocol/telemetry/session/key_log.hpp"
 #include "protocol/telemetry/session/traffic.hpp"
+#include "protocol/vocabulary/bytes.hpp"
 
 namespace pitwall::telemetry {
 namespace {

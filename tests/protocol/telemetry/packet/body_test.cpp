@@ -184,7 +184,7 @@ TEST(BodyWriter, WritesTheGroupsThatFitInTheOrderThatIsAsked) {
       if (fits) bits = more;
     }
     EXPECT_EQ(writer.bytes().size(),
-              set.empty() ? kBodyFixed : kBodyFixed + set_size(Direction::kDown) + (bits + 7) / 8);
+              kBodyFixed + (set.empty() ? 0 : state_bytes(set, Direction::kDown)));
   }
 }
 

@@ -31,6 +31,13 @@ TEST(Registry, EveryGroupHasAField) {
   EXPECT_EQ(groups.size(), kGroups);
 }
 
+TEST(Registry, BitsOfTheGroupsAddUp) {
+  std::size_t bits = 0;
+  for (const FieldRow& row : kFields) bits += row.quantized().bits();
+  EXPECT_EQ(bits_of(groups_of(Direction::kDown)) + bits_of(groups_of(Direction::kUp)), bits);
+  EXPECT_EQ(bits_of(GroupSet{}), 0U);
+}
+
 TEST(Registry, LabelsFitTheRangeOfTheirField) {
   for (const FieldRow& row : kFields) {
     if (row.labels.empty()) continue;

@@ -30,14 +30,6 @@ TEST(Schema, HashesAreThoseOfTheCanonicalTexts) {
   EXPECT_EQ(kSchemaHash, hash_of(schema_text()));
 }
 
-TEST(Schema, SizesAddUp) {
-  std::size_t bits = 0;
-  for (const FieldRow& row : kFields) bits += row.quantized().bits();
-  EXPECT_EQ(bits_of(groups_of(Direction::kDown)) + bits_of(groups_of(Direction::kUp)), bits);
-  EXPECT_EQ(bits_of(GroupSet{}), 0U);
-  EXPECT_EQ(state_bytes(GroupSet{}, Direction::kUp), 1U);
-}
-
 // Codes of stop reasons and causes stand in the table of this program, in the order in which they
 // are written, and both ends compare the table before they believe a code. Peers read them from
 // their sources when they start: there two checkouts give two meanings, and nobody notices.

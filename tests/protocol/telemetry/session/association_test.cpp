@@ -186,17 +186,17 @@ TEST(Association, TheSlowerPathLearnsItsAddressFromCopies) {
   const Datagram datagram = rig.car->seal(9, rig.now);
   ASSERT_TRUE(rig.base->feed(datagram, kCarAddress, rig.now, 0));
   ASSERT_FALSE(rig.base->feed(datagram, kElsewhere, rig.now, 1));
-  ASSERT_EQ((*rig.base)->targets(1, 50).size(), 1U);
-  EXPECT_EQ((*rig.base)->targets(1, 50)[0], kElsewhere);
-  const auto token = (*rig.base)->probe(1);
+  ASSERT_EQ((*rig.base)->addresses(1).targets(50).size(), 1U);
+  EXPECT_EQ((*rig.base)->addresses(1).targets(50)[0], kElsewhere);
+  const auto token = (*rig.base)->addresses(1).token();
   ASSERT_TRUE(token);
   (*rig.base)->take_proof(1, kElsewhere, *token, rig.now);
-  EXPECT_EQ((*rig.base)->proved(1), kElsewhere);
+  EXPECT_EQ((*rig.base)->addresses(1).proved(), kElsewhere);
   // The same again from a third place, on either path, moves nothing.
   const UdpAddress third{.ip = 3, .port = 3};
   for (const PathId path : {PathId{0}, PathId{1}}) {
     EXPECT_FALSE(rig.base->feed(datagram, third, rig.now, path));
-    EXPECT_FALSE((*rig.base)->probe(path));
+    EXPECT_FALSE((*rig.base)->addresses(path).token());
   }
 }
 
@@ -238,22 +238,22 @@ TEST(Association, ANewAddressGetsThreeTimesWhatItSentUntilItProvesItself) {
   ASSERT_TRUE(rig.base->feed(moved, kElsewhere, rig.now));
   std::size_t to_new = 0;
   for (int i = 0; i < 100; ++i) {
-    for (const UdpAddress to : base.targets(0, 50)) {
+    for (const UdpAddress to : base.addresses(0).targets(50)) {
       base.note_sent(0, to, 50);
       if (to == kElsewhere) to_new += 50;
     }
-    ASSERT_EQ(base.targets(0, 50)[0], kCarAddress) << "the old one is served beside it";
+    ASSERT_EQ(base.addresses(0).targets(50)[0], kCarAddress) << "the old one is served beside it";
   }
   EXPECT_GT(to_new, 2 * moved.size());
   EXPECT_LE(to_new, 3 * moved.size());
-  const auto token = base.probe(0);
+  const auto token = base.addresses(0).token();
   ASSERT_TRUE(token);
   base.take_proof(0, kElsewhere, *token + 1, rig.now);
   base.take_proof(0, kCarAddress, *token, rig.now);
-  EXPECT_EQ(base.proved(0), kCarAddress);
+  EXPECT_EQ(base.addresses(0).proved(), kCarAddress);
   base.take_proof(0, kElsewhere, *token, rig.now);
-  EXPECT_EQ(base.proved(0), kElsewhere);
-  EXPECT_EQ(base.targets(0, 1'000).size(), 1U);
+  EXPECT_EQ(base.addresses(0).proved(), kElsewhere);
+  EXPECT_EQ(base.addresses(0).targets(1'000).size(), 1U);
   EXPECT_EQ(base.counters().roams, 1U);
 }
 

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "protocol/telemetry/little_endian.hpp"
+#include "protocol/vocabulary/bytes.hpp"
 #include "tests/protocol/telemetry/session/rig.hpp"
 
 namespace pitwall::telemetry::testing {
@@ -187,8 +187,8 @@ TEST_P(Attacks, TheNewestPacketReplayedFromElsewhereRedirectsNothing) {
     const Datagram datagram = next();
     ASSERT_TRUE(rig.base->feed(datagram, kCarAddress, rig.now));
     ASSERT_FALSE(rig.base->feed(datagram, kElsewhere, rig.now));
-    ASSERT_FALSE((*rig.base)->probe(0));
-    const auto targets = (*rig.base)->targets(0, 100);
+    ASSERT_FALSE((*rig.base)->addresses(0).token());
+    const auto targets = (*rig.base)->addresses(0).targets(100);
     ASSERT_EQ(targets.size(), 1U);
     ASSERT_EQ(targets[0], kCarAddress);
   }
@@ -199,8 +199,8 @@ TEST_P(Attacks, AHeldBackPacketReplayedFromElsewhereRedirectsNothing) {
   const Datagram held_back = next();
   ASSERT_TRUE(rig.base->feed(next(), kCarAddress, rig.now));
   ASSERT_TRUE(rig.base->feed(held_back, kElsewhere, rig.now)) << "late, but it is the car's";
-  EXPECT_FALSE((*rig.base)->probe(0));
-  EXPECT_EQ((*rig.base)->targets(0, 100).size(), 1U);
+  EXPECT_FALSE((*rig.base)->addresses(0).token());
+  EXPECT_EQ((*rig.base)->addresses(0).targets(100).size(), 1U);
 }
 
 // ---- a whole capture again
@@ -264,7 +264,7 @@ TEST_P(Replay, OfTenMinutesIsNeverAcceptedAndStopsNothing) {
     EXPECT_TRUE(base->feed(car->seal(2, now), kCarAddress, now));
     EXPECT_TRUE(car->feed(base->seal(2, now), kBaseAddress, now));
     EXPECT_EQ((*base)->session(), session);
-    EXPECT_EQ((*base)->targets(0, 50)[0], kCarAddress);
+    EXPECT_EQ((*base)->addresses(0).targets(50)[0], kCarAddress);
   }
 }
 

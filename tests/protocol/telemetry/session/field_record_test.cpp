@@ -102,8 +102,8 @@ TEST(FieldRecord, AForgedPacketStealsNoStream) {
   Datagram forged = rig.car->seal(1, rig.now);
   forged.back() = static_cast<std::uint8_t>(forged.back() ^ 1U);
   EXPECT_FALSE(rig.base->feed(forged, kElsewhere, rig.now));
-  ASSERT_EQ((*rig.base)->targets(0, 10).size(), 1U);
-  EXPECT_EQ((*rig.base)->targets(0, 10)[0], kCarAddress);
+  ASSERT_EQ((*rig.base)->addresses(0).targets(10).size(), 1U);
+  EXPECT_EQ((*rig.base)->addresses(0).targets(10)[0], kCarAddress);
 }
 
 }  // namespace

@@ -25,10 +25,10 @@ EndOptions with_spares(std::initializer_list<UdpAddress> spares) {
 // The base is heard from kMoved and proves that it is there.
 void move_base(Rig& rig) {
   ASSERT_TRUE(rig.car->feed(rig.base->seal(1, rig.now), kMoved, rig.now));
-  const auto token = (*rig.car)->probe(0);
+  const auto token = (*rig.car)->addresses(0).token();
   ASSERT_TRUE(token);
   (*rig.car)->take_proof(0, kMoved, *token, rig.now);
-  ASSERT_EQ((*rig.car)->proved(0), kMoved);
+  ASSERT_EQ((*rig.car)->addresses(0).proved(), kMoved);
 }
 
 // To where openings leave in this time, and the longest gap of each.
@@ -87,7 +87,7 @@ TEST(Initiator, ABaseAtTheConfiguredAddressIsFoundAfterTheOneThatMovedDied) {
     rig.now += milliseconds(1);
   }
   EXPECT_LE(rig.now - died, kSilenceOpens + milliseconds(500));
-  EXPECT_EQ((*rig.car)->proved(0), kBaseAddress);
+  EXPECT_EQ((*rig.car)->addresses(0).proved(), kBaseAddress);
 }
 
 // Who answers faster from another address with what the base said does not become the base.
@@ -97,7 +97,7 @@ TEST(Initiator, AnAnswerProvesWhereTheOpeningWasSentNotWhereItCameFrom) {
   rig.base->feed(opening->first, kCarAddress, rig.now);
   rig.car->feed(rig.base->poll(rig.now)->first, kElsewhere, rig.now);
   EXPECT_TRUE((*rig.car)->ready());
-  EXPECT_EQ((*rig.car)->proved(0), kBaseAddress);
+  EXPECT_EQ((*rig.car)->addresses(0).proved(), kBaseAddress);
 }
 
 TEST(Initiator, ASecondBaseThatAnswersIsCounted) {
@@ -146,7 +146,8 @@ TEST(Initiator, ASilentPathBesideALivingOneFindsTheBaseAgain) {
     if (rig.now.ns % milliseconds(20).ns != 0) continue;
     ASSERT_TRUE(rig.base->feed(rig.car->seal(1, rig.now), kCarAddress, rig.now, 1));
     ASSERT_TRUE(rig.car->feed(rig.base->seal(1, rig.now), kBaseAddress, rig.now, 1));
-    if (found == Duration{} && (*rig.car)->proved(0) == kBaseAddress) found = rig.now - begin;
+    if (found == Duration{} && (*rig.car)->addresses(0).proved() == kBaseAddress)
+      found = rig.now - begin;
   }
   EXPECT_GE(found, kSilenceOpens);
   EXPECT_LE(found, kSilenceOpens + milliseconds(520));

@@ -3,7 +3,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
-#include <array>
 #include <vector>
 
 #include "tests/vehicle/autonomy/control/lqr_loop.hpp"
@@ -34,17 +33,16 @@ Worst over(const LqrParams& params, std::vector<LoopCase> cars, bool learned) {
   return out;
 }
 
-const Worst& over_family(bool learned) {
-  static const std::array worst{over(recommended().lqr_ff, family(), false),
-                                over(recommended().lqr_ff, family(), true)};
-  return worst[learned ? 1 : 0];
+// The whole family is judged once, for the bounds and for the page.
+TEST(LqrMargins, TheWorstCarsHoldTheBoundsAndAreThoseOfThePage) {
+  const LqrParams& law = recommended().lqr_ff;
+  const Worst learned = over(law, family(), true), not_yet = over(law, family(), false);
+  expect_margins_of_a_family(learned);
+  expect_not_poor(not_yet);
+  steering::testing::expect_on_the_page(
+      {row_of("lqr_ff", learned), row_of("lqr_ff, nothing learned yet", not_yet),
+       row_of("lqr_ff, our own car at 65 m/s", over(law, {LoopCase{}}, true))});
 }
-
-TEST(LqrMargins, TheWorstCarOfTheFamilyHasThoseOfTheStop) {
-  expect_margins_of_a_family(over_family(true));
-}
-
-TEST(LqrMargins, WhileNothingIsLearnedTheWorstCarIsNotPoor) { expect_not_poor(over_family(false)); }
 
 TEST(LqrMargins, OurOwnCarHasThoseOfATextbookAtEverySpeed) {
   for (const double speed_mps : {10.0, 15.0, 22.0, 30.0, 37.0, 45.0, 55.0, 65.0, 75.0}) {
@@ -83,13 +81,6 @@ TEST(LqrMargins, AtTheMarginTheClosedLoopCeasesToBeStable) {
     EXPECT_LT(spectral_radius(loop, m.gain_down * (1.0 + kInside)), kStable) << i;
     EXPECT_GT(spectral_radius(loop, m.gain_down * (1.0 - kInside)), 1.0) << i;
   }
-}
-
-TEST(LqrMargins, AreThoseOfThePage) {
-  steering::testing::expect_on_the_page(
-      {row_of("lqr_ff", over_family(true)),
-       row_of("lqr_ff, nothing learned yet", over_family(false)),
-       row_of("lqr_ff, our own car at 65 m/s", over(recommended().lqr_ff, {LoopCase{}}, true))});
 }
 
 }  // namespace

@@ -7,7 +7,7 @@
 #include <array>
 #include <cstddef>
 
-#include "protocol/telemetry/registry/schema.hpp"
+#include "protocol/telemetry/packet/body.hpp"
 
 namespace pitwall::telemetry {
 
@@ -43,7 +43,7 @@ static_assert(vehicle_state_count(FieldKind::kYesNo) == 6);
 
 static_assert(bytes_of(kVehicleStateSet) <= 121, "the values of the vehicle state have grown");
 inline constexpr std::size_t kVehicleStateDatagram =
-    kHeaderSize + kTagSize + 4 + state_bytes(kVehicleStateSet, Direction::kDown);
+    kHeaderSize + kTagSize + kBodyFixed + state_bytes(kVehicleStateSet, Direction::kDown);
 // With IP and UDP at most 179 bytes: 0.67 of a signed MAVLink 2 message that is scaled by hand.
 static_assert(kVehicleStateDatagram <= 151, "the vehicle state as one datagram has grown");
 

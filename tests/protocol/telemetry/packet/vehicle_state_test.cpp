@@ -1,13 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "protocol/telemetry/packet/vehicle_state.hpp"
+
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
-
-#include "protocol/telemetry/packet/body.hpp"
-#include "protocol/telemetry/registry/vehicle_state.hpp"
+#include <set>
 
 namespace pitwall::telemetry {
 namespace {
+
+TEST(VehicleState, IsAHundredDifferentFieldsOfWholeGroupsOfTheCar) {
+  EXPECT_EQ(std::set<FieldIndex>(kVehicleState.begin(), kVehicleState.end()).size(), 100U);
+  std::size_t fields = 0;
+  for (const Group group : kVehicleStateGroups) {
+    EXPECT_EQ(row_of(group).direction, Direction::kDown);
+    fields += fields_of(group).count;
+  }
+  EXPECT_EQ(fields, kVehicleStateSize);
+}
 
 // The figure that is proved at compile time is that of a body which was really written.
 TEST(VehicleState, TakesAsMuchOfADatagramAsTheRegistrySays) {
