@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "tests/vehicle/autonomy/tracking/race.hpp"
+#include "vehicle/autonomy/tracking/filter/modes.hpp"
 
 namespace pitwall::tracking {
 namespace {
@@ -30,7 +31,8 @@ void expect_same(const Tracks& a, const Tracks& b) {
   ASSERT_EQ(a.list.size(), b.list.size());
   EXPECT_EQ(a.at, b.at);
   for (std::size_t t = 0; t < a.list.size(); ++t) {
-    const Track &p = a.list[t], &q = b.list[t];
+    Track p = a.list[t], q = b.list[t];
+    join_modes(p), join_modes(q);
     EXPECT_EQ(p.first, q.first);
     EXPECT_EQ(p.newest, q.newest);
     EXPECT_EQ(p.confirmed, q.confirmed);

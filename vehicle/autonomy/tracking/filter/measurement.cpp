@@ -21,7 +21,7 @@ using Square = std::array<Values, kValuesMax>;
 // Of S + R.
 Square factor_of(const Spread& spread, const Innovation& in) {
   return factor<kValuesMax>(in.size, [&](std::size_t i, std::size_t j) {
-    return spread.values[i][j] + (i == j ? in.variance[i] : 0.0);
+    return spread[i][j] + (i == j ? in.variance[i] : 0.0);
   });
 }
 
@@ -181,21 +181,23 @@ double way_m(const world::TrackMap* map, double from_m, double to_m) {
   return map == nullptr ? to_m - from_m : std::remainder(to_m - from_m, map->length_m());
 }
 
-Spread spread_of(const Expectation& e, const StateMatrix& p) {
-  Spread s;
-  for (std::size_t i = 0; i < kRoadStates; ++i)
-    for (std::size_t j = 0; j < kValuesMax; ++j) {
-      double sum = 0.0;
-      for (std::size_t k = 0; k < 4; ++k) sum += p[i][k] * e.jacobian[j][k];
-      s.states[i][j] = sum;
+Spread spread_of(const Expectation& e, std::size_t mode, const Modes& m) {
+  Spread spread{};
+  for (std::size_t i = 0; i < kValuesMax; ++i) {
+    const auto& h = e.jacobian[i];
+    Gradient row{};
+    double apart = 0.0;
+    for (std::size_t k = 0; k < h.size(); ++k) {
+      apart += h[k] * m.apart[mode][k];
+      for (std::size_t j = 0; j < row.size(); ++j) row[j] += h[k] * m.p[mode][k][j];
     }
-  for (std::size_t i = 0; i < kValuesMax; ++i)
-    for (std::size_t j = 0; j < kValuesMax; ++j) {
-      double sum = 0.0;
-      for (std::size_t k = 0; k < 4; ++k) sum += e.jacobian[i][k] * s.states[k][j];
-      s.values[i][j] = sum;
+    for (std::size_t j = 0; j < row.size(); ++j) row[j] += apart * m.apart[mode][j];
+    for (std::size_t j = 0; j <= i; ++j) {
+      for (std::size_t k = 0; k < row.size(); ++k) spread[i][j] += row[k] * e.jacobian[j][k];
+      spread[j][i] = spread[i][j];
     }
-  return s;
+  }
+  return spread;
 }
 
 Innovation reading_of(const RoadParams& params, const FrameKey& sensor, const OwnMotion& own,
@@ -242,7 +244,7 @@ Innovation innovation_of(DetectionSource source, const Innovation& reading, cons
 
 Distance distance_of(const Spread& spread, const Innovation& in, double most) {
   for (std::size_t i = 0; i < in.size; ++i)
-    if (!(square(in.value[i]) <= most * (spread.values[i][i] + in.variance[i])))
+    if (!(square(in.value[i]) <= most * (spread[i][i] + in.variance[i])))
       return {.square = std::numeric_limits<double>::infinity()};
   const Square l = factor_of(spread, in);
   const Values y = solved(l, in.size, in.value);
@@ -264,7 +266,6 @@ void update(const Expectation& e, const Innovation& in, const world::TrackMap* m
   centre_modes(track);
   track.x[kHeading] = full_turn(track.x[kHeading]);
   if (map != nullptr) track.x[kAlong] = map->wrap_station(track.x[kAlong]);
-  join_modes(track);
 }
 
 Position position_of(DetectionSource source, const OwnMotion& own, const Measurement& m) {

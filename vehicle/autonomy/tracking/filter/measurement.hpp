@@ -42,12 +42,9 @@ Expectation expectation_of(world::DetectionSource source, const OwnMotion& own, 
 // Way along the road from one place to another.
 double way_m(const world::TrackMap* map, double from_m, double to_m);
 
-// Its covariance (H P H') and that with the states (P H').
-struct Spread {
-  std::array<Values, kValuesMax> values{};
-  std::array<Values, kRoadStates> states{};
-};
-Spread spread_of(const Expectation& expectation, const StateMatrix& p);
+// Its covariance (H P H') if the car is in this mode, about the states of the track.
+using Spread = std::array<Values, kValuesMax>;
+Spread spread_of(const Expectation& expectation, std::size_t mode, const Modes& modes);
 
 // Values of a detection in the order and the frame of an Expectation, or their difference from one;
 // the sensor's variances. The first `size` are set.
@@ -68,8 +65,8 @@ struct Distance {
 // The square is infinite where one value alone is beyond `most`.
 Distance distance_of(const Spread& spread, const Innovation& innovation, double most);
 
-// Updates every mode, and by how well each expected it their probability. The innovation is that of
-// the expectation.
+// Updates every mode, and by how well each expected it their probability; they are not joined. The
+// innovation is that of the expectation.
 void update(const Expectation& expectation, const Innovation& innovation,
             const world::TrackMap* map, Track& track);
 

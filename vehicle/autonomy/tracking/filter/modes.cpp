@@ -99,12 +99,4 @@ void join_modes(Track& track) {
                       m.share[2] * moments[2][i][j];
 }
 
-StateMatrix covariance_of(std::size_t mode, const Modes& m) {
-  StateMatrix p{};
-  for (std::size_t i = 0; i < kRoadStates; ++i)
-    for (std::size_t j = 0; j < kRoadStates; ++j)
-      p[i][j] = m.p[mode][i][j] + m.apart[mode][i] * m.apart[mode][j];
-  return p;
-}
-
 }  // namespace pitwall::tracking

@@ -28,8 +28,7 @@ void begin_modes(const RoadParams& params, Track& track);
 void mix_modes(const ModeChange& change, Modes& modes);
 // Moves x to the mean of the modes, each of which stays where it is.
 void centre_modes(Track& track);
+// Sets the covariance of the track. The filter works on the modes and leaves it to who reads it.
 void join_modes(Track& track);
-// About x, if the car is in this mode.
-StateMatrix covariance_of(std::size_t mode, const Modes& modes);
 
 }  // namespace pitwall::tracking

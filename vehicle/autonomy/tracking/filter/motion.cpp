@@ -16,12 +16,13 @@ RoadMatrix times_covariance(const MotionStep& step, std::size_t mode, const Adva
                             const RoadMatrix& p) {
   const auto& [accel, turn] = step.mode[mode];
   RoadMatrix fp;
+  for (std::size_t i = 0; i < 2; ++i) {
+    const RoadVector& f = a.jacobian[i];
+    for (std::size_t j = 0; j < kRoadStates; ++j)
+      fp[i][j] = f[0] * p[0][j] + f[1] * p[1][j] + f[2] * p[2][j] + f[3] * p[3][j] +
+                 f[4] * p[4][j] + f[5] * p[5][j];
+  }
   for (std::size_t j = 0; j < kRoadStates; ++j) {
-    for (std::size_t i = 0; i < 2; ++i) {
-      double sum = 0.0;
-      for (std::size_t k = 0; k < kRoadStates; ++k) sum += a.jacobian[i][k] * p[k][j];
-      fp[i][j] = sum;
-    }
     fp[kHeading][j] = step.heading_kept * p[kHeading][j] + turn.gain_s * p[kTurn][j];
     fp[kSpeed][j] = p[kSpeed][j] + accel.gain_s * p[kAccel][j];
     fp[kAccel][j] = accel.kept * p[kAccel][j];
@@ -37,19 +38,21 @@ void add_noise(const Fading& f, std::size_t integral, std::size_t value, RoadMat
   p[value][integral] += f.covariance;
 }
 
+// F P F', whose upper half says all.
 void move_covariance(const MotionStep& step, const Advance& a, std::size_t mode, RoadMatrix& p) {
   const auto& [accel, turn] = step.mode[mode];
   const RoadMatrix fp = times_covariance(step, mode, a, p);
   for (std::size_t i = 0; i < kRoadStates; ++i) {
-    const auto& row = fp[i];
-    for (std::size_t j = 0; j < 2; ++j) {
-      double sum = 0.0;
-      for (std::size_t k = 0; k < kRoadStates; ++k) sum += row[k] * a.jacobian[j][k];
-      p[i][j] = sum;
+    const RoadVector& row = fp[i];
+    for (std::size_t j = i; j < 2; ++j) {
+      const RoadVector& f = a.jacobian[j];
+      p[i][j] = row[0] * f[0] + row[1] * f[1] + row[2] * f[2] + row[3] * f[3] + row[4] * f[4] +
+                row[5] * f[5];
     }
-    p[i][kHeading] = step.heading_kept * row[kHeading] + turn.gain_s * row[kTurn];
-    p[i][kSpeed] = row[kSpeed] + accel.gain_s * row[kAccel];
-    p[i][kAccel] = accel.kept * row[kAccel];
+    if (i <= kHeading)
+      p[i][kHeading] = step.heading_kept * row[kHeading] + turn.gain_s * row[kTurn];
+    if (i <= kSpeed) p[i][kSpeed] = row[kSpeed] + accel.gain_s * row[kAccel];
+    if (i <= kAccel) p[i][kAccel] = accel.kept * row[kAccel];
     p[i][kTurn] = turn.kept * row[kTurn];
   }
   for (std::size_t i = 0; i < kRoadStates; ++i)
@@ -130,6 +133,21 @@ void coast_all(const RoadParams& params, const world::TrackMap* map, Duration ti
     for (Track& track : tracks) take_step(step, map, track);
 }
 
+struct Direction {
+  double cos, sin;
+};
+
+// Of a small angle, as a car's to the road is, by the series: off by less than 1e-13, and faster.
+Direction direction_of(double angle_rad) {
+  constexpr double kSmall_rad = 0.2;
+  if (!(std::abs(angle_rad) < kSmall_rad)) return {std::cos(angle_rad), std::sin(angle_rad)};
+  const double q = angle_rad * angle_rad;
+  constexpr double k2 = 1.0 / 2, k3 = k2 / 3, k4 = k3 / 4, k5 = k4 / 5, k6 = k5 / 6, k7 = k6 / 7,
+                   k8 = k7 / 8, k9 = k8 / 9;
+  return {1.0 - q * (k2 - q * (k4 - q * (k6 - q * k8))),
+          angle_rad * (1.0 - q * (k3 - q * (k5 - q * (k7 - q * k9))))};
+}
+
 Fading with_sigma(Fading unit, double sigma) {
   const double variance = sigma * sigma;
   unit.value_variance *= variance, unit.integral_variance *= variance, unit.covariance *= variance;
@@ -140,7 +158,8 @@ Fading with_sigma(Fading unit, double sigma) {
 
 Fading fading(double sigma, double time_s, double dt_s) {
   const double r = dt_s / time_s;
-  const double lost = -std::expm1(-r);  // 1 - kept
+  const double half_lost = -std::expm1(-0.5 * r);     // after half of the step
+  const double lost = half_lost * (2.0 - half_lost);  // 1 - kept
   const double kept = 1.0 - lost;
   const double variance = sigma * sigma;
   // 2 r - 3 + 4 e^-r - e^-2r, from its series (2/3 r^3 first) where the terms would cancel.
@@ -150,7 +169,7 @@ Fading fading(double sigma, double time_s, double dt_s) {
                            : 2.0 * r - 2.0 * lost - lost * lost;
   return {.kept = kept,
           .gain_s = time_s * lost,
-          .half_s = -time_s * std::expm1(-0.5 * r),
+          .half_s = time_s * half_lost,
           .value_variance = variance * lost * (1.0 + kept),
           .integral_variance = variance * time_s * time_s * shape,
           .covariance = variance * time_s * lost * lost};
@@ -188,8 +207,9 @@ Advance advanced(const MotionStep& step, std::size_t mode, double curvature_per_
   const double heading_rad = x[kHeading] + turn.half_s * x[kTurn];
   const double speed_mps = x[kSpeed] + accel.half_s * x[kAccel];
   const double left = std::max(1.0 - curvature_per_m * x[kAcross], kRadiusLeftMin);
-  const double along = step.dt_s * std::cos(heading_rad) / left;
-  const double across = step.dt_s * std::sin(heading_rad);
+  const Direction direction = direction_of(heading_rad);
+  const double along = step.dt_s * direction.cos / left;
+  const double across = step.dt_s * direction.sin;
   Advance a;
   a.x = x;
   a.x[kAlong] += speed_mps * along;

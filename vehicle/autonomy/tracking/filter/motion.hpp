@@ -62,7 +62,7 @@ double road_turn_of(double curvature_per_m, const StateVector& x);
 // States of a mode after a step, and the Jacobian of the two positions: all other rows are linear.
 struct Advance {
   StateVector x{};
-  std::array<std::array<double, kRoadStates>, 2> jacobian{};
+  std::array<RoadVector, 2> jacobian{};
 };
 Advance advanced(const MotionStep& step, std::size_t mode, double curvature_per_m,
                  const StateVector& x);
@@ -72,8 +72,7 @@ inline double full_turn(double angle_rad) {
   return std::abs(angle_rad) <= std::numbers::pi ? angle_rad : wrap_pi(angle_rad);
 }
 
-// Moves the tracks by a time of any length, in steps of at most 0.1 s. Of many only the covariances
-// of the modes, of one that of the track too.
+// Moves the tracks by a time of any length, in steps of at most 0.1 s. The modes of one are joined.
 void coast(const RoadParams& params, const world::TrackMap* map, Duration time, Tracks& tracks);
 void coast(const RoadParams& params, const world::TrackMap* map, Duration time, Track& track);
 

@@ -130,6 +130,8 @@ Track resumed(const RoadParams& params, const TrackMap* map, Duration coast, con
 void identify(const RoadParams& params, const TrackMap* map, Duration coast, const Frame& frame,
               Tracks& tracks) {
   if (std::none_of(tracks.list.begin(), tracks.list.end(), is_undecided)) return;
+  for (Track& track : tracks.list)
+    if (is_undecided(track)) join_modes(track);
   const Pairs p = pairs_of(params, map, frame, tracks);
   const Assignment a = assign(p.costs, Search::kBestTwo);
   std::array<bool, kTracksMax> ends{};

@@ -49,7 +49,7 @@ void judge_lost(std::size_t detections, std::size_t t, Gates& g) {
 void judge_seen(const RoadParams& params, const Frame& frame, const Place& place,
                 const Track& track, std::size_t t, Gates& g) {
   g.expected[t] = expectation_of(frame.key.source, frame.own, place);
-  const Spread spread = spread_of(g.expected[t], covariance_of(kLaneChange, track.modes));
+  const Spread spread = spread_of(g.expected[t], kLaneChange, track.modes);
   for (std::size_t d = 0; d < frame.measurements.size(); ++d) {
     const Innovation in = innovation_of(frame.key.source, g.reading[d], g.expected[t]);
     const double gate = gate_of(params, in.size);
@@ -101,7 +101,6 @@ void turn_around(Track& track) {
         p[j][i] = -p[j][i];
       }
   }
-  join_modes(track);
 }
 
 void update_track(const RoadParams& params, const TrackMap* map, const Frame& frame, const Gates& g,
@@ -117,10 +116,7 @@ void update_tracks(const RoadParams& params, const TrackMap* map, const Frame& f
   for (std::size_t t = 0; t < g.costs.tracks; ++t) {
     Track& track = tracks.list[t];
     const std::size_t d = a.of_track[t];
-    if (d == kNone) {
-      join_modes(track);
-      continue;
-    }
+    if (d == kNone) continue;
     update_track(params, map, frame, g, g.expected[t], d, track);
     note_detection(frame, d, track);
   }
@@ -251,14 +247,13 @@ world::Opponent road_opponent(const TrackMap* map, const Track& track) {
     car.yaw_rate_rad_per_s += road_turn_of(p.curvature_per_m, track.x);
   }
   car.length_m = track.length_m, car.width_m = track.width_m;
-  for (std::size_t i = 0; i < 4; ++i)
-    for (std::size_t j = 0; j < 4; ++j) {
-      double sum = 0.0;
-      for (std::size_t k = 0; k < 4; ++k)
-        for (std::size_t l = 0; l < 4; ++l)
-          sum += p.jacobian[i][k] * track.p[k][l] * p.jacobian[j][l];
-      car.covariance[4 * i + j] = sum;
-    }
+  for (std::size_t i = 0; i < 4; ++i) {
+    std::array<double, 4> row{};  // of J P
+    for (std::size_t k = 0; k < 4; ++k)
+      for (std::size_t l = 0; l < 4; ++l) row[l] += p.jacobian[i][k] * track.p[k][l];
+    for (std::size_t j = 0; j < 4; ++j)
+      for (std::size_t l = 0; l < 4; ++l) car.covariance[4 * i + j] += row[l] * p.jacobian[j][l];
+  }
   car.born_at = track.born_at;
   car.measured_at = track.newest.frame.at;
   car.confidence = track.confidence;

@@ -7,7 +7,7 @@
 // its place is a new car, and not another one that is out of sight.
 //
 //   in     tracks at the time of an older frame, the frame
-//   out    tracks at the time of the frame
+//   out    tracks at the time of the frame; their modes are not joined
 //   source Chiu et al. (2020): greedy by Mahalanobis distance; here with the logarithm of the
 //          determinant, as the likelihood has it
 //   cost   O(tracks * detections); no allocation

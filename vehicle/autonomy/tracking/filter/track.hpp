@@ -47,7 +47,7 @@ struct Modes {
 // yaw, length, width, vx, vy.
 struct Track {
   StateVector x{};
-  StateMatrix p{};  // covariance; of "road" that of all modes together
+  StateMatrix p{};  // covariance; of "road" that of all modes when they were joined last
   Modes modes;      // of "road"
   double length_m = kUnset, width_m = kUnset;
   double confidence = kUnset;    // of its newest detection

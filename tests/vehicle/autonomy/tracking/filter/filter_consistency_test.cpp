@@ -14,6 +14,7 @@
 #include "tests/support/instants.hpp"
 #include "tests/vehicle/autonomy/tracking/filter/circle.hpp"
 #include "vehicle/autonomy/tracking/filter/measurement.hpp"
+#include "vehicle/autonomy/tracking/filter/modes.hpp"
 #include "vehicle/autonomy/tracking/filter/motion.hpp"
 #include "vehicle/autonomy/tracking/filter/road_filter.hpp"
 
@@ -130,7 +131,8 @@ double mean_error(bool on_road, const std::vector<DetectionSource>& sensors) {
         car.move(params, on_road, 1e-3, random), own.move(still, on_road, 1e-3, random);
     }
     if (tracks.list.size() != 1) continue;
-    const Track& t = tracks.list[0];
+    Track t = tracks.list[0];
+    join_modes(t);
     StateVector e{};
     const std::array truth{car.s_m,       car.n_m,        car.heading_rad,
                            car.speed_mps, car.accel_mps2, car.turn_rad_per_s};

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "tests/vehicle/autonomy/tracking/filter/circle.hpp"
+#include "vehicle/autonomy/tracking/filter/modes.hpp"
 
 namespace pitwall::tracking {
 namespace {
@@ -98,10 +99,26 @@ TEST(TrackMeasurement, MissingValuesLeaveFewer) {
   EXPECT_EQ(size(DetectionSource::kLidar, {40.0, 0.1, kUnset, kUnset, kUnset}), 2U);
 }
 
+// By hand: H P H' of the mode, and the square of what it is apart from the track.
+TEST(TrackMeasurement, SpreadIsThatOfOneMode) {
+  Modes modes;
+  modes.p[kLaneChange][kAlong] = {4.0, 1.0};
+  modes.p[kLaneChange][kAcross] = {1.0, 2.0};
+  modes.p[kLaneChange][kTurn][kTurn] = 100.0;  // is not measured
+  modes.apart[kLaneChange] = {0.5, -1.0};
+  Expectation e;
+  e.jacobian[0] = {1.0, 0.0, 0.0, 0.0};
+  e.jacobian[1] = {2.0, 1.0, 0.0, 0.0};
+  const Spread spread = spread_of(e, kLaneChange, modes);
+  EXPECT_NEAR(spread[0][0], 4.0 + 0.25, 1e-14);
+  EXPECT_NEAR(spread[0][1], 2.0 * 4.0 + 1.0 + 0.5 * (2.0 * 0.5 - 1.0), 1e-14);
+  EXPECT_EQ(spread[1][0], spread[0][1]);
+  EXPECT_NEAR(spread[1][1], 4.0 * 4.0 + 2.0 * 2.0 * 1.0 + 2.0, 1e-14);
+}
+
 // Against the two-dimensional formulas written out: inverse and determinant by hand.
 TEST(TrackMeasurement, DistanceIsThatOfTheInverse) {
-  Spread spread;
-  spread.values = {{{4.0, 1.5, 0.0}, {1.5, 3.0, 0.0}, {0.0, 0.0, 1.0}}};
+  const Spread spread{{{4.0, 1.5, 0.0}, {1.5, 3.0, 0.0}, {0.0, 0.0, 1.0}}};
   Innovation in{.size = 2, .value = {1.0, -2.0, 0.0}, .variance = {0.5, 0.25, 0.0}};
   const double a = 4.5, b = 1.5, d = 3.25, det = a * d - b * b;
   const double square = (d * 1.0 + 2.0 * b * 2.0 + a * 4.0) / det;
@@ -126,6 +143,7 @@ TEST(TrackMeasurement, UpdateIsThatOfTheFormulaForOneValue) {
   begin_modes(RoadParams{}, track);
   const Track before = track;
   update(e, {.size = 1, .value = {1.5, 0, 0}, .variance = {0.2, 0, 0}}, nullptr, track);
+  join_modes(track);
   std::array<double, kRoadStates> ph{};
   for (std::size_t i = 0; i < kRoadStates; ++i)
     for (std::size_t k = 0; k < 4; ++k) ph[i] += before.p[i][k] * e.jacobian[0][k];

@@ -9,6 +9,7 @@
 #include "tests/support/instants.hpp"
 #include "tests/vehicle/autonomy/tracking/filter/circle.hpp"
 #include "vehicle/autonomy/tracking/filter/courses.hpp"
+#include "vehicle/autonomy/tracking/filter/modes.hpp"
 #include "vehicle/autonomy/tracking/filter/motion.hpp"
 
 namespace pitwall::tracking {
@@ -45,6 +46,7 @@ struct Drive {
     filter_road(params, ground(), seconds(5),
                 {.key = {at_s(t_s), source, 0}, .own = own_motion(own), .measurements = list},
                 tracks);
+    for (Track& track : tracks.list) join_modes(track);
   }
   void see(double t_s, DetectionSource source, const std::vector<TruePose>& cars) {
     see(t_s, source, cars, [](Measurement&) {});
