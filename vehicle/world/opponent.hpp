@@ -17,8 +17,6 @@ namespace pitwall::world {
 
 struct Opponent {
   std::uint32_t id = 0;  // of the track, never used again
-  // It came into sight and may be a car that was lost: then it gets the number of that one soon.
-  bool is_tentative = false;
   double x_m = kUnset, y_m = kUnset, yaw_rad = kUnset;
   double speed_mps = kUnset, accel_mps2 = kUnset, yaw_rate_rad_per_s = kUnset;
   double s_m = kUnset, n_m = kUnset;

@@ -2,8 +2,9 @@
 //   in     a plan, a seed, steps of time
 //   out    motion of every car; ours is the first
 //   invariants
-//          no two cars touch; acceleration is between -5 and +4 m/s^2, its rate at most 20 m/s^3;
-//          the same plan and seed give the same motion
+//          acceleration is between -5 and +4 m/s^2, its rate at most 20 m/s^3; the same plan and
+//          seed give the same motion. No two cars touch in an hour of seeds 1 and 2; in others a
+//          driver who closes in on one that brakes too may run into it, since both brake as hard
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

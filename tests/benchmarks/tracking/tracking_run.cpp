@@ -115,13 +115,16 @@ class Scorer {
         mot_.let_go(id);
         row_->reborn += !std::exchange(seen_[i].is_forgotten, true);
       }
+      if (seen_[i].since_s > kForgotten_s && !std::exchange(seen_[i].was_let_go, true))
+        let_go_once_.let_go(id);
       objects.push_back({id, car.x_m, car.y_m, is_required});
     }
     std::vector<Opponent> claimed;
     std::ranges::copy_if(known.cars, std::back_inserter(claimed), [now](const Opponent& track) {
-      return !track.is_tentative && (now - track.measured_at).seconds() <= kClaimed_s;
+      return (now - track.measured_at).seconds() <= kClaimed_s;
     });
     for (const Opponent& track : claimed) tracks.push_back({track.id, track.x_m, track.y_m});
+    let_go_once_.add(objects, tracks);
     for (const SpotPair& pair : mot_.add(objects, tracks)) {
       const Opponent& track = claimed[pair.track];
       const bool is_settled = (now - track.born_at).seconds() >= kSettled_s;
@@ -131,6 +134,7 @@ class Scorer {
     for (const std::uint32_t car : mot_.switched()) row_->switches_hidden += was_hidden(car);
     row_->objects = mot_.objects(), row_->misses = mot_.misses();
     row_->false_tracks = mot_.false_tracks(), row_->switches = mot_.switches();
+    row_->switches_let_go_once = let_go_once_.switches();
     row_->mota = mot_.mota();
   }
 
@@ -155,6 +159,7 @@ class Scorer {
            back_s = 0.0;  // by radars too: now, last, since
     double side = 0.0;    // ahead of us or behind
     bool is_forgotten = false;
+    bool was_let_go = false;  // since some LiDAR or camera saw it
   };
 
   bool was_hidden(std::uint32_t car) const {
@@ -172,7 +177,7 @@ class Scorer {
         if (sight.unseen_s > kHidden_s) sight.hidden_s = sight.unseen_s, sight.back_s = 0.0;
         sight.unseen_s = 0.0, sight.is_forgotten = false;
         if (sensor.source == world::DetectionSource::kRadar) continue;
-        sight.since_s = 0.0;
+        sight.since_s = 0.0, sight.was_let_go = false;
         break;
       }
       const CarPose& car = moment.others[i];
@@ -199,7 +204,7 @@ class Scorer {
   const Scene* scene_;
   TrackingRow* row_;
   std::vector<Sight> seen_;
-  ClearMot mot_{kGate_m};
+  ClearMot mot_{kGate_m}, let_go_once_{kGate_m};
 };
 
 bool is_blind(const Scene& scene, Instant at) {

@@ -6,8 +6,7 @@
 //          of our own place does not count; beside them those in Map
 //   rate   the tracker at 100 Hz; scored at 20 Hz, between frames too
 //   MOTA   of tracks with a detection within the last kClaimed_s; one that only coasts says so by
-//          its time and is no claim, as in the published evaluations; nor is one whose number is
-//          tentative: its car counts as missed
+//          its time and is no claim, as in the published evaluations
 //   scored for errors: cars that some LiDAR or camera could see within the last kInSight_s, whose
 //          track is older than kSettled_s
 // SPDX-License-Identifier: Apache-2.0
@@ -59,6 +58,9 @@ struct TrackingRow {
   std::size_t nees_count = 0, nees_within_95 = 0;
   std::size_t objects = 0, misses = 0, false_tracks = 0, switches = 0, reborn = 0, passes = 0;
   std::size_t switches_hidden = 0;  // of the switches: of cars that had been hidden for long
+  // In a stricter way, beside the gate: a car is let go only once, after kForgotten_s without LiDAR
+  // and camera.
+  std::size_t switches_let_go_once = 0;
   double mota = kUnset;
   std::size_t blind_times = 0, blind_lost = 0;  // lost: no track at the end
   double blind_worst_m = 0.0;

@@ -45,7 +45,6 @@ void publish(const Params& params, const State& state, const Inputs& in, world::
     if (!track.confirmed || in.now - track.newest.frame.at > from_seconds(params.coast_s)) continue;
     world::Opponent car = opponent_at(params, in, state.tracks.at, track);
     car.id = state.names.id_of(track);
-    car.is_tentative = track.undecided;
     (void)out.cars.push(car);  // the oldest kOpponentsMax
   }
 }

@@ -25,8 +25,6 @@ struct RoadParams {
   double plane_turn_sigma_rad_per_s = 0.3, plane_turn_time_s = 5.0;
   // What the model of the motion leaves out.
   double wander_m_per_sqrt_s = 0.05, heading_wander_rad_per_sqrt_s = 0.003;
-  // By which our own pose is off wanders: 0.03 m and 0.1 degrees that are forgotten in 10 s.
-  double own_drift_m_per_sqrt_s = 0.0135, own_yaw_drift_rad_per_sqrt_s = 0.00078;
   // Of a new track, about our own speed and the direction of the road (of our car on a plane).
   double start_speed_sigma_mps = 40.0, start_heading_sigma_rad = 0.15;
   // Grows beyond a distance: 0.30 m at 100 m.
@@ -50,9 +48,7 @@ struct RoadParams {
   double unseen_accel_sigma_mps2 = 2.5, unseen_accel_s = 3.0;
   double unseen_lane_sigma_mps = 1.5, unseen_lane_s = 2.0;
   double other_speed_share = 0.2, other_lane_share = 0.2, lane_sigma_share = 0.5;
-  // Chi-square gate of six states; a car that came into sight is taken for one that was lost when
-  // -2 log of the likelihood is by so much less than for any other, or after this time.
-  double same_car_gate = 33.1, sure_difference = 13.8, decide_within_s = 1.5;
+  double same_car_gate = 33.1;  // chi-square of six states
   // So long a car is known when it is seen again. After coast_s it then has a new number: no other
   // car gets the number of one that may have come to its place.
   double remembered_s = 30.0;
@@ -77,8 +73,6 @@ inline constexpr auto kRoadRanges = std::to_array<world::NamedRange<RoadParams>>
     {"plane_turn_time_s", &RoadParams::plane_turn_time_s, 0.1, 60.0},
     {"wander_m_per_sqrt_s", &RoadParams::wander_m_per_sqrt_s, 0.0, 2.0},
     {"heading_wander_rad_per_sqrt_s", &RoadParams::heading_wander_rad_per_sqrt_s, 0.0, 0.1},
-    {"own_drift_m_per_sqrt_s", &RoadParams::own_drift_m_per_sqrt_s, 0.0, 1.0},
-    {"own_yaw_drift_rad_per_sqrt_s", &RoadParams::own_yaw_drift_rad_per_sqrt_s, 0.0, 0.1},
     {"start_speed_sigma_mps", &RoadParams::start_speed_sigma_mps, 1.0, 100.0},
     {"start_heading_sigma_rad", &RoadParams::start_heading_sigma_rad, 0.01, 1.5},
     {"lidar_sigma_m", &RoadParams::lidar_sigma_m, 0.01, 2.0},
@@ -102,8 +96,6 @@ inline constexpr auto kRoadRanges = std::to_array<world::NamedRange<RoadParams>>
     {"unseen_lane_sigma_mps", &RoadParams::unseen_lane_sigma_mps, 0.0, 10.0},
     {"unseen_lane_s", &RoadParams::unseen_lane_s, 0.0, 20.0},
     {"same_car_gate", &RoadParams::same_car_gate, 5.0, 100.0},
-    {"sure_difference", &RoadParams::sure_difference, 0.0, 100.0},
-    {"decide_within_s", &RoadParams::decide_within_s, 0.0, 5.0},
     {"other_speed_share", &RoadParams::other_speed_share, 0.001, 0.999},
     {"other_lane_share", &RoadParams::other_lane_share, 0.001, 0.999},
     {"lane_sigma_share", &RoadParams::lane_sigma_share, 0.05, 1.0},

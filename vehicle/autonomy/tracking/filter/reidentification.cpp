@@ -57,27 +57,6 @@ Pairs pairs_of(const RoadParams& params, const TrackMap* map, const Frame& frame
   return p;
 }
 
-bool fits_any(const Costs& c, std::size_t s) {
-  for (std::size_t l = 0; l < c.tracks; ++l)
-    if (std::isfinite(c.cost[l][s])) return true;
-  return false;
-}
-
-// By how much the next best assignment of this one costs more.
-double difference_to_next(const Costs& c, const Assignment& a, std::size_t l, std::size_t s) {
-  double least = Costs::kOutside;
-  for (std::size_t other = 0; other < c.tracks; ++other) {
-    if (other == l) continue;
-    const std::size_t held = a.of_track[other];
-    const double instead = held == kNone ? 0.0 : c.cost[l][held] - c.cost[other][held];
-    least = std::min(least, c.cost[other][s] - c.cost[l][s] + instead);
-  }
-  for (std::size_t other = 0; other < c.detections; ++other)
-    if (other != s && a.of_detection[other] == kNone)
-      least = std::min(least, c.cost[l][other] - c.cost[l][s]);
-  return least;
-}
-
 // A normal distribution by another one: each mode of the track is updated by all states of `seen`.
 void fuse(const TrackMap* map, const Track& seen, Track& track) {
   const RoadVector d = difference_of(map, track, seen);
@@ -137,13 +116,9 @@ void identify(const RoadParams& params, const TrackMap* map, Duration coast, con
   std::array<bool, kTracksMax> ends{};
   for (std::size_t s = 0; s < p.seen.size(); ++s) {
     Track& seen = tracks.list[p.seen[s]];
-    const bool is_due = frame.key.at - seen.first.frame.at >= from_seconds(params.decide_within_s);
+    seen.undecided = false;
     const std::size_t l = a.of_detection[s];
-    if (l == kNone) {
-      seen.undecided = !is_due && fits_any(p.costs, s);
-      continue;
-    }
-    if (!is_due && difference_to_next(p.costs, a, l, s) < params.sure_difference) continue;
+    if (l == kNone) continue;
     seen = resumed(params, map, coast, frame, tracks.list[p.lost[l]], seen);
     ends[p.lost[l]] = true;
   }

@@ -1,19 +1,17 @@
 // Re-identification: which of the cars that were lost a car is that came into sight. It begins as a
-// track of its own, which soon knows its place, speed and acceleration; all of them together say
-// more than its place alone, as a car that braked is behind and slow.
+// track of its own, whose second detection decides: place, speed and what else is known of it
+// together say more than its place alone, as a car that braked is behind and slow.
 //
-//     lost tracks, predicted   one assignment   confirmed tracks, undecided
+//     lost tracks, predicted   one assignment   tracks that are confirmed by the frame
 //                              of all to all
 //
 //   in     tracks at the time of the frame
-//   out    tracks, of which a decided one has the name and the size of the car that it is, and the
-//          states of both; the lost track ends
+//   out    tracks, of which one that came back has the name and the size of the car that it is, and
+//          the states of both; the lost track ends
 //   invariants
-//          a car is decided once: at its second detection where no other assignment is nearly as
-//          likely, else when decide_within_s are over. It is not one that was seen after it
+//          a car is decided once, and is not one that was seen after it
 //   cost   without an undecided track nothing; 3 us for each pair; no allocation
-//   source Blackman (2004), IEEE AES Magazine 19, p. 5: a difficult assignment is put off until
-//          later measurements decide it; Bar-Shalom, Li and Kirubarajan (2001), section 8.3: fusion
+//   source Bar-Shalom, Li and Kirubarajan (2001), section 8.3: fusion of two tracks
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

@@ -11,7 +11,6 @@
 #include "vehicle/autonomy/tracking/filter/measurement.hpp"
 #include "vehicle/autonomy/tracking/filter/modes.hpp"
 #include "vehicle/autonomy/tracking/filter/motion.hpp"
-#include "vehicle/autonomy/tracking/filter/own_drift.hpp"
 #include "vehicle/autonomy/tracking/filter/reidentification.hpp"
 
 namespace pitwall::tracking {
@@ -61,15 +60,14 @@ void judge_seen(const RoadParams& params, const Frame& frame, const Place& place
   }
 }
 
-void judge_pairs(const RoadParams& params, const TrackMap* map, const Frame& frame, double dt_s,
-                 Tracks& tracks, Gates& g) {
+void judge_pairs(const RoadParams& params, const TrackMap* map, const Frame& frame,
+                 const Tracks& tracks, Gates& g) {
   g.costs.tracks = tracks.list.size(), g.costs.detections = frame.measurements.size();
   for (std::size_t d = 0; d < frame.measurements.size(); ++d)
     g.reading[d] = reading_of(params, frame.key, frame.own, frame.measurements[d]);
   for (std::size_t t = 0; t < tracks.list.size(); ++t) {
-    Track& track = tracks.list[t];
+    const Track& track = tracks.list[t];
     const Place place = place_of(map, track.x);
-    add_own_drift(params, frame.own, place, dt_s, track.modes);
     g.place[t] = {place.x_m, place.y_m};
     if (is_lost(frame, track))
       judge_lost(frame.measurements.size(), t, g);
@@ -188,12 +186,11 @@ void filter_road(const RoadParams& params, const TrackMap* map, Duration coast_f
   const Duration known_for = std::max(coast_for, from_seconds(params.remembered_s));
   end_unseen(frame, known_for, tracks);
   make_room(frame, coast_for, tracks);
-  const double dt_s = tracks.started ? (frame.key.at - tracks.at).seconds() : 0.0;
   if (tracks.started) coast(params, map, frame.key.at - tracks.at, tracks);
   tracks.started = true;
   tracks.at = frame.key.at;
   Gates g;
-  judge_pairs(params, map, frame, dt_s, tracks, g);
+  judge_pairs(params, map, frame, tracks, g);
   const Assignment a = assign(g.costs, Search::kBestTwo);
   update_tracks(params, map, frame, g, a, tracks);
   begin_tracks(params, map, frame, g, a, tracks);

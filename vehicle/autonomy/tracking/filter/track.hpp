@@ -55,7 +55,7 @@ struct Track {
   std::uint32_t detections = 0;  // that belong to it
   bool confirmed = false;
   DetectionKey first, previous, newest;
-  bool undecided = false;  // confirmed, but may be one of the cars that were lost
+  bool undecided = false;  // may be one of the cars that were lost
   Instant born_at{};       // confirmed
 };
 

@@ -101,7 +101,6 @@ double mean_error(bool on_road, const std::vector<DetectionSource>& sensors) {
   params.steady_accel_time_s = params.accel_time_s;
   params.steady_turn_sigma_rad_per_s = params.speed_change_turn_sigma_rad_per_s =
       params.turn_sigma_rad_per_s = 0.01;  // or a car leaves the road within seconds
-  params.own_drift_m_per_sqrt_s = params.own_yaw_drift_rad_per_sqrt_s = 0.0;  // our pose is known
   params.plane_turn_sigma_rad_per_s = 0.1;
   params.gate_1 = params.gate_2 = params.gate_3 = 50.0;  // or the worst errors are left out
   const world::TrackMap* ground = on_road ? &map : nullptr;

@@ -18,7 +18,7 @@ using testing::circle;
 
 constexpr std::int64_t kNow_ms = 10'000;
 
-Frame frame_at(std::int64_t ms) {
+Frame lidar_frame_at(std::int64_t ms) {
   static const Measurement one{.confidence = 0.8};
   return {
       .key = {at_ms(ms), world::DetectionSource::kLidar, 0}, .own = {}, .measurements = {&one, 1}};
@@ -28,8 +28,8 @@ Frame frame_at(std::int64_t ms) {
 Track track_of(std::int64_t first_ms, std::int64_t newest_ms, double s_m, double speed_mps,
                double sigma) {
   Track t;
-  note_first(frame_at(first_ms), 0, t);
-  note_detection(frame_at(newest_ms), 0, t);
+  note_first(lidar_frame_at(first_ms), 0, t);
+  note_detection(lidar_frame_at(newest_ms), 0, t);
   t.x = {s_m, 2.0, 0.0, speed_mps, 0.0, 0.0};
   const std::array<double, kRoadStates> variance{sigma * sigma, 0.1, 1e-3,
                                                  sigma * sigma, 1.0, 1e-3};
@@ -51,15 +51,13 @@ Track seen_at(double s_m, double speed_mps, std::int64_t first_ms = kNow_ms - 50
 
 struct Cars {
   const world::TrackMap map = circle();
-  RoadParams params{.sure_difference = 9.2, .decide_within_s = 0.5};
+  RoadParams params;
   Tracks tracks;
 
   explicit Cars(std::initializer_list<Track> list) {
     for (const Track& t : list) add_track(t, tracks);
   }
-  void identify_all(std::int64_t ms = kNow_ms) {
-    identify(params, &map, seconds(5), frame_at(ms), tracks);
-  }
+  void identify_all() { identify(params, &map, seconds(5), lidar_frame_at(kNow_ms), tracks); }
 };
 
 TEST(Reidentification, CarThatCameBackHasItsName) {
@@ -91,22 +89,6 @@ TEST(Reidentification, SpeedCountsToo) {
   ASSERT_EQ(cars.tracks.list.size(), 2U);
   EXPECT_EQ(cars.tracks.list[0].first, fast.first);
   EXPECT_EQ(cars.tracks.list[1].first, slow.first);
-}
-
-// Between two cars: not decided, until the time is over.
-TEST(Reidentification, UnclearOneIsPutOff) {
-  const Track a = lost_at(300.0, 60.0), b = lost_at(306.0, 60.0, 7'900);
-  Cars cars{a, b, seen_at(302.5, 60.0)};
-  cars.identify_all();
-  ASSERT_EQ(cars.tracks.list.size(), 3U);
-  EXPECT_TRUE(cars.tracks.list[2].undecided);
-  cars.identify_all(kNow_ms + 449);
-  EXPECT_TRUE(cars.tracks.list[2].undecided);
-  cars.identify_all(kNow_ms + 450);
-  ASSERT_EQ(cars.tracks.list.size(), 2U);
-  EXPECT_FALSE(cars.tracks.list[1].undecided);
-  EXPECT_EQ(cars.tracks.list[0].first, b.first);
-  EXPECT_EQ(cars.tracks.list[1].first, a.first);
 }
 
 // The first one alone is nearer to the car that only the second one can be.
