@@ -34,12 +34,12 @@ std::string objection(const std::vector<Gate>& gates, const std::optional<Overri
   }
   if (all_pass(gates)) return {};
   if (!overriding) return "gates: " + refusals_of(gates);
-  if (overriding->reason.empty()) return "an override has a reason";
+  if (overriding->reason.empty()) return "expected a reason for the override";
   if (!second_person) return {};
   const Person& second = overriding->second;
-  if (second.name.empty()) return "an override needs a second person";
+  if (second.name.empty()) return "expected a second person for the override";
   if (second.name == by.name || (second.console != 0 && second.console == by.console)) {
-    return "the second person is another one";
+    return "expected a second person other than the first";
   }
   return {};
 }

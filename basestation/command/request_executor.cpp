@@ -198,7 +198,7 @@ struct RequestExecutor::Execution {
         judge(alarms::NoticeAction{.notice = ask.notice, .reported = ask.reported, .by = by.name});
     executor.audit_.add(now, by.name, "notice " + std::to_string(ask.notice) + kind_of(ask.notice),
                         !done          ? "refused: " + done.error().what
-                        : ask.reported ? "race control was told"
+                        : ask.reported ? "reported to race control"
                                        : "not needed");
     return done;
   }

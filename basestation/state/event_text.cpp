@@ -53,7 +53,7 @@ struct EventText {
     return formatted("lap %u: %.3f s", unsigned{e.number}, static_cast<double>(e.time_s));
   }
   std::string operator()(const telemetry::RestartEvent& e) const {
-    return "part " + std::to_string(e.part) + " of the car began anew";
+    return "part " + std::to_string(e.part) + " of the car restarted";
   }
   // Bytes of the air: what is no printable ASCII is shown as '?'.
   std::string operator()(const telemetry::TextEvent& e) const {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "hil/bench/live/live_plan.hpp"
+#include "hil/bench/live/virtual_machine.hpp"
 #include "hil/bench/loading.hpp"
 #include "hil/bench/lockstep/lockstep.hpp"
 #include "hil/can_bus/bus_options.hpp"
@@ -25,7 +26,6 @@
 #include "protocol/transport/clock.hpp"
 #include "protocol/transport/file.hpp"
 #include "protocol/transport/udp_socket.hpp"
-#include "protocol/transport/virtual_machine.hpp"
 
 namespace pitwall::cli {
 namespace {
@@ -224,8 +224,7 @@ int run_where_the_bus_is(const RunOptions& options) {
   // By bench time a late wake-up costs no simulated time, and what keeps a processor awake takes
   // half the speed from a guest.
   const bool by_wall_clock = clock_place(options.clock, options.attach).file.empty();
-  const transport::KeepAwake awake{options.live && by_wall_clock &&
-                                   transport::is_virtual_machine()};
+  const bench::KeepAwake awake{options.live && by_wall_clock && bench::is_virtual_machine()};
   if (!options.live || options.here) return run_scenario(options);
 
   // Bad input is told before a machine is booted for it.

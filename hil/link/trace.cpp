@@ -45,9 +45,9 @@ std::optional<std::vector<double>> numbers_of(std::string_view row) {
 std::string add_outage(LinkTrace& trace, const std::vector<double>& row) {
   if (row.size() != 2 && row.size() != 3) return "expected from_s,to_s or from_s,to_s,loss";
   const double loss = row.size() == 3 ? row[2] : 1.0;
-  if (row[0] < 0.0 || row[1] > kLongest_s) return "times lie in 0 .. 1000000 s";
+  if (row[0] < 0.0 || row[1] > kLongest_s) return "expected times of 0 to 1000000 s";
   if (row[0] >= row[1]) return "the outage ends before it begins";
-  if (loss < 0.0 || loss > 1.0) return "loss lies in 0 .. 1";
+  if (loss < 0.0 || loss > 1.0) return "expected a loss of 0 to 1";
   const Outage outage{Instant{} + from_seconds(row[0]), Instant{} + from_seconds(row[1]), loss};
   if (!trace.outages.empty() && outage.from < trace.outages.back().to)
     return "the outage begins before the one above it has ended";
@@ -57,10 +57,10 @@ std::string add_outage(LinkTrace& trace, const std::vector<double>& row) {
 
 std::string add_station(LinkTrace& trace, const std::vector<double>& row) {
   if (row.size() != 2) return "expected station_m,loss";
-  if (row[0] < 0.0 || row[0] > kLongest_m) return "stations lie in 0 .. 1000000 m";
-  if (row[1] < 0.0 || row[1] > 1.0) return "loss lies in 0 .. 1";
+  if (row[0] < 0.0 || row[0] > kLongest_m) return "expected stations of 0 to 1000000 m";
+  if (row[1] < 0.0 || row[1] > 1.0) return "expected a loss of 0 to 1";
   if (!trace.by_station.empty() && row[0] <= trace.by_station.back().station_m)
-    return "stations must ascend";
+    return "expected rising stations";
   trace.by_station.push_back({row[0], row[1]});
   return {};
 }

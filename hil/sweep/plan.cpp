@@ -41,7 +41,7 @@ void check_paths(yaml::StrictMap& map, const std::vector<Parameter>& parameters)
   for (std::size_t i = 0; i < parameters.size(); ++i)
     for (std::size_t k = 0; k < i; ++k)
       if (parameters[i].path == parameters[k].path)
-        map.fail("parameters", parameters[i].path + " stands there twice");
+        map.fail("parameters", parameters[i].path + " is there twice");
 }
 
 // Of kAll, or as many as two parameters with most values need, of kPairs.

@@ -16,10 +16,10 @@
 #include <string_view>
 #include <thread>
 
+#include "hil/bench/live/virtual_machine.hpp"
 #include "protocol/transport/clock.hpp"
 #include "protocol/transport/file.hpp"
 #include "protocol/transport/process.hpp"
-#include "protocol/transport/virtual_machine.hpp"
 #include "tests/support/only_late.hpp"
 
 namespace pitwall::testing {
@@ -141,7 +141,7 @@ int run(const transport::ProcessPlan& plan) {
 }  // namespace pitwall::testing
 
 int main(int count, char** words) {
-  using pitwall::transport::KeepAwake;
+  using pitwall::bench::KeepAwake;
   const bool keep_awake = count > 1 && std::string_view{words[1]} == "--keep-awake";
   const int first = keep_awake ? 2 : 1;
   if (count <= first) {

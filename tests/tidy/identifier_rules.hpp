@@ -1,6 +1,6 @@
 // Rule against private names for which the field has a term: a list of exact identifiers, each with
 // the folders where it is banned and the term to write instead.
-//   in     one file
+//   in     one file, in C++ or of the console
 //   out    each line that uses such an identifier in code; comments and string literals are free
 //   source the terms are those of docs/glossary.md, of SocketCAN, DBC, ROS 2 and alarm handling
 //          (ISA-18.2)

@@ -33,8 +33,11 @@ TEST(Identifiers, ANameHasItsScope) {
   EXPECT_EQ(found_in("basestation/link/a.cpp", "rig.tell(1);").size(), 1U);
 }
 
-TEST(Identifiers, ScriptsAreNoCode) {
-  EXPECT_TRUE(found_in("tests/system/console/stage.mjs", "const desk = 1;").empty());
+TEST(Identifiers, TheConsoleIsJudgedScriptsOfTestsAreNot) {
+  const std::string text = "// as said\nconst told = read(\"told\");\n";
+  ASSERT_EQ(found_in("basestation/console/src/map/scene.ts", text).size(), 1U);
+  EXPECT_EQ(found_in("basestation/console/src/map/page.tsx", text).at(0).line, 2U);
+  EXPECT_TRUE(found_in("tests/system/console/stage.mjs", text).empty());
 }
 
 }  // namespace

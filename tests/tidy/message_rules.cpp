@@ -13,6 +13,9 @@ namespace {
 constexpr std::array<std::string_view, 6> kMakers{"Problem{", "Problem(", "fail(",
                                                   "refuse(",  "refusal(", "problem("};
 
+// A check may return the message alone, for its caller to add the place.
+constexpr std::string_view kReturnedText = "return \"";
+
 // How a bare description of what should have been begins.
 constexpr std::array<std::string_view, 8> kBare{"a ",       "an ",   "one of ", "at least ",
                                                 "at most ", "from ", "0 to ",   "1 to "};
@@ -69,21 +72,36 @@ bool has_text(const std::string& message) {
   return message.find_first_not_of(". ") != std::string::npos;
 }
 
+// Of what a function returns, that which reads as a sentence: no markup, no single word.
+bool is_sentence(const std::string& text) {
+  return !text.empty() && std::islower(static_cast<unsigned char>(text.front())) != 0 &&
+         text.find(' ') != std::string::npos;
+}
+
+template <class Use>
+void for_each_place(const std::string& code, std::string_view word, const Use& use) {
+  for (std::size_t at = code.find(word); at != std::string::npos; at = code.find(word, at + 1))
+    if (at == 0 || !is_word(code[at - 1])) use(at);
+}
+
 }  // namespace
 
 std::vector<ErrorMessage> messages_of(const SourceFile& file) {
   std::vector<ErrorMessage> messages;
   if (!is_cpp(file) || !lies_in_product(file.path)) return messages;
   for (const std::string_view maker : kMakers) {
-    for (std::size_t at = file.code.find(maker); at != std::string::npos;
-         at = file.code.find(maker, at + 1)) {
-      if (at > 0 && is_word(file.code[at - 1])) continue;
+    for_each_place(file.code, maker, [&](std::size_t at) {
       const std::vector<std::string> arguments = arguments_at(file, at + maker.size());
-      if (arguments.empty()) continue;
-      std::string text = texts_of(arguments.size() > 1 ? arguments[1] : arguments[0]);
+      if (arguments.empty()) return;
+      std::string text = texts_of(arguments.back());
       if (has_text(text)) messages.push_back({line_at(file.text, at), std::move(text)});
-    }
+    });
   }
+  for_each_place(file.code, kReturnedText, [&](std::size_t at) {
+    const std::size_t begin = at + kReturnedText.size() - 1;
+    std::string text = texts_of(file.text.substr(begin, file.code.find(';', begin) - begin));
+    if (is_sentence(text)) messages.push_back({line_at(file.text, at), std::move(text), true});
+  });
   std::ranges::sort(messages, {}, &ErrorMessage::line);
   return messages;
 }
@@ -91,8 +109,10 @@ std::vector<ErrorMessage> messages_of(const SourceFile& file) {
 std::vector<Finding> check_messages(const SourceFile& file) {
   std::vector<Finding> findings;
   for (const ErrorMessage& message : messages_of(file)) {
-    const bool is_bare = std::ranges::any_of(
-        kBare, [&](std::string_view begin) { return message.text.starts_with(begin); });
+    const bool is_bare =
+        !message.is_returned && std::ranges::any_of(kBare, [&](std::string_view begin) {
+          return message.text.starts_with(begin);
+        });
     const bool says_more = message.text.find(' ', message.text.find(' ') + 1) != std::string::npos;
     if (is_bare && (!says_more || message.text.starts_with("one of ") ||
                     message.text.starts_with("at ") || message.text.starts_with("from ")))

@@ -1,7 +1,9 @@
 // Rule about the texts of error messages in the code.
 //   in     one file of the product
 //   out    each message with its line: the string literals, with "..." for a value between them. An
-//          expression without literal text is no message
+//          expression without literal text is no message. A returned sentence is one as well, since
+//          checks return what is wrong to a caller that knows the place (among them are some texts
+//          of screens)
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -15,6 +17,7 @@ namespace pitwall::tidy {
 struct ErrorMessage {
   std::size_t line = 0;
   std::string text;
+  bool is_returned = false;  // the caller may put words before it
 };
 
 std::vector<ErrorMessage> messages_of(const SourceFile& file);

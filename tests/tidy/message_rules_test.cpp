@@ -20,6 +20,12 @@ TEST(Messages, AreReadWithTheirLine) {
   EXPECT_EQ(messages("return refuse(\"no sign \\\" of it\");").at(0).text, "no sign \\\" of it");
 }
 
+TEST(Messages, AreTheLastArgumentOrWhatACheckReturns) {
+  EXPECT_EQ(messages("refuse(track, \":pit\", \"must rise\")").at(0).text, "must rise");
+  EXPECT_EQ(messages("return \"must be below \" + text(n);").at(0).text, "must be below ...");
+  EXPECT_TRUE(messages("return \"word\"; return \"<b> \" + text;").empty());
+}
+
 TEST(Messages, WhatIsMadeOfValuesAloneIsNone) {
   EXPECT_TRUE(messages("return Problem{place, what};").empty());
   EXPECT_TRUE(messages("struct Problem { int a; };").empty());
@@ -36,6 +42,7 @@ TEST(Messages, ABareDescriptionIsFound) {
   EXPECT_EQ(findings("at least four"), 1U);
   EXPECT_EQ(findings("expected a number"), 0U);
   EXPECT_EQ(findings("a path has no zero byte"), 0U);
+  EXPECT_TRUE(check_messages(make_source("hil/a.cpp", "return \"a list\";")).empty());
 }
 
 }  // namespace

@@ -177,7 +177,8 @@ control::Params read_control(yaml::StrictMap map) {
   control::Params p;
   yaml::StrictMap lateral = map.map("lateral");
   if (lateral.has("drive_law"))
-    lateral.fail("drive_law", "is control.controller now, for steering and speed together");
+    lateral.fail("drive_law",
+                 "expected control.controller instead, for steering and speed together");
   p.controller = read_controller(map, "controller");
   p.lateral = read_lateral(lateral);
   p.lqr_ff = read_lqr_ff(map.map("lqr_ff"));

@@ -92,7 +92,8 @@ Result<CarFile, Problem> load_car(const std::string& path, const ReadFile& read_
 
 Result<CarFile, Problem> read_car(const std::string& text, const std::string& name) {
   return load_car(name, [&](const std::string& path) -> Result<std::string, Problem> {
-    if (path != name) return refuse(path, "is not read here");
+    if (path != name)
+      return refuse(path, "expected a text without like: no other file is read here");
     return text;
   });
 }

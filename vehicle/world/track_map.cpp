@@ -32,7 +32,7 @@ std::string format(const char* pattern, Args... args) {
 
 Unexpected<Problem> refuse(const TrackDescription& d, const std::string& where,
                            const std::string& what) {
-  return Unexpected{Problem{(d.source.empty() ? d.name : d.source) + where, what}};
+  return pitwall::refuse((d.source.empty() ? d.name : d.source) + where, what);
 }
 
 std::string knot_place(std::size_t i, double s_m) {
@@ -71,15 +71,15 @@ std::optional<std::string> fault_of_pit(const TrackDescription& d) {
 
 std::optional<Problem> fault_of(const TrackDescription& d) {
   if (!(d.length_m >= kLengthMin_m && d.length_m <= kLengthMax_m))
-    return refuse(d, ":length_m", "not between 50 m and 50 km").error;
+    return refuse(d, ":length_m", "expected 50 m to 50 km").error;
   for (const double v : {d.datum_latitude_deg, d.datum_longitude_deg, d.datum_height_m})
     if (!std::isfinite(v)) return refuse(d, ":datum", "a value is missing or not a number").error;
   if (std::abs(d.datum_latitude_deg) > 90.0 || std::abs(d.datum_longitude_deg) > 180.0)
     return refuse(d, ":datum", "latitude or longitude out of range").error;
   for (const double v : {d.start_x_m, d.start_y_m, d.start_yaw_rad})
     if (!std::isfinite(v)) return refuse(d, ":start", "a value is missing or not a number").error;
-  if (d.knots.size() < kKnotsMin) return refuse(d, ":knots", "fewer than 4").error;
-  if (d.knots.size() > kKnotsMax) return refuse(d, ":knots", "more than 100000").error;
+  if (d.knots.size() < kKnotsMin) return refuse(d, ":knots", "expected at least 4").error;
+  if (d.knots.size() > kKnotsMax) return refuse(d, ":knots", "expected at most 100000").error;
   for (std::size_t i = 0; i < d.knots.size(); ++i)
     if (const auto what = fault_of_knot(d, i))
       return refuse(d, knot_place(i, d.knots[i].s_m), *what).error;

@@ -12,7 +12,7 @@ import { clockText, runsText } from "../src/view/format";
 import { tsvText } from "../src/view/save_lines";
 import { shownDigits, shownText, shownUnit } from "../src/view/shown_unit";
 import { kSpeedUnits, nextSpeedUnit, speedUnit } from "../src/view/speed_unit";
-import { toldText } from "../src/view/told";
+import { inDisplayUnits } from "../src/view/display_units";
 import type { FieldInfo } from "../src/wire/messages";
 
 const lists = {
@@ -49,7 +49,7 @@ describe("lines of the event log", () => {
   test("are filtered by source and by every word of what is shown", () => {
     const all = new Set(kSources);
     const what = (query: string, sources = all) =>
-      filterLines(lines, sources, query, toldText).map((line) => line.what);
+      filterLines(lines, sources, query, inDisplayUnits).map((line) => line.what);
     expect(what("")).toHaveLength(6);
     expect(what("", new Set())).toEqual([]);
     expect(what("", new Set(["car"] as const))).toEqual(["limit 62.1 m/s", "lap 3: 45.210 s"]);

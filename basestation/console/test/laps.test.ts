@@ -178,7 +178,7 @@ test("lap times and differences have their digits and signs", () => {
 test("a reason is said in words, one that is not known as the car names it", () => {
   const info = { labels: ["-", "line", "meteorite"] } as FieldInfo;
   expect([0, 1, 2, 9].map((value) => reasonText(value, info))).toEqual([
-    "not said",
+    "not known",
     "curve ahead: line and grip",
     "meteorite",
     "9",

@@ -76,7 +76,7 @@ test("the list has gap, both speeds and since when, then the other cars of the b
   expect(textsOf([kSeen, kCoasting, kUnheard], [mate], 500)).toEqual([
     ...["#12", "+78 m", "+7 km/h", "216 km/h"],
     ...["#12", "+78 m", "+7 km/h", "216 km/h", "seen 1.4 s ago"],
-    ...["#12", "+78 m", "+7 km/h", "216 km/h", "not heard"],
+    ...["#12", "+78 m", "+7 km/h", "216 km/h", "not received"],
     ...["car 8", "\u221240 m", "180 km/h"],
   ]);
   expect(textsOf([kSeen, kCoasting], [], 272)).toEqual([

@@ -57,7 +57,7 @@ function heard(quality: Quality, silent = false, values = kValues): Fields {
   );
   paths.forEach((path, id) => fields.write(id, quality, 0, values[path], 1000));
   session.fields.value = fields;
-  session.clock.heard(1000, 5000);
+  session.clock.received(1000, 5000);
   beginFrame(silent ? 6000 : 5010, 16);
   return fields;
 }
@@ -185,7 +185,7 @@ describe("the other cars of the base", () => {
     other.history.value.append(other.fields.value, 1000);
     other.track.value = { ...kTrack, name: track } as never;
     other.connected.value = true;
-    other.clock.heard(1000, performance.now());
+    other.clock.received(1000, performance.now());
     const fields = heard(Quality.fresh);
     here.track.value = kTrack as never;
     here.history.value = new History(fields.info.length, 16);
@@ -203,7 +203,7 @@ describe("the other cars of the base", () => {
 
   test("are old once their base or they themselves are silent", () => {
     const other = together();
-    other.clock.heard(1000, performance.now() - 60_000);
+    other.clock.received(1000, performance.now() - 60_000);
     expect(mates(course)[0].stale).toBe(true);
     together().connected.value = false;
     expect(mates(course)[0].stale).toBe(true);
@@ -246,7 +246,7 @@ describe("the trail", () => {
       history.append(fields, stepMs * n);
     }
     session.fields.value = fields;
-    session.clock.heard(stepMs * (count - 1), 5000);
+    session.clock.received(stepMs * (count - 1), 5000);
     beginFrame(5000 + lateMs, 16);
     return trail(fields);
   }

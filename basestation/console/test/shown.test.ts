@@ -97,11 +97,11 @@ describe("the outcome of a stop", () => {
   const pressed = (sent: boolean, at = 1000) => ({ kind: "controlled" as const, sent, at });
 
   test("a latch is shown while the car's word of it is known", () => {
-    const said = (quality: Quality, value: number) =>
+    const shown = (quality: Quality, value: number) =>
       stopOutcome(reading(quality, value), "controlled stop", null, 0);
     const latched = { text: "car: controlled stop", failed: false };
-    expect(kAll.map((q) => said(q, 1))).toEqual([latched, latched, nothing, nothing]);
-    expect(kAll.map((q) => said(q, 0))).toEqual([nothing, nothing, nothing, nothing]);
+    expect(kAll.map((q) => shown(q, 1))).toEqual([latched, latched, nothing, nothing]);
+    expect(kAll.map((q) => shown(q, 0))).toEqual([nothing, nothing, nothing, nothing]);
     expect(stopOutcome(reading(Quality.fresh), undefined, null, 0).text).toBe("car: stops");
   });
 

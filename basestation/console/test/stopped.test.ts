@@ -8,7 +8,7 @@ import { gateValueText, overrideWants } from "../src/pages/commands/stage";
 import { kGoneMs, kOpeningMs, kSilentMs, presenceOf } from "../src/store/presence";
 import { colourOfFlag } from "../src/view/shown";
 import { kSpeedUnits, speedUnit } from "../src/view/speed_unit";
-import { quantityText, toldText } from "../src/view/told";
+import { quantityText, inDisplayUnits } from "../src/view/display_units";
 import type { CommandInfo, Gate } from "../src/wire/messages";
 
 const inUnit = (name: string) => (speedUnit.value = kSpeedUnits.find((u) => u.name === name)!);
@@ -17,21 +17,21 @@ afterEach(() => inUnit("mph"));
 describe("sentences of the base", () => {
   test("speeds are said in the unit of the page, with as many decimals", () => {
     inUnit("km/h");
-    expect(toldText("standing: 50.0 m/s, at most 0.5 m/s")).toBe(
+    expect(inDisplayUnits("standing: 50.0 m/s, at most 0.5 m/s")).toBe(
       "standing: 180.0 km/h, at most 1.8 km/h",
     );
-    expect(toldText("+9.0 m/s, at most +5.0 m/s")).toBe("+32.4 km/h, at most +18.0 km/h");
-    expect(toldText("-2.5 m/s")).toBe("\u22129.0 km/h");
-    expect(toldText("limit 60 m/s")).toBe("limit 216 km/h");
+    expect(inDisplayUnits("+9.0 m/s, at most +5.0 m/s")).toBe("+32.4 km/h, at most +18.0 km/h");
+    expect(inDisplayUnits("-2.5 m/s")).toBe("\u22129.0 km/h");
+    expect(inDisplayUnits("limit 60 m/s")).toBe("limit 216 km/h");
     inUnit("m/s");
-    expect(toldText("50.0 m/s")).toBe("50.0 m/s");
+    expect(inDisplayUnits("50.0 m/s")).toBe("50.0 m/s");
   });
   test("what is no speed stays as it is, but for the sign of a degree", () => {
-    expect(toldText("2.5 m/s^2 and 3 m/s\u00b2, 12 m/song")).toBe(
+    expect(inDisplayUnits("2.5 m/s^2 and 3 m/s\u00b2, 12 m/song")).toBe(
       "2.5 m/s^2 and 3 m/s\u00b2, 12 m/song",
     );
-    expect(toldText("29.0 degC, 79.0 degC needed")).toBe("29.0 \u00b0C, 79.0 \u00b0C needed");
-    expect(toldText("")).toBe("");
+    expect(inDisplayUnits("29.0 degC, 79.0 degC needed")).toBe("29.0 \u00b0C, 79.0 \u00b0C needed");
+    expect(inDisplayUnits("")).toBe("");
   });
 });
 

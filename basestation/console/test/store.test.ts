@@ -153,7 +153,7 @@ describe("base clock", () => {
   test("runs on between frames and knows silence", () => {
     const clock = new BaseClock();
     expect(clock.isSilent(5)).toBe(true);
-    clock.heard(1000, 50);
+    clock.received(1000, 50);
     expect(clock.nowMs(75)).toBe(1025);
     expect(clock.isSilent(50 + kSilenceMs)).toBe(false);
     expect(clock.isSilent(51 + kSilenceMs)).toBe(true);
@@ -161,7 +161,7 @@ describe("base clock", () => {
 
   test("stands while the base says so, without being silent", () => {
     const clock = new BaseClock();
-    clock.heard(1000, 50);
+    clock.received(1000, 50);
     expect(clock.pauseMs(60)).toBeNull();
     for (let at = 200; at < 2000; at += 100) clock.stands(1002, at - 52, at);
     expect(clock.isSilent(1950)).toBe(false);
@@ -171,7 +171,7 @@ describe("base clock", () => {
 
   test("goes on with the next frame, and with the word that it does", () => {
     for (const goOn of [
-      (clock: BaseClock) => clock.heard(1040, 1250),
+      (clock: BaseClock) => clock.received(1040, 1250),
       (clock: BaseClock) => clock.stands(1040, 0, 1250),
       (clock: BaseClock) => clock.stands(1000, 0, 1210),
     ]) {
@@ -186,14 +186,14 @@ describe("base clock", () => {
   test("a frame of the moment at which it stands is no end of the pause", () => {
     const clock = new BaseClock();
     clock.stands(1000, 900, 1200);
-    clock.heard(1000.0000001, 1240);
+    clock.received(1000.0000001, 1240);
     expect(clock.pauseMs(1250)).toBe(950);
     expect(clock.nowMs(1250)).toBeCloseTo(1000);
   });
 
   test("a base that falls silent while its time stands is silent, and ages grow again", () => {
     const clock = new BaseClock();
-    clock.heard(1000, 50);
+    clock.received(1000, 50);
     clock.stands(1000, 200, 250);
     expect(clock.isSilent(250 + kSilenceMs)).toBe(false);
     const at = 251 + kSilenceMs;

@@ -180,7 +180,7 @@ Request mark(Reader& read) { return AskMark{read.text("text", 1, kLineMax)}; }
 
 Request notice(Reader& read) {
   constexpr std::array<std::pair<std::string_view, bool>, 2> kDoings{
-      {{"told", true}, {"dismiss", false}}};
+      {{"reported", true}, {"dismiss", false}}};
   command::AnswerNotice ask{.notice = read.whole<std::uint32_t>("id", 0, kIdMax)};
   ask.reported = read.word("do", kDoings);
   return ask;

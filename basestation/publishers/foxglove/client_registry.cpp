@@ -69,7 +69,7 @@ std::optional<PlaybackControl> ClientRegistry::handle_request(ClientId client,
   auto* const control = std::get_if<PlaybackControl>(&*request);
   if (control == nullptr) return std::nullopt;
   if (info_.playback) return std::move(*control);
-  refuse(client, "playbackControl", "a live car cannot be wound");
+  refuse(client, "playbackControl", "a live car cannot be played back");
   return std::nullopt;
 }
 

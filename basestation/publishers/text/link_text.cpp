@@ -61,7 +61,7 @@ std::string address_text(const UdpAddress& address) {
 // What the car told of this path, and how long ago.
 std::string reported(const service::CarService& car, telemetry::PathId path, Instant now) {
   const state::FieldView radio = car.vehicle().group(telemetry::Group::kRadio, now);
-  if (radio.quality == state::Quality::kNever) return "the car has told nothing";
+  if (radio.quality == state::Quality::kNever) return "nothing received from the car";
   const bool second = path == 1;
   const auto part = [&](const char* name, telemetry::FieldIndex which, double factor,
                         const char* unit) {
@@ -70,7 +70,7 @@ std::string reported(const service::CarService& car, telemetry::PathId path, Ins
     const std::string text = formatted("%s %.0f%s", name, factor * view.value, unit);
     return view.age > radio.age ? text + " (" + age_text(view.age) + " ago)" : text;
   };
-  return "the car told " + age_text(radio.age) + " ago: " +
+  return "the car reported " + age_text(radio.age) + " ago: " +
          part("loss", second ? field("radio.loss_1") : field("radio.loss_0"), kPercent, " %") +
          part(", one way", second ? field("radio.delay_1") : field("radio.delay_0"), 1.0, " ms") +
          part(", budget used", second ? field("radio.budget_use_1") : field("radio.budget_use_0"),
@@ -146,7 +146,7 @@ std::string refused_line(const LinkReport& report) {
 
 std::string label_of(const service::CarService& car, telemetry::FieldIndex which, Instant now) {
   const state::FieldView view = car.vehicle().view(which, now);
-  if (view.quality == state::Quality::kNever) return "not told";
+  if (view.quality == state::Quality::kNever) return "not received";
   const auto label = telemetry::label_at(telemetry::kFields[which].labels,
                                          static_cast<std::size_t>(view.value + 0.5));
   return std::string{label} + " (" + age_text(view.age) + " ago)";

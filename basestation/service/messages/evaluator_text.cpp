@@ -123,7 +123,7 @@ struct Writer {
   void operator()(const NoticeAction& act) const {
     out.text("what", "notice")
         .number("notice", act.notice)
-        .flag("told", act.reported)
+        .flag("reported", act.reported)
         .text("by", act.by);
   }
   void operator()(const LimitEdit& edit) const {
@@ -252,7 +252,7 @@ Result<EvaluatorInput, Problem> read_input_text(std::string_view text, Instant a
   if (what == "alarm") return EvaluatorInput{alarm_of(from)};
   if (what == "notice")
     return EvaluatorInput{NoticeAction{
-        .notice = id_of(from, "notice"), .reported = from.flag("told"), .by = from.text("by")}};
+        .notice = id_of(from, "notice"), .reported = from.flag("reported"), .by = from.text("by")}};
   const auto field = state::find_field(from.text("field"));
   if (what == "limit" && field) return EvaluatorInput{limit_of(from, *field)};
   return Unexpected{Problem{"input", "not an input of the alarm evaluator: " + what}};

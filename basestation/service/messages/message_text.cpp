@@ -267,7 +267,7 @@ std::string audit_text(const command::AuditLine& line) {
 }
 
 std::string notice_text(const alarms::Notice& notice) {
-  constexpr std::array<std::string_view, 3> kFates{"draft", "told", "dismissed"};
+  constexpr std::array<std::string_view, 3> kFates{"draft", "reported", "dismissed"};
   return Object{}
       .text("type", "notice")
       .number("id", notice.id)

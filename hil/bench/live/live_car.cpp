@@ -10,6 +10,7 @@
 #include "basestation/inputs/text_command.hpp"
 #include "hil/bench/contact.hpp"
 #include "hil/bench/live/car_summary.hpp"
+#include "hil/bench/live/virtual_machine.hpp"
 #include "hil/bench/match_run.hpp"
 #include "hil/bench/signals.hpp"
 #include "protocol/transport/clock.hpp"

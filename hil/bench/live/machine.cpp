@@ -8,6 +8,7 @@
 #include <time.h>
 #include <unistd.h>
 
+#include "hil/bench/live/virtual_machine.hpp"
 #include "protocol/transport/clock.hpp"
 #include "protocol/transport/file.hpp"
 #include "protocol/transport/posix_call.hpp"
@@ -53,11 +54,6 @@ std::string words(const BenchFault& fault, bool begins) {
 }
 
 }  // namespace
-
-bool is_guest() {
-  const auto cpu = transport::read_file("/proc/cpuinfo");
-  return cpu && cpu->find("User Mode Linux") != std::string::npos;
-}
 
 bool is_machine_fault(BenchFaultKind kind) {
   return kind == BenchFaultKind::kClockStep || kind == BenchFaultKind::kLogDiskFull;

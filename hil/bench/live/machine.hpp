@@ -23,9 +23,6 @@
 
 namespace pitwall::bench {
 
-// True in User-mode Linux, according to /proc/cpuinfo.
-bool is_guest();
-
 // True for the faults that this file carries out.
 bool is_machine_fault(faults::BenchFaultKind kind);
 

@@ -3,8 +3,8 @@
 
 #include <algorithm>
 
+#include "hil/bench/live/virtual_machine.hpp"
 #include "protocol/transport/clock.hpp"
-#include "protocol/transport/virtual_machine.hpp"
 #include "protocol/vocabulary/quantile.hpp"
 
 namespace pitwall::bench {
@@ -31,7 +31,7 @@ void WakeClock::sleep_for(Duration span) {
 }
 
 void WakeClock::start() {
-  stolen_at_start_ = transport::stolen_time();
+  stolen_at_start_ = stolen_time();
   start_ = transport::monotonic_now();
   wall_start_ = transport::wall_now();
   if (time_) time_->restart_waits();
@@ -77,7 +77,7 @@ void WakeClock::note(Duration behind, Instant now) {
 }
 
 void WakeClock::stop() {
-  const auto stolen = transport::stolen_time();
+  const auto stolen = stolen_time();
   if (stolen && stolen_at_start_) report_.stolen_ms = (*stolen - *stolen_at_start_).milliseconds();
   if (time_) {
     report_.waits = time_->waits();

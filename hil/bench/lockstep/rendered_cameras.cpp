@@ -4,8 +4,8 @@
 #include <utility>
 
 #include "hil/bench/lockstep/swept_lidars.hpp"
+#include "hil/sensors/lidar/body_motion.hpp"
 #include "hil/sensors/lidar/car_mesh.hpp"
-#include "hil/sensors/lidar/standing.hpp"
 
 namespace pitwall::bench {
 namespace {
@@ -43,11 +43,11 @@ void RenderedCameras::step(const plant::Truth& ours, std::span<const plant::CarP
 
 void RenderedCameras::expose(std::size_t unit, const plant::Truth& ours,
                              std::span<const plant::CarPose> others, Instant now) {
-  std::vector<sensors::Moving> cars;
-  for (const plant::CarPose& car : others) cars.push_back(sensors::standing(track_, car));
+  std::vector<sensors::BodyMotion> cars;
+  for (const plant::CarPose& car : others) cars.push_back(sensors::motion_on_road(track_, car));
   sensors::place_cars(cars, rays_);
-  sensors::CameraImage image =
-      sensors::camera_image(units_[unit], rays_, {sensors::moving(ours), cars, {}}, look_, noise_);
+  sensors::CameraImage image = sensors::camera_image(
+      units_[unit], rays_, {sensors::motion_of(ours), cars, {}}, look_, noise_);
   world::DetectionFrame frame =
       detector_.detect({static_cast<std::size_t>(image.width_px),
                         static_cast<std::size_t>(image.height_px), std::move(image.rgb)},

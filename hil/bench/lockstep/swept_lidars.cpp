@@ -5,8 +5,8 @@
 #include <functional>
 #include <utility>
 
+#include "hil/sensors/lidar/body_motion.hpp"
 #include "hil/sensors/lidar/car_mesh.hpp"
-#include "hil/sensors/lidar/standing.hpp"
 #include "hil/sensors/lidar/track_mesh.hpp"
 
 namespace pitwall::bench {
@@ -60,9 +60,9 @@ world::DetectionFrame SweptLidars::sweep(const plant::Truth& ours,
                                          std::span<const plant::CarPose> others,
                                          const world::EgoState& ego,
                                          const faults::LidarFault& fault, Instant now) {
-  std::vector<sensors::Moving> cars;
-  for (const plant::CarPose& car : others) cars.push_back(sensors::standing(track_, car));
-  const sensors::Moving body = sensors::moving(ours);
+  std::vector<sensors::BodyMotion> cars;
+  for (const plant::CarPose& car : others) cars.push_back(sensors::motion_on_road(track_, car));
+  const sensors::BodyMotion body = sensors::motion_of(ours);
   std::vector<perception::PointCloud> clouds(units_.size());
   std::vector<perception::LidarSweep> sweeps;
   for (std::size_t k = 0; k < units_.size(); ++k) {

@@ -5,7 +5,7 @@
 
 #include <string_view>
 
-#include "hil/bench/live/machine.hpp"
+#include "hil/bench/live/virtual_machine.hpp"
 #include "hil/can_bus/clock_message.hpp"
 #include "protocol/transport/clock.hpp"
 

@@ -2,7 +2,6 @@
 #include "hil/replay/targets/byte_target.hpp"
 
 #include <algorithm>
-#include <charconv>
 
 #include "protocol/ros/names.hpp"
 #include "protocol/transport/stream/serial_port.hpp"
@@ -19,19 +18,9 @@ bool take_front(std::string_view& text, std::string_view front) {
 }
 
 Result<ByteTarget, Problem> serial_of(std::string_view whole, std::string_view text) {
-  SerialDevice device{.path = std::string(text), .baud = kReceiverBaud};
-  if (const std::size_t colon = text.rfind(':'); colon != std::string_view::npos) {
-    const std::string_view rate = text.substr(colon + 1);
-    const auto [end, error] = std::from_chars(rate.data(), rate.data() + rate.size(), device.baud);
-    if (error != std::errc{} || end != rate.data() + rate.size())
-      return refuse(whole, "\"" + std::string(rate) + "\" is not a baud rate");
-    if (!transport::is_serial_rate(device.baud))
-      return refuse(whole, "serial devices of Linux do not have the rate " + std::string(rate));
-    device.path = text.substr(0, colon);
-  }
-  if (!device.path.starts_with('/'))
-    return refuse(whole, "expected the path of a device, as serial:/dev/ttyUSB0");
-  return ByteTarget{std::move(device)};
+  auto device = transport::parse_serial_device(text);
+  if (!device) return refuse(whole, device.error().what);
+  return ByteTarget{*std::move(device)};
 }
 
 bool is_ros_type(std::string_view type) {

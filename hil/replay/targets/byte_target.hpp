@@ -18,8 +18,6 @@
 
 namespace pitwall::replay {
 
-inline constexpr int kReceiverBaud = 460'800;  // default of the car
-
 struct TcpPort {
   transport::TcpAddress local;
 

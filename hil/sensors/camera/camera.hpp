@@ -44,8 +44,8 @@ struct CameraImage {
 std::vector<Mesh> track_scene_meshes(const world::TrackMap& track);
 
 struct CameraWorld {
-  Moving ours;                   // Body
-  std::span<const Moving> cars;  // by their numbers in the scene
+  BodyMotion ours;                   // Body
+  std::span<const BodyMotion> cars;  // by their numbers in the scene
   std::span<const DustCloud> dust;
 };
 

@@ -33,7 +33,8 @@ CameraUnit drawn_unit(std::uint64_t seed, bool varied, Noise& noise) {
 }
 
 // About the corners of its outer block; what lies beside the camera does not widen it.
-SeenCar seen(const CameraUnit& unit, const Moving& ours, const Moving& car, const CarShape& shape) {
+SeenCar seen(const CameraUnit& unit, const BodyMotion& ours, const BodyMotion& car,
+             const CarShape& shape) {
   constexpr double kNearest_m = 0.5;
   const SensorFrame camera = frame_of(unit.mount, ours);
   const Rotation axes = rotation(car.attitude);
@@ -77,7 +78,7 @@ CameraScene CameraSceneMaker::make(std::uint64_t seed) {
   Noise noise{seed, 0xCA3E4A};
   const DrawnCars drawn = draw_cars(*track_, rules_.spun_share, noise);
   const std::vector<DustCloud> dust = draw_dust(*track_, drawn, rules_.dust, noise);
-  const Moving body = sprung_body(*track_, drawn.ours, noise);
+  const BodyMotion body = sprung_body(*track_, drawn.ours, noise);
   for (std::size_t car = 0; car < kSceneCarsMost; ++car) rays_.hide(car);
   decoys_.place_drawn(*track_, drawn, seed, rays_);
   place_cars(drawn.others, rays_);

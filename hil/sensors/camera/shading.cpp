@@ -46,8 +46,8 @@ float value_noise(const Vector3& at, std::uint64_t seed) {
                 joined(edge(0, 1), edge(1, 1), within[1]), within[2]);
 }
 
-Shading::Shading(const Look& look, std::span<const Moving> cars) : look_(look), cars_(cars) {
-  for (const Moving& car : cars) axes_.push_back(rotation(car.attitude));
+Shading::Shading(const Look& look, std::span<const BodyMotion> cars) : look_(look), cars_(cars) {
+  for (const BodyMotion& car : cars) axes_.push_back(rotation(car.attitude));
 }
 
 Colour Shading::body_colour(std::size_t car, const Vector3& at) const {

@@ -19,7 +19,7 @@ float value_noise(const Vector3& at, std::uint64_t seed);
 
 class Shading {
  public:
-  Shading(const Look& look, std::span<const Moving> cars);
+  Shading(const Look& look, std::span<const BodyMotion> cars);
 
   // `at`: where the surface is met.
   Colour surface(const Meeting& met, const Vector3& at, bool in_shadow) const;
@@ -34,7 +34,7 @@ class Shading {
   Colour body_colour(std::size_t car, const Vector3& at) const;
 
   const Look& look_;
-  std::span<const Moving> cars_;
+  std::span<const BodyMotion> cars_;
   std::vector<Rotation> axes_;
 };
 

@@ -38,12 +38,12 @@ CarShape thing(std::string_view name, std::vector<Block> blocks, float reflectan
   return shape;
 }
 
-bool is_near(const Moving& body, const Vector3& at) {
+bool is_near(const BodyMotion& body, const Vector3& at) {
   return std::hypot(body.at_m[0] - at[0], body.at_m[1] - at[1]) < kFromCar_m;
 }
 
-std::optional<Moving> drawn_place(const world::TrackMap& track, const DrawnCars& cars,
-                                  Noise& noise) {
+std::optional<BodyMotion> drawn_place(const world::TrackMap& track, const DrawnCars& cars,
+                                      Noise& noise) {
   const double s_m =
       track.wrap_station(cars.ours.s_m + between(noise, kLeastAhead_m, kMostAhead_m));
   const world::TrackPoint road = track.at(s_m);
@@ -51,9 +51,9 @@ std::optional<Moving> drawn_place(const world::TrackMap& track, const DrawnCars&
       s_m, between(noise, -road.width_right_m + kFromWall_m, road.width_left_m - kFromWall_m), 0.0,
       between(noise, -std::numbers::pi, std::numbers::pi)};
   if (noise.uniform() >= kDecoyShare) return std::nullopt;
-  const Moving decoy = standing_on(track, place);
-  const auto is_at_it = [&](const Moving& car) { return is_near(car, decoy.at_m); };
-  if (is_at_it(standing_on(track, cars.ours)) || std::ranges::any_of(cars.others, is_at_it))
+  const BodyMotion decoy = motion_on_track(track, place);
+  const auto is_at_it = [&](const BodyMotion& car) { return is_near(car, decoy.at_m); };
+  if (is_at_it(motion_on_track(track, cars.ours)) || std::ranges::any_of(cars.others, is_at_it))
     return std::nullopt;
   return decoy;
 }

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "hil/sensors/lidar/standing.hpp"
+#include "hil/sensors/lidar/body_motion.hpp"
 #include "protocol/vocabulary/check.hpp"
 
 namespace pitwall::sensors {
@@ -43,7 +43,7 @@ std::vector<OnTrack> drawn_others(const world::TrackMap& track, const OnTrack& o
   return cars;
 }
 
-void add_trail(const Moving& car, double dust, Noise& noise, std::vector<DustCloud>& clouds) {
+void add_trail(const BodyMotion& car, double dust, Noise& noise, std::vector<DustCloud>& clouds) {
   const Rotation axes = rotation(car.attitude);
   for (const double behind_m : {3.5, 5.5, 8.5, 12.0}) {
     const Vector3 at =
@@ -55,7 +55,7 @@ void add_trail(const Moving& car, double dust, Noise& noise, std::vector<DustClo
 
 }  // namespace
 
-Moving standing_on(const world::TrackMap& track, const OnTrack& car, double over_m) {
+BodyMotion motion_on_track(const world::TrackMap& track, const OnTrack& car, double over_m) {
   const world::TrackPoint road = track.offset(car.s_m, car.n_m);
   const plant::CarPose pose{.x_m = road.x_m,
                             .y_m = road.y_m,
@@ -65,7 +65,7 @@ Moving standing_on(const world::TrackMap& track, const OnTrack& car, double over
                             .yaw_rate_rad_per_s = car.speed_mps * road.curvature_per_m,
                             .s_m = car.s_m,
                             .n_m = car.n_m};
-  return standing(track, pose, over_m);
+  return motion_on_road(track, pose, over_m);
 }
 
 DrawnCars draw_cars(const world::TrackMap& track, double spun_share, Noise& noise) {
@@ -74,7 +74,7 @@ DrawnCars draw_cars(const world::TrackMap& track, double spun_share, Noise& nois
                            from_deg(1.0) * noise.normal()},
                   .others = {}};
   for (const OnTrack& car : drawn_others(track, drawn.ours, spun_share, noise))
-    drawn.others.push_back(standing_on(track, car));
+    drawn.others.push_back(motion_on_track(track, car));
   return drawn;
 }
 
@@ -82,12 +82,12 @@ std::vector<DustCloud> draw_dust(const world::TrackMap& track, const DrawnCars& 
                                  double density, Noise& noise) {
   std::vector<DustCloud> clouds;
   if (density <= 0.0) return clouds;
-  for (const Moving& car : cars.others)
+  for (const BodyMotion& car : cars.others)
     if (noise.uniform() < 1.0 / 3.0) add_trail(car, density, noise, clouds);
   if (noise.uniform() < 0.25) {
     const double s_m = track.wrap_station(cars.ours.s_m + between(noise, 10.0, 80.0));
     const OnTrack blown{s_m, drawn_offset_m(track, s_m, noise), 0.0, 0.0};
-    add_trail(standing_on(track, blown), density, noise, clouds);
+    add_trail(motion_on_track(track, blown), density, noise, clouds);
   }
   return clouds;
 }
@@ -100,8 +100,8 @@ RayScene scene_with_cars(std::span<const Mesh> still, std::span<const CarShape> 
   return rays;
 }
 
-Moving sprung_body(const world::TrackMap& track, const OnTrack& ours, Noise& noise) {
-  Moving body = standing_on(track, ours, kOriginOverRoad_m);
+BodyMotion sprung_body(const world::TrackMap& track, const OnTrack& ours, Noise& noise) {
+  BodyMotion body = motion_on_track(track, ours, kOriginOverRoad_m);
   body.attitude.roll_rad += from_deg(0.4) * noise.normal();
   body.attitude.pitch_rad += from_deg(0.4) * noise.normal();
   body.at_m[2] += 0.01 * noise.normal();

@@ -28,12 +28,12 @@ struct OnTrack {
   double s_m = kUnset, n_m = kUnset, speed_mps = kUnset, turned_rad = kUnset;
 };
 
-// As Vehicle (mesh.hpp), or another origin above it.
-Moving standing_on(const world::TrackMap& track, const OnTrack& car, double over_m = 0.0);
+// As motion_on_road().
+BodyMotion motion_on_track(const world::TrackMap& track, const OnTrack& car, double over_m = 0.0);
 
 struct DrawnCars {
   OnTrack ours;
-  std::vector<Moving> others;  // as Vehicle (mesh.hpp)
+  std::vector<BodyMotion> others;  // as Vehicle (mesh.hpp)
 };
 
 // `spun_share`: of the others.
@@ -51,7 +51,7 @@ inline const CarShape& shape_of(std::span<const CarShape> bodies, std::size_t ca
 RayScene scene_with_cars(std::span<const Mesh> still, std::span<const CarShape> bodies);
 
 // Our Body on its springs.
-Moving sprung_body(const world::TrackMap& track, const OnTrack& ours, Noise& noise);
+BodyMotion sprung_body(const world::TrackMap& track, const OnTrack& ours, Noise& noise);
 
 inline double between(Noise& noise, double least, double most) {
   return least + (most - least) * noise.uniform();

@@ -69,13 +69,6 @@ class Sweep {
 
 }  // namespace
 
-Moving after(const Moving& body, double time_s) {
-  Moving moved = body;
-  moved.at_m = plus(body.at_m, times(time_s, body.velocity_mps));
-  moved.attitude.yaw_rad += time_s * body.yaw_rate_rad_per_s;
-  return moved;
-}
-
 std::vector<LidarUnit> av21_lidars() {
   const auto facing = [](double x_m, double y_m, double yaw_deg) {
     LidarUnit unit;
@@ -85,13 +78,13 @@ std::vector<LidarUnit> av21_lidars() {
   return {facing(1.0, 0.0, 0.0), facing(-0.4, 0.35, 120.0), facing(-0.4, -0.35, -120.0)};
 }
 
-SensorFrame frame_of(const SensorMount& mount, const Moving& body) {
+SensorFrame frame_of(const SensorMount& mount, const BodyMotion& body) {
   const Rotation axes = rotation(body.attitude), in_body = rotation(mount.attitude);
   return {plus(body.at_m, turned(axes, mount.at_m)),
           {turned(axes, in_body[0]), turned(axes, in_body[1]), turned(axes, in_body[2])}};
 }
 
-void place_cars(std::span<const Moving> cars, RayScene& scene) {
+void place_cars(std::span<const BodyMotion> cars, RayScene& scene) {
   for (std::size_t car = 0; car < cars.size(); ++car)
     scene.place(car, rotation(cars[car].attitude), cars[car].at_m);
   scene.commit();
@@ -128,8 +121,8 @@ std::vector<LidarReturn> lidar_sweep(const LidarUnit& unit, RayScene& scene,
   Sweep sweep{unit, scene, world, noise};
   for (int ring = 0; ring < unit.pattern.rings; ++ring) {
     const double time_s = ring * unit.pattern.ring_period_s;
-    std::vector<Moving> cars;
-    for (const Moving& car : world.cars) cars.push_back(after(car, time_s));
+    std::vector<BodyMotion> cars;
+    for (const BodyMotion& car : world.cars) cars.push_back(after(car, time_s));
     place_cars(cars, scene);
     sweep.scan(ring, time_s, returns);
   }

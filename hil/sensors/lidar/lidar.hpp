@@ -20,6 +20,7 @@
 #include <vector>
 
 #include "hil/sensors/geometry.hpp"
+#include "hil/sensors/lidar/body_motion.hpp"
 #include "hil/sensors/lidar/ray_scene.hpp"
 #include "hil/sensors/noise.hpp"
 #include "protocol/vocabulary/time.hpp"
@@ -58,17 +59,6 @@ inline constexpr Duration kHorizon = microseconds(12'300);
 // The three of the AV-21: ahead, to the left and right rear, 120 deg each.
 std::vector<LidarUnit> av21_lidars();
 
-// A body and its motion in a straight line with a constant yaw rate.
-struct Moving {
-  Vector3 at_m{};  // Map
-  Attitude attitude;
-  Vector3 velocity_mps{};
-  double yaw_rate_rad_per_s = 0.0;
-};
-
-// Where it is later.
-Moving after(const Moving& body, double time_s);
-
 // A cloud of dust: Gaussian about its middle.
 struct DustCloud {
   Vector3 at_m{};  // Map
@@ -84,8 +74,8 @@ struct LidarReturn {
 };
 
 struct LidarWorld {
-  Moving ours;                   // Body
-  std::span<const Moving> cars;  // by their numbers in the scene, at most those
+  BodyMotion ours;                   // Body
+  std::span<const BodyMotion> cars;  // by their numbers in the scene, at most those
   std::span<const DustCloud> dust;
 };
 
@@ -94,10 +84,10 @@ struct SensorFrame {
   Vector3 at_m{};  // Map
   Rotation axes = rotation({});
 };
-SensorFrame frame_of(const SensorMount& mount, const Moving& body);
+SensorFrame frame_of(const SensorMount& mount, const BodyMotion& body);
 
 // Places the first cars of the scene, and commits that.
-void place_cars(std::span<const Moving> cars, RayScene& scene);
+void place_cars(std::span<const BodyMotion> cars, RayScene& scene);
 
 // Rays of a pattern, row by row from its top, from its right to its left.
 int columns_of(const LidarPattern& pattern);

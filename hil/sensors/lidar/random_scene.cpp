@@ -6,14 +6,14 @@
 #include <cmath>
 #include <numbers>
 
-#include "hil/sensors/lidar/standing.hpp"
+#include "hil/sensors/lidar/body_motion.hpp"
 #include "hil/sensors/lidar/track_mesh.hpp"
 
 namespace pitwall::sensors {
 namespace {
 
 // Both at one time.
-TrueBox box_of(const Moving& ours, const Moving& car, const CarShape& shape) {
+TrueBox box_of(const BodyMotion& ours, const BodyMotion& car, const CarShape& shape) {
   const Rotation axes = rotation(ours.attitude);
   const Vector3 apart = plus(car.at_m, times(-1.0, ours.at_m));
   return {.x_m = dot(apart, axes[0]),
@@ -66,14 +66,14 @@ SceneMaker::SceneMaker(const world::TrackMap& track, const std::vector<CarShape>
 LidarScene SceneMaker::make(std::uint64_t seed) {
   Noise noise{seed, 0x11DA4};
   const DrawnCars drawn = draw_cars(*track_, rules_.spun_share, noise);
-  const std::vector<Moving>& cars = drawn.others;
+  const std::vector<BodyMotion>& cars = drawn.others;
   const std::vector<DustCloud> dust = draw_dust(*track_, drawn, rules_.dust, noise);
-  const Moving body = sprung_body(*track_, drawn.ours, noise);
+  const BodyMotion body = sprung_body(*track_, drawn.ours, noise);
   for (std::size_t car = 0; car < kSceneCarsMost; ++car) rays_.hide(car);
   decoys_.place_drawn(*track_, drawn, seed, rays_);
 
   LidarScene scene;
-  const Moving then = after(body, kReference_s);
+  const BodyMotion then = after(body, kReference_s);
   for (std::size_t car = 0; car < cars.size(); ++car)
     scene.cars.push_back(box_of(then, after(cars[car], kReference_s), shape_of(bodies_, car)));
   for (const LidarUnit& unit : av21_lidars()) {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <utility>
 
-#include "hil/sensors/lidar/standing.hpp"
+#include "hil/sensors/lidar/body_motion.hpp"
 #include "hil/sensors/lidar/track_mesh.hpp"
 
 namespace pitwall::sensors {
@@ -69,12 +69,12 @@ class CarsInRing {
       : unit_(unit), body_(body), met_(static_cast<std::size_t>(columns_of(unit.pattern))) {}
 
   void look(std::span<const Vector3> rays, int ring, const SensorFrame& pose,
-            std::span<const Moving> others) {
+            std::span<const BodyMotion> others) {
     std::fill(met_.begin() + looked_at_.from, met_.begin() + looked_at_.until, std::nullopt);
     looked_at_ = {};
     const double up_rad = unit_.pattern.top_rad - ring * unit_.pattern.ring_step_rad;
     for (std::size_t number = 0; number < others.size(); ++number) {
-      const Moving& car = others[number];
+      const BodyMotion& car = others[number];
       const Vector3 to = plus(car.at_m, times(-1.0, pose.at_m));
       const Columns columns = columns_to(within(pose.axes, to), unit_.pattern, up_rad);
       if (columns.from == columns.until) continue;
@@ -120,23 +120,23 @@ SweptTrack SweptTrack::make(const world::TrackMap& track, std::vector<LidarUnit>
     const double n_m = options.offset_m(s_m);
     const world::TrackPoint at = track.offset(s_m, n_m);
     Place& made = swept.places_.emplace_back();
-    made.body = standing(track,
-                         {.x_m = at.x_m,
-                          .y_m = at.y_m,
-                          .yaw_rad = at.yaw_rad,
-                          .vx_mps = 0.0,
-                          .vy_mps = 0.0,
-                          .yaw_rate_rad_per_s = 0.0,
-                          .s_m = s_m,
-                          .n_m = n_m},
-                         options.origin_m);
+    made.body = motion_on_road(track,
+                               {.x_m = at.x_m,
+                                .y_m = at.y_m,
+                                .yaw_rad = at.yaw_rad,
+                                .vx_mps = 0.0,
+                                .vy_mps = 0.0,
+                                .yaw_rate_rad_per_s = 0.0,
+                                .s_m = s_m,
+                                .n_m = n_m},
+                               options.origin_m);
     for (std::size_t unit = 0; unit < swept.units_.size(); ++unit)
       made.shots.push_back(shot(swept.units_[unit], made.body, swept.rays_[unit], scene, noise));
   }
   return swept;
 }
 
-SweptTrack::Shot SweptTrack::shot(const LidarUnit& lidar, const Moving& body,
+SweptTrack::Shot SweptTrack::shot(const LidarUnit& lidar, const BodyMotion& body,
                                   std::span<const Vector3> rays, const RayScene& scene,
                                   Noise& noise) {
   const SensorFrame pose = frame_of(lidar.mount, body);
@@ -159,14 +159,14 @@ const SweptTrack::Place& SweptTrack::nearest(double s_m) const {
   return places_[static_cast<std::size_t>(std::lround(turn * count)) % places_.size()];
 }
 
-std::vector<LidarReturn> SweptTrack::sweep(std::size_t unit, const Moving& ours, double s_m,
-                                           std::span<const Moving> others, Noise& noise) const {
+std::vector<LidarReturn> SweptTrack::sweep(std::size_t unit, const BodyMotion& ours, double s_m,
+                                           std::span<const BodyMotion> others, Noise& noise) const {
   const LidarUnit& lidar = units_[unit];
   const auto columns = static_cast<std::size_t>(columns_of(lidar.pattern));
   const double forward_mps = std::hypot(ours.velocity_mps[0], ours.velocity_mps[1]);
   std::vector<LidarReturn> returns;
   returns.reserve(rays_[unit].size());
-  std::vector<Moving> moved(others.begin(), others.end());
+  std::vector<BodyMotion> moved(others.begin(), others.end());
   CarsInRing in_ring{lidar, body_};
   for (int ring = 0; ring < lidar.pattern.rings; ++ring) {
     const double time_s = ring * lidar.pattern.ring_period_s;

@@ -37,8 +37,8 @@ class SweptTrack {
 
   std::span<const LidarUnit> units() const { return units_; }
   // `s_m` is the station of our car.
-  std::vector<LidarReturn> sweep(std::size_t unit, const Moving& ours, double s_m,
-                                 std::span<const Moving> others, Noise& noise) const;
+  std::vector<LidarReturn> sweep(std::size_t unit, const BodyMotion& ours, double s_m,
+                                 std::span<const BodyMotion> others, Noise& noise) const;
 
  private:
   // What came back of each ray of a sweep at rest; a range of 0: nothing.
@@ -47,12 +47,12 @@ class SweptTrack {
     std::vector<std::uint8_t> signals;  // in kSignal
   };
   struct Place {
-    Moving body;
+    BodyMotion body;
     std::vector<Shot> shots;  // of each LiDAR
   };
   SweptTrack(double length_m, std::vector<LidarUnit> units, std::span<const Mesh> body);
   static constexpr double kRange_m = 0.004, kSignal = 1.0 / 255.0;
-  static Shot shot(const LidarUnit& lidar, const Moving& body, std::span<const Vector3> rays,
+  static Shot shot(const LidarUnit& lidar, const BodyMotion& body, std::span<const Vector3> rays,
                    const RayScene& scene, Noise& noise);
   const Place& nearest(double s_m) const;
 

@@ -9,6 +9,7 @@
 #include <string>
 #include <utility>
 
+#include "protocol/transport/unix_listener.hpp"
 #include "protocol/vocabulary/bytes.hpp"
 
 namespace pitwall::transport {
@@ -24,32 +25,19 @@ PosixOutcome set_flag(int fd, int name) {
 }  // namespace
 
 Result<sockaddr_un, Problem> unix_bus_address(std::string_view interface) {
-  const auto refuse = [&](const std::string& what) {
-    return Unexpected{Problem{std::string(interface), what}};
-  };
-  if (!is_unix_bus(interface)) return refuse("not a unix bus: expected unix:PATH");
-  const std::string_view path = interface.substr(kUnixBusPrefix.size());
-  sockaddr_un out{};
-  out.sun_family = AF_UNIX;
-  if (path.empty()) return refuse("no path after unix:");
-  if (path.find('\0') != std::string_view::npos) return refuse("a path has no zero byte");
-  if (path.size() >= sizeof out.sun_path)
-    return refuse("path of " + std::to_string(path.size()) + " bytes: a socket's has at most " +
-                  std::to_string(sizeof out.sun_path - 1));
-  path.copy(out.sun_path, path.size());
-  return out;
+  if (!is_unix_bus(interface)) return refuse(interface, "not a unix bus: expected unix:PATH");
+  const auto address = unix_address(interface.substr(kUnixBusPrefix.size()));
+  if (!address) return refuse(interface, address.error().what);
+  return *address;
 }
 
 PosixOutcome connect_to_hub(const sockaddr_un& address, ReceiveMode mode, FileDescriptor& out) {
-  const auto made =
-      posix_call([] { return socket(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC | SOCK_NONBLOCK, 0); });
+  const auto made = unix_socket(SOCK_SEQPACKET);
   if (!made.ok()) return made;
   FileDescriptor fd(made);
   // Before connecting: no frame may arrive without a stamp, nor at an end that receives nothing.
   if (const auto stamps = set_flag(fd.get(), SO_TIMESTAMPNS); !stamps.ok()) return stamps;
-  const auto connected = posix_call([&] {
-    return ::connect(fd.get(), reinterpret_cast<const sockaddr*>(&address), sizeof address);
-  });
+  const auto connected = connect_to(fd, address);
   if (!connected.ok()) return connected;
   if (mode == ReceiveMode::kNothing) {
     const auto closed = posix_call([&] { return shutdown(fd.get(), SHUT_RD); });

@@ -1,27 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "protocol/transport/can/unix_can_hub.hpp"
 
-#include <fcntl.h>
 #include <poll.h>
-#include <sys/file.h>
 #include <sys/socket.h>
-#include <sys/stat.h>
 
 #include <algorithm>
 #include <array>
 #include <ctime>
-#include <filesystem>
+#include <utility>
 
 #include "protocol/transport/can/unix_bus.hpp"
 #include "protocol/transport/clock.hpp"
-#include "protocol/transport/private_access.hpp"
 
 namespace pitwall::transport {
 namespace {
 
 constexpr std::size_t kBatch = 64;
 constexpr int kBacklog = 64;
-constexpr Duration kFolderWait = seconds(2), kFolderLook = milliseconds(5);
 constexpr Duration kAcceptPause = milliseconds(100);
 // Room for the stamp and for nothing else: a descriptor that a client passes finds no place.
 constexpr std::size_t kStampBytes = CMSG_SPACE(sizeof(timespec));
@@ -37,25 +32,6 @@ int process_at(int connection) {
 // Else whoever is at the other end does not read and never will.
 bool is_full(const PosixOutcome& sent) {
   return sent.would_block() || sent.error == ENOBUFS || sent.error == ENOMEM;
-}
-
-// Two hubs that start at once must not take away each other's path: whoever holds the folder's
-// lock decides. It is held for the moment of the start only, and leaves no file behind.
-FileDescriptor lock_folder(const std::string& path) {
-  const std::string folder = std::filesystem::path(path).parent_path().string();
-  FileDescriptor out(posix_call([&] {
-    return ::open(folder.empty() ? "." : folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  }));
-  const Instant limit = monotonic_now() + kFolderWait;
-  while (out.valid()) {
-    const auto locked = posix_call([&] { return flock(out.get(), LOCK_EX | LOCK_NB); });
-    if (locked.ok()) break;
-    if (!locked.would_block() || monotonic_now() >= limit)
-      out.reset();
-    else
-      sleep_until(monotonic_now() + kFolderLook);
-  }
-  return out;
 }
 
 }  // namespace
@@ -109,63 +85,18 @@ std::string to_text(const UnixCanHubCounters& c) {
   return out;
 }
 
-UnixCanHub::UnixCanHub(const sockaddr_un& address, const UnixCanHubOptions& options)
-    : address_(address), options_(options), batch_(std::make_unique<Batch>()) {}
+UnixCanHub::UnixCanHub(UnixListener listener, const UnixCanHubOptions& options)
+    : listener_(std::move(listener)), options_(options), batch_(std::make_unique<Batch>()) {}
+
+UnixCanHub::~UnixCanHub() = default;
 
 Result<std::unique_ptr<UnixCanHub>, Problem> UnixCanHub::open(std::string_view interface,
                                                               const UnixCanHubOptions& options) {
   const auto address = unix_bus_address(interface);
   if (!address) return Unexpected{address.error()};
-  std::unique_ptr<UnixCanHub> out(new UnixCanHub(*address, options));
-  if (std::string why = out->claim(); !why.empty())
-    return Unexpected{Problem{std::string(interface), std::move(why)}};
-  return out;
-}
-
-// Only a path that is still ours, and before the listener closes: until then nobody takes it over.
-UnixCanHub::~UnixCanHub() {
-  struct stat now {};
-  if (node_ == 0 || lstat(address_.sun_path, &now) != 0) return;
-  if (now.st_dev == device_ && now.st_ino == node_) ::unlink(address_.sun_path);
-}
-
-// A path that nobody serves is what a killed hub leaves behind.
-std::string UnixCanHub::make_room() const {
-  struct stat there {};
-  const auto looked = posix_call([&] { return lstat(address_.sun_path, &there); });
-  if (looked.error == ENOENT) return "";
-  if (!looked.ok()) return looked.reason();
-  if (!S_ISSOCK(there.st_mode)) return "exists and is no socket: left alone";
-  FileDescriptor probe;
-  const auto answered = connect_to_hub(address_, ReceiveMode::kNothing, probe);
-  if (answered.error != ECONNREFUSED)
-    return "in use" + (answered.ok() ? "" : ": " + answered.reason());
-  const auto removed = posix_call([&] { return ::unlink(address_.sun_path); });
-  return removed.ok() ? "" : "a stale socket cannot be removed: " + removed.reason();
-}
-
-std::string UnixCanHub::claim() {
-  const FileDescriptor folder = lock_folder(address_.sun_path);
-  if (!folder.valid()) return "its folder is missing, unreadable or locked by another program";
-  if (std::string why = make_room(); !why.empty()) return why;
-  const auto made =
-      posix_call([] { return socket(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC | SOCK_NONBLOCK, 0); });
-  listener_ = FileDescriptor(made);
-  if (!made.ok()) return made.reason();
-  const int fd = listener_.get();
-  // On the socket before it has a path: so the path is never open to others, not for a moment.
-  const auto closed = posix_call([&] { return fchmod(fd, kOwnerOnly); });
-  if (!closed.ok()) return "cannot be restricted to its owner: " + closed.reason();
-  const auto bound = posix_call(
-      [&] { return bind(fd, reinterpret_cast<const sockaddr*>(&address_), sizeof address_); });
-  if (!bound.ok()) return "cannot be created: " + bound.reason();
-  struct stat mine {};
-  const auto looked = posix_call([&] { return lstat(address_.sun_path, &mine); });
-  if (!looked.ok()) return looked.reason();
-  device_ = mine.st_dev;
-  node_ = mine.st_ino;
-  const auto listening = posix_call([&] { return listen(fd, kBacklog); });
-  return listening.ok() ? "" : "cannot listen: " + listening.reason();
+  auto listener = UnixListener::open(*address, SOCK_SEQPACKET, kBacklog);
+  if (!listener) return refuse(interface, listener.error().what);
+  return std::unique_ptr<UnixCanHub>(new UnixCanHub(*std::move(listener), options));
 }
 
 void UnixCanHub::serve(Instant deadline, int stop) {
@@ -175,7 +106,7 @@ void UnixCanHub::serve(Instant deadline, int stop) {
   const Instant begun = monotonic_now();
   const bool accepting = begun >= accept_from_;
   if (!accepting) deadline = std::min(deadline, accept_from_);
-  watched.push_back({.fd = accepting ? listener_.get() : -1, .events = POLLIN, .revents = 0});
+  watched.push_back({.fd = accepting ? listener_.fd() : -1, .events = POLLIN, .revents = 0});
   for (const Client& client : clients_) {
     const bool waiting = client.unreported && !client.rx_closed;
     watched.push_back({.fd = client.fd.get(),
@@ -201,8 +132,7 @@ void UnixCanHub::serve(Instant deadline, int stop) {
 
 void UnixCanHub::accept_all() {
   while (monotonic_now() >= accept_from_) {
-    const auto made = posix_call(
-        [&] { return accept4(listener_.get(), nullptr, nullptr, SOCK_CLOEXEC | SOCK_NONBLOCK); });
+    const auto made = listener_.accept();
     if (made.would_block()) return;
     if (made.ok()) {
       admit(FileDescriptor(made));

@@ -10,8 +10,7 @@
 //   A client's queue is the send buffer of its connection. A slow reader fills it and loses frames,
 //   which are counted and reported at their place; it does not delay other clients. A packet that
 //   is not a frame is refused and counted. If a client is killed, the frames it sent are forwarded.
-//   in     PATH: access for its owner only (0600). A socket that no process serves is replaced; one
-//          that is served, or a file that is not a socket, is refused and not changed
+//   in     PATH, as unix_listener.hpp has it
 //   out    frames; counters
 //   errors open(): Problem with the interface as place; afterwards counters only
 //   cost   serve(): for each client with frames one recvmmsg, one accept4 and one sendmmsg per
@@ -20,8 +19,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <sys/un.h>
-
 #include <cstdint>
 #include <memory>
 #include <string>
@@ -29,6 +26,7 @@
 #include <vector>
 
 #include "protocol/transport/posix_call.hpp"
+#include "protocol/transport/unix_listener.hpp"
 #include "protocol/vocabulary/result.hpp"
 #include "protocol/vocabulary/time.hpp"
 
@@ -78,9 +76,7 @@ class UnixCanHub {
   };
   struct Batch;
 
-  UnixCanHub(const sockaddr_un& address, const UnixCanHubOptions& options);
-  std::string claim();  // empty on success, otherwise the reason
-  std::string make_room() const;
+  UnixCanHub(UnixListener listener, const UnixCanHubOptions& options);
   void accept_all();
   void admit(FileDescriptor fd);
   void take_from(std::size_t sender);
@@ -90,11 +86,9 @@ class UnixCanHub {
   void lose(Client& client, std::size_t frames);
   void sweep();
 
-  sockaddr_un address_;
+  UnixListener listener_;
   UnixCanHubOptions options_;
-  FileDescriptor listener_;
-  std::uint64_t device_ = 0, node_ = 0;  // of the path, while it is ours
-  Instant accept_from_{};                // earliest next accept, after a lack of descriptors
+  Instant accept_from_{};  // earliest next accept, after a lack of descriptors
   std::vector<Client> clients_;
   std::unique_ptr<Batch> batch_;
   UnixCanHubCounters counters_;

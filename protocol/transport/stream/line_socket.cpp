@@ -2,13 +2,9 @@
 #include "protocol/transport/stream/line_socket.hpp"
 
 #include <sys/socket.h>
-#include <sys/stat.h>
-#include <sys/un.h>
 
 #include <array>
 #include <utility>
-
-#include "protocol/transport/private_access.hpp"
 
 namespace pitwall::transport {
 namespace {
@@ -17,47 +13,12 @@ constexpr int kLineBacklog = 8;
 constexpr std::size_t kLineBytes = 16 * 1024;
 constexpr std::size_t kReadsAtOnce = 16;  // a flood does not hold up its reader
 
-Result<sockaddr_un, Problem> address_of(const std::string& path) {
-  sockaddr_un address{};
-  address.sun_family = AF_UNIX;
-  if (path.empty() || path.size() >= sizeof address.sun_path)
-    return Unexpected{Problem{
-        path, "expected a path of 1 to " + std::to_string(sizeof address.sun_path - 1) + " bytes"}};
-  path.copy(address.sun_path, path.size());
-  return address;
-}
-
-const sockaddr* generic(const sockaddr_un& address) {
-  return reinterpret_cast<const sockaddr*>(&address);
-}
-
-PosixOutcome stream_socket() {
-  return posix_call([] { return socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0); });
-}
-
-PosixOutcome connect_to(const FileDescriptor& fd, const sockaddr_un& address) {
-  return posix_call([&] { return ::connect(fd.get(), generic(address), sizeof address); });
-}
-
-// What a killed listener leaves behind is in nobody's way.
-std::string make_room(const sockaddr_un& address) {
-  struct stat there {};
-  const auto looked = posix_call([&] { return lstat(address.sun_path, &there); });
-  if (looked.error == ENOENT) return "";
-  if (!looked.ok()) return looked.reason();
-  if (!S_ISSOCK(there.st_mode)) return "exists and is no socket: left alone";
-  const FileDescriptor probe{stream_socket()};
-  if (connect_to(probe, address).error != ECONNREFUSED) return "in use";
-  const auto removed = posix_call([&] { return ::unlink(address.sun_path); });
-  return removed.ok() ? "" : "a stale socket cannot be removed: " + removed.reason();
-}
-
 }  // namespace
 
 Result<LineSocket, Problem> LineSocket::connect(const std::string& path) {
-  const auto address = address_of(path);
+  const auto address = unix_address(path);
   if (!address) return Unexpected{address.error()};
-  FileDescriptor fd{stream_socket()};
+  FileDescriptor fd{unix_socket(SOCK_STREAM)};
   const auto connected = connect_to(fd, *address);
   if (!connected.ok()) return Unexpected{Problem{path, connected.reason()}};
   return LineSocket{std::move(fd)};
@@ -121,33 +82,15 @@ void LineSocket::flush() {
 }
 
 Result<LineListener, Problem> LineListener::open(const std::string& path) {
-  const auto address = address_of(path);
+  const auto address = unix_address(path);
   if (!address) return Unexpected{address.error()};
-  const auto refuse = [&](const std::string& why) { return Unexpected{Problem{path, why}}; };
-  if (const std::string why = make_room(*address); !why.empty()) return refuse(why);
-  FileDescriptor fd{stream_socket()};
-  if (!fd.valid()) return refuse("no file descriptor is left");
-  // On the socket before it has a path: so the path is never open to others, not for a moment.
-  const auto shut = posix_call([&] { return fchmod(fd.get(), kOwnerOnly); });
-  if (!shut.ok()) return refuse("cannot be restricted to its owner: " + shut.reason());
-  const auto bound =
-      posix_call([&] { return ::bind(fd.get(), generic(*address), sizeof *address); });
-  if (!bound.ok()) return refuse("cannot be created: " + bound.reason());
-  const auto listening = posix_call([&] { return ::listen(fd.get(), kLineBacklog); });
-  if (!listening.ok()) return refuse("cannot listen: " + listening.reason());
-  return LineListener{path, std::move(fd)};
-}
-
-LineListener::LineListener(LineListener&& other) noexcept
-    : path_(std::exchange(other.path_, {})), listener_(std::move(other.listener_)) {}
-
-LineListener::~LineListener() {
-  if (!path_.empty()) ::unlink(path_.c_str());
+  auto listener = UnixListener::open(*address, SOCK_STREAM, kLineBacklog);
+  if (!listener) return Unexpected{listener.error()};
+  return LineListener{*std::move(listener)};
 }
 
 std::optional<LineSocket> LineListener::accept() {
-  FileDescriptor made{posix_call(
-      [&] { return accept4(listener_.get(), nullptr, nullptr, SOCK_CLOEXEC | SOCK_NONBLOCK); })};
+  FileDescriptor made{listener_.accept()};
   if (!made.valid()) return std::nullopt;
   return LineSocket{std::move(made)};
 }

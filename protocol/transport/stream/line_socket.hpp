@@ -6,8 +6,7 @@
 //          no call waits: bytes that the other end does not accept are queued, up to
 //          kQueueMax_bytes; if the queue is full, the connection is closed
 //          a line longer than kLineMax_bytes is skipped to its end and counted
-//   listener  only its owner has access to the path (0600); a socket that no process serves is
-//          replaced; one that is served, or a file that is not a socket, is refused and not changed
+//          the listener treats its path as unix_listener.hpp has it
 //   errors Problem with the path as place; afterwards closed() and counters
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
@@ -20,6 +19,7 @@
 #include <vector>
 
 #include "protocol/transport/posix_call.hpp"
+#include "protocol/transport/unix_listener.hpp"
 #include "protocol/vocabulary/result.hpp"
 
 namespace pitwall::transport {
@@ -59,19 +59,14 @@ class LineSocket {
 class LineListener {
  public:
   static Result<LineListener, Problem> open(const std::string& path);
-  LineListener(LineListener&& other) noexcept;
-  LineListener& operator=(LineListener&&) = delete;
-  ~LineListener();
 
   std::optional<LineSocket> accept();
-  int fd() const { return listener_.get(); }
+  int fd() const { return listener_.fd(); }
 
  private:
-  LineListener(std::string path, FileDescriptor listener)
-      : path_(std::move(path)), listener_(std::move(listener)) {}
+  explicit LineListener(UnixListener listener) : listener_(std::move(listener)) {}
 
-  std::string path_;
-  FileDescriptor listener_;
+  UnixListener listener_;
 };
 
 }  // namespace pitwall::transport

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 
 namespace pitwall::transport {
 namespace {
@@ -27,6 +28,10 @@ const Rate* rate_of(int baud) {
   return rate == kRates.end() ? nullptr : rate;
 }
 
+std::string no_such_rate(int baud) {
+  return "serial devices of Linux do not have the rate " + std::to_string(baud);
+}
+
 PosixOutcome set_raw(int tty, const Rate* rate) {
   termios settings{};
   const auto got = posix_call([&] { return tcgetattr(tty, &settings); });
@@ -45,15 +50,25 @@ PosixOutcome set_raw(int tty, const Rate* rate) {
 
 }  // namespace
 
-bool is_serial_rate(int baud) { return rate_of(baud) != nullptr; }
+Result<SerialDevice, Problem> parse_serial_device(std::string_view text) {
+  const std::size_t colon = text.rfind(':');
+  SerialDevice device{.path = std::string(text.substr(0, colon))};
+  if (!device.path.starts_with('/'))
+    return refuse(text, "expected the path of a device, as /dev/ttyS0");
+  if (colon == std::string_view::npos) return device;
+  const std::string_view rate = text.substr(colon + 1);
+  const auto [end, error] = std::from_chars(rate.data(), rate.data() + rate.size(), device.baud);
+  if (error != std::errc{} || end != rate.data() + rate.size())
+    return refuse(text, "\"" + std::string(rate) + "\" is not a baud rate");
+  if (rate_of(device.baud) == nullptr) return refuse(text, no_such_rate(device.baud));
+  return device;
+}
 
 PosixOutcome make_raw(int tty) { return set_raw(tty, nullptr); }
 
 Result<FileDescriptor, Problem> open_serial(const std::string& path, int baud) {
   const Rate* rate = rate_of(baud);
-  if (rate == nullptr)
-    return Unexpected{
-        Problem{path, "serial devices of Linux do not have the rate " + std::to_string(baud)}};
+  if (rate == nullptr) return refuse(path, no_such_rate(baud));
   const auto opened =
       posix_call([&] { return ::open(path.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC); });
   FileDescriptor fd(opened);

@@ -18,18 +18,12 @@
 #include <variant>
 
 #include "protocol/transport/posix_call.hpp"
+#include "protocol/transport/stream/serial_port.hpp"
 #include "protocol/transport/stream/tcp_connection.hpp"
 #include "protocol/vocabulary/result.hpp"
 #include "protocol/vocabulary/time.hpp"
 
 namespace pitwall::transport {
-
-struct SerialDevice {
-  std::string path;
-  int baud = 0;
-
-  bool operator==(const SerialDevice&) const = default;
-};
 
 struct StreamCounters {
   std::uint64_t bytes = 0;

@@ -59,12 +59,14 @@ TEST(Trace, SaysWhatIsWrongAndWhere) {
   EXPECT_EQ(complaint("from_s,to_s\n1\n"),
             "t3.csv:2: error: expected from_s,to_s or from_s,to_s,loss");
   EXPECT_EQ(complaint("from_s,to_s\n2,1\n"), "t3.csv:2: error: the outage ends before it begins");
-  EXPECT_EQ(complaint("from_s,to_s\n-1,1\n"), "t3.csv:2: error: times lie in 0 .. 1000000 s");
-  EXPECT_EQ(complaint("from_s,to_s\n1,1e300\n"), "t3.csv:2: error: times lie in 0 .. 1000000 s");
-  EXPECT_EQ(complaint("from_s,to_s,loss\n1,2,1.5\n"), "t3.csv:2: error: loss lies in 0 .. 1");
+  EXPECT_EQ(complaint("from_s,to_s\n-1,1\n"), "t3.csv:2: error: expected times of 0 to 1000000 s");
+  EXPECT_EQ(complaint("from_s,to_s\n1,1e300\n"),
+            "t3.csv:2: error: expected times of 0 to 1000000 s");
+  EXPECT_EQ(complaint("from_s,to_s,loss\n1,2,1.5\n"), "t3.csv:2: error: expected a loss of 0 to 1");
   EXPECT_EQ(complaint("from_s,to_s\n1,3\n2,4\n"),
             "t3.csv:3: error: the outage begins before the one above it has ended");
-  EXPECT_EQ(complaint("station_m,loss\n5,0.1\n5,0.2\n"), "t3.csv:3: error: stations must ascend");
+  EXPECT_EQ(complaint("station_m,loss\n5,0.1\n5,0.2\n"),
+            "t3.csv:3: error: expected rising stations");
   EXPECT_EQ(complaint("station_m,loss\n5,0.1,3\n"), "t3.csv:2: error: expected station_m,loss");
 }
 

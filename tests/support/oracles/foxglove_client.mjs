@@ -177,7 +177,7 @@ async function whoPublishesIsRefused(viewer) {
   client.subscribe(99_999);
   await viewer.refusal(/no channel 99999/);
   viewer.socket.send(Buffer.from([3, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0]));
-  await viewer.refusal(/live car cannot be wound/);
+  await viewer.refusal(/live car cannot be played back/);
 }
 
 /** Numbers that look random and are the same each time. */

@@ -82,7 +82,7 @@ test("a contact with another car is told with its cause, its rule and its place"
   assert.match(panel, /rule 1: a car that stood causes nothing/);
   assert.match(panel, /parked \(9\)/);
   assert.match(panel, /station14[0-9] m/, "a length before the middle of the other");
-  assert.match(await page.textContent(".told-list"), /contact with parked/);
+  assert.match(await page.textContent(".event-list"), /contact with parked/);
   assert.deepEqual(faults, []);
 });
 

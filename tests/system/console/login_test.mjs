@@ -35,7 +35,7 @@ test("nothing is shown before somebody has logged in, and everything after it", 
   await page.screenshot({ path: join(kScreenshots, "login.png") });
   await logIn(page, "somebody-else-0000000");
   await until(page, "why not", () =>
-    document.querySelector('.login [role="alert"]')?.textContent.includes("none of its own"),
+    document.querySelector('.login [role="alert"]')?.textContent.includes("a token of this base"),
   );
   await logIn(page, ` ${kToken} `);
   await page.waitForSelector(kFresh, { state: "attached" });

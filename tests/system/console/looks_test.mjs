@@ -79,7 +79,7 @@ const smallTexts = (least) => {
     const own = [...e.childNodes].some((n) => n.nodeType === 3 && n.textContent.trim() !== "");
     const typed = e.matches("input, select, textarea");
     if ((!own && !typed) || e.getClientRects().length === 0) continue;
-    if (e.closest(".heard-only, option, script, style")) continue;
+    if (e.closest(".sr-only, option, script, style")) continue;
     const px = parseFloat(getComputedStyle(e).fontSize);
     const before = getComputedStyle(e, "::before");
     const text = (e.textContent || e.ariaLabel || "").slice(0, 30);
@@ -197,7 +197,7 @@ const texts = () => {
   const found = new Map();
   for (const e of document.querySelectorAll("#console *")) {
     const own = [...e.childNodes].some((n) => n.nodeType === 3 && n.textContent.trim() !== "");
-    if (!own || e.getClientRects().length === 0 || e.closest(".heard-only, [disabled], option"))
+    if (!own || e.getClientRects().length === 0 || e.closest(".sr-only, [disabled], option"))
       continue;
     const style = getComputedStyle(e);
     if (style.visibility === "hidden") continue;
@@ -287,7 +287,7 @@ test("a contact with another car: by whom, by which rule, where, in every theme"
     const rule = "rule 2: the car behind must pass safely";
     for (const part of [rule, "slow (2)", "1204 m", "53.62 s"])
       assert.ok(panel.includes(part), `${part} in ${panel}`);
-    assert.match(await page.textContent(".told-list"), /caused by this car/);
+    assert.match(await page.textContent(".event-list"), /caused by this car/);
     await page.screenshot({ path: join(kScreenshots, `hil_contact_${theme}.png`) });
     assert.deepEqual(weakTexts(await page.evaluate(texts)), [], `${theme}: contrast`);
     assert.deepEqual(await page.evaluate(smallTexts, kLabelPx), [], theme);

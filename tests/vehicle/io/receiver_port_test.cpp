@@ -83,7 +83,7 @@ TEST(ReceiverPort, HearsDatagrams) {
 
 TEST(ReceiverPort, HearsASerialLine) {
   const support::Pty pty;
-  ReceiverPort port = open(transport::SerialDevice{pty.path(), kDefaultBaud});
+  ReceiverPort port = open(transport::SerialDevice{pty.path(), transport::kReceiverBaud});
   world::SensorInput none;
   port.read(none, transport::monotonic_now());
   // In pieces, as a slow line brings them.
@@ -106,7 +106,7 @@ TEST(ReceiverPort, TakesNothingFromTheHeap) {
   const support::Pty pty;
   std::vector<ReceiverPort> ports;
   ports.push_back(open(UdpReceiver{}));
-  ports.push_back(open(transport::SerialDevice{pty.path(), kDefaultBaud}));
+  ports.push_back(open(transport::SerialDevice{pty.path(), transport::kReceiverBaud}));
   ports.push_back(open(transport::TcpAddress{.port = 1}));  // nobody is there
   world::SensorInput out;
   const auto read_all = [&] {

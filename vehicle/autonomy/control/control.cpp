@@ -24,7 +24,7 @@ std::optional<Problem> illegal_gear(const GearParams& p) {
 
 std::optional<Problem> illegal(const Params& p) {
   using world::first_illegal;
-  if (p.controller.step == nullptr) return Problem{"controller", "is none of kControllers"};
+  if (p.controller.step == nullptr) return Problem{"controller", "is not set"};
   if (auto problem = first_illegal(kBicycleRanges, p.bicycle, "bicycle.")) return problem;
   if (auto problem = first_illegal(kLateralRanges, p.lateral, "lateral.")) return problem;
   if (auto problem = first_illegal(kLongitudinalRanges, p.longitudinal, "longitudinal."))

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "vehicle/io/arguments/receiver_link.hpp"
 
-#include <charconv>
-
 #include "protocol/transport/stream/serial_port.hpp"
 
 namespace pitwall::io {
@@ -25,19 +23,9 @@ Result<UdpAddress, Problem> address_of(std::string_view whole, std::string_view 
 }
 
 Result<ReceiverLink, Problem> serial_of(std::string_view whole, std::string_view text) {
-  transport::SerialDevice device{.path = std::string(text), .baud = kDefaultBaud};
-  if (const std::size_t colon = text.rfind(':'); colon != std::string_view::npos) {
-    const std::string_view rate = text.substr(colon + 1);
-    const auto [end, error] = std::from_chars(rate.data(), rate.data() + rate.size(), device.baud);
-    if (error != std::errc{} || end != rate.data() + rate.size())
-      return refuse(whole, "\"" + std::string(rate) + "\" is not a baud rate");
-    if (!transport::is_serial_rate(device.baud))
-      return refuse(whole, "serial devices of Linux do not have the rate " + std::string(rate));
-    device.path = text.substr(0, colon);
-  }
-  if (!device.path.starts_with('/'))
-    return refuse(whole, "expected the path of a device, as /dev/ttyS0");
-  return ReceiverLink{device};
+  auto device = transport::parse_serial_device(text);
+  if (!device) return refuse(whole, device.error().what);
+  return ReceiverLink{*std::move(device)};
 }
 
 bool is_unit(std::string_view word) {

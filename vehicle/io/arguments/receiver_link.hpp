@@ -24,9 +24,6 @@ namespace pitwall::io {
 
 inline constexpr int kPortMax = 65'535;  // largest UDP or TCP port
 
-// Enough for an IMU at 200 Hz together with all other messages.
-inline constexpr int kDefaultBaud = 460'800;
-
 struct UdpReceiver {
   UdpAddress local;
 };

@@ -11,7 +11,7 @@ import { isOperator } from "../store/uplink";
 import { showPage } from "./pages";
 import { SoundButton } from "./sound_button";
 import { AgeSince } from "../view/age_since";
-import { toldText } from "../view/told";
+import { inDisplayUnits } from "../view/display_units";
 
 const kErrorShownMs = 20_000;
 
@@ -68,7 +68,7 @@ export function AlarmLine() {
       <i class="mark" aria-hidden="true" />
       <strong>{first.priority.toUpperCase()}</strong>
       <span class="text">
-        {toldText(first.text)}
+        {inDisplayUnits(first.text)}
         {first.count > 1 ? ` \u00d7${first.count}` : ""}
       </span>
       <span class="response">{first.response}</span>

@@ -90,7 +90,7 @@ function Tab({ car }: { car: CarSession }) {
       onClick={() => showCar(car)}
     >
       <CarChip car={car} />
-      <span class="heard-only">car</span>
+      <span class="sr-only">car</span>
       <span class="tab-name">{hello?.name ?? ""}</span>
       <span class="tab-mode">{kModes[hello?.mode ?? "NONE"]}</span>
       <LinkWord car={car} />

@@ -15,7 +15,7 @@ const kWords: Record<string, string> = {
   REPLAY: "REPLAY",
   NONE: "NO CAR",
 };
-const kUnheard = "\u00a0";
+const kNoName = "\u00a0";
 
 function BenchTime({ stoodMs }: { stoodMs: number }) {
   const root = useRef<HTMLSpanElement>(null);
@@ -62,7 +62,7 @@ export function ModeWord() {
     <div class="mode-word" role="status">
       <strong>{hello ? kWords[mode] + car : "NO BASE"}</strong>
       <span class="of">
-        <span class="name">{hello?.name || (bench ? "" : kUnheard)}</span>
+        <span class="name">{hello?.name || (bench ? "" : kNoName)}</span>
         {bench && <BenchTime stoodMs={bench.stood_ms} />}
       </span>
     </div>

@@ -32,7 +32,7 @@ function LoopButton({ beginMs }: { beginMs: number }) {
 
 export function ReplayBar() {
   const playback = session.playback.value;
-  if (!playback) return <footer class="dvr-bar">The base has not said yet what it plays.</footer>;
+  if (!playback) return <footer class="dvr-bar">The base has not yet named its recording.</footer>;
   const { begin_ms, end_ms, now_ms, speed } = playback;
   return (
     <footer class="dvr-bar" data-held="true">

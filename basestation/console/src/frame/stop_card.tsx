@@ -9,7 +9,7 @@ import { isHolder, isOperator, send } from "../store/uplink";
 import { AgeSince } from "../view/age_since";
 import { clockText } from "../view/format";
 import { HoldButton } from "../view/hold_button";
-import { quantityText, toldText } from "../view/told";
+import { quantityText, inDisplayUnits } from "../view/display_units";
 import type { RecoveryStep, StopState } from "../wire/messages";
 import { showPage } from "./pages";
 
@@ -65,7 +65,7 @@ function underWay(step: RecoveryStep): string {
 }
 
 function Step({ step, challenge }: { step: RecoveryStep; challenge?: number }) {
-  const why = step.done ? "" : underWay(step) || toldText(step.why);
+  const why = step.done ? "" : underWay(step) || inDisplayUnits(step.why);
   const standing = step.done ? "done" : step.possible ? "possible" : "waits";
   return (
     <li data-step={step.step} data-standing={standing}>
@@ -99,7 +99,7 @@ function Authority() {
 }
 
 function Since({ stop }: { stop: StopState }) {
-  if (typeof stop.since_ms !== "number") return <>before this base heard the car</>;
+  if (typeof stop.since_ms !== "number") return <>before this base received the car</>;
   return (
     <>
       {clockText(session.clock.utcMs(stop.since_ms))} UTC, <AgeSince sinceMs={stop.since_ms} /> ago
@@ -118,7 +118,7 @@ export function StopCard() {
       <div role="alert">
         <h2>
           {stop.level?.toUpperCase()}
-          {session.presence.value !== "here" && <small> as last heard</small>}
+          {session.presence.value !== "here" && <small> as last received</small>}
         </h2>
       </div>
       <dl>

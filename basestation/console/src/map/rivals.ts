@@ -37,7 +37,7 @@ export const closingText = (closing: number): string =>
   `${closing >= 0 ? "+" : ""}${speedText(closing)}`;
 
 export function seenText(rival: Rival): string {
-  if (rival.stale) return "not heard";
+  if (rival.stale) return "not received";
   return rival.coasts ? `seen ${fixed(rival.seenS, 1)} s ago` : "";
 }
 
@@ -168,7 +168,7 @@ export function drawList(
       mark: `car ${mate.number}`,
       gap: Number.isFinite(mate.gap) ? gapText(mate.gap) : "",
       speed: speedText(mate.speed),
-      seen: mate.stale ? "not heard" : "",
+      seen: mate.stale ? "not received" : "",
     });
   });
 }

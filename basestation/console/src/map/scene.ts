@@ -127,8 +127,8 @@ export function rivals(store: Fields, course: Course): Rival[] {
   return found;
 }
 
-/** The other cars of the base on the same track, as each of them told at the moment shown: by its
-    pose, or by its station where it has no pose. */
+/** The other cars of the base on the same track, at the moment shown: by the pose that each of them
+    reported, or by its station where it has no pose. */
 export function mates(course: Course): Mate[] {
   const here = valueOf(session.fields.value, "track.station").value;
   const localMs = performance.now();
@@ -136,20 +136,22 @@ export function mates(course: Course): Mate[] {
     if (car === session.shownCar.value || car.track.value?.name !== course.track.name) return [];
     const history = car.history.value;
     const at = history.find(shownMs());
-    const told = (path: string) => ({ ...history.read(car.fields.value.slot(path), at, scratch) });
-    const [x, y, station] = [told("ego.x"), told("ego.y"), told("track.station")];
+    const reading = (path: string) => ({
+      ...history.read(car.fields.value.slot(path), at, scratch),
+    });
+    const [x, y, station] = [reading("ego.x"), reading("ego.y"), reading("track.station")];
     const isPlaced = Number.isFinite(x.value + y.value);
     if (station.quality === Quality.never || !Number.isFinite(station.value)) return [];
     const silent = isLive.value && car.clock.isSilent(localMs);
     return [
       {
         ...(isPlaced
-          ? { x: x.value, y: y.value, yaw: told("ego.yaw").value || 0 }
-          : course.place(station.value, told("track.offset").value || 0)),
+          ? { x: x.value, y: y.value, yaw: reading("ego.yaw").value || 0 }
+          : course.place(station.value, reading("track.offset").value || 0)),
         number: car.number ?? 0,
         order: i + 1,
         gap: course.gap(here, station.value),
-        speed: told("ego.vx").value,
+        speed: reading("ego.vx").value,
         stale: silent || !car.connected.value || station.quality >= Quality.stale,
       },
     ];

@@ -105,8 +105,8 @@ function drawCars(
   pen.textAlign = "center";
   seen.forEach(({ rival, px, py }, i) => {
     const above = i % 2 === 0;
-    const said = seenText(rival) || closingText(rival.closing);
-    const caption = `#${rival.identity} ${gapText(rival.gap)} ${said}`;
+    const state = seenText(rival) || closingText(rival.closing);
+    const caption = `#${rival.identity} ${gapText(rival.gap)} ${state}`;
     const half = pen.measureText(caption).width / 2;
     const at = Math.min(Math.max(px, half), width - half);
     pen.textBaseline = above ? "bottom" : "top";

@@ -175,7 +175,7 @@ export class CarSession {
     }
     ++this.counters.frames;
     this.counters.dropped = head.dropped;
-    this.clock.heard(head.timeMs, localMs);
+    this.clock.received(head.timeMs, localMs);
     this.history.value.append(store, head.timeMs);
   }
 

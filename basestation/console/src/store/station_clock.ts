@@ -17,7 +17,7 @@ export class BaseClock {
   /** By the browser's clock; null: it goes on. */
   private standsSinceMs: number | null = null;
 
-  heard(baseMs: number, localMs: number): void {
+  received(baseMs: number, localMs: number): void {
     if (Math.abs(baseMs - this.lastBaseMs) > kSameMs) this.goesOn();
     this.lastBaseMs = baseMs;
     this.lastLocalMs = localMs;
@@ -25,7 +25,7 @@ export class BaseClock {
 
   /** The base answers, and for so long its time has stood. */
   stands(baseMs: number, stoodMs: number, localMs: number): void {
-    this.heard(baseMs, localMs);
+    this.received(baseMs, localMs);
     this.standsSinceMs = stoodMs > 0 ? localMs - stoodMs : null;
   }
 

@@ -18,7 +18,7 @@ export function AlarmMarks({ active }: { active: readonly Alarm[] }) {
           >
             <i class="mark" aria-hidden="true" />
             {count}
-            <span class="heard-only"> {priority} alarms</span>
+            <span class="sr-only"> {priority} alarms</span>
           </span>
         );
       })}

@@ -85,7 +85,7 @@ export function Value(props: ValueProps) {
       data-judgement="none"
     >
       <i class="mark" aria-hidden="true" />
-      <span class="heard-only" />
+      <span class="sr-only" />
       <span class="digits">{kDash}</span>
       <span class="unit">{unit}</span>
       <span class="age" />

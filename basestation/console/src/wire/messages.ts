@@ -200,7 +200,7 @@ export interface Notice {
   time_ms: number;
   text: string;
   evidence: string;
-  state: "draft" | "told" | "dismissed";
+  state: "draft" | "reported" | "dismissed";
   by?: string | null;
 }
 

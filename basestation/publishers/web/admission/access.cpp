@@ -60,11 +60,11 @@ bool admits_origin(const AccessRules& rules, const Visitor& visitor) {
 std::string_view text_of(Refused refused) {
   switch (refused) {
     case Refused::kHost:
-      return "this base is not called so: use its address, or start it with --web-name";
+      return "this base has another name: use its address, or start it with --web-name";
     case Refused::kOrigin:
       return "a page of another origin may not speak to this base";
     case Refused::kToken:
-      return "this base takes a token, and this is none of its own";
+      return "expected a token of this base";
   }
   return "?";
 }

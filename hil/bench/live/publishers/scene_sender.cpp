@@ -3,7 +3,7 @@
 
 #include <chrono>
 
-#include "hil/sensors/lidar/standing.hpp"
+#include "hil/sensors/lidar/body_motion.hpp"
 #include "protocol/ros/names.hpp"
 #include "protocol/transport/clock.hpp"
 
@@ -35,12 +35,13 @@ Result<SceneWriters, Problem> open_writers(const io::SensorFile& file,
 SceneMoment moment_of(const world::TrackMap& track, const plant::Truth& ours, double s_m,
                       std::span<const plant::CarPose> others, Instant begun, Instant at,
                       std::span<const faults::BenchFault> faults) {
-  SceneMoment moment{.ours = sensors::moving(ours),
+  SceneMoment moment{.ours = sensors::motion_of(ours),
                      .s_m = s_m,
                      .begun = begun,
                      .lidars = faults::lidar_fault(faults, at),
                      .cameras = faults::camera_fault(faults, at)};
-  for (const plant::CarPose& car : others) moment.others.push_back(sensors::standing(track, car));
+  for (const plant::CarPose& car : others)
+    moment.others.push_back(sensors::motion_on_road(track, car));
   return moment;
 }
 

@@ -37,9 +37,9 @@
 namespace pitwall::bench {
 
 struct SceneMoment {
-  sensors::Moving ours{};
+  sensors::BodyMotion ours{};
   double s_m = 0.0;  // our station
-  std::vector<sensors::Moving> others{};
+  std::vector<sensors::BodyMotion> others{};
   Instant begun{};  // of this process
   faults::LidarFault lidars{};
   faults::CameraFault cameras{};

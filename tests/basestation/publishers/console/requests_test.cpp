@@ -54,7 +54,8 @@ TEST(Requests, AreReadAsTheProtocolHasThem) {
   EXPECT_TRUE(send.overrides);
   EXPECT_EQ(send.reason, "dry");
   EXPECT_FALSE(parsed<AskSend>(R"({"type":"send","ticket":3,"override":null})").overrides);
-  EXPECT_TRUE(parsed<command::AnswerNotice>(R"({"type":"notice","id":1,"do":"told"})").reported);
+  EXPECT_TRUE(
+      parsed<command::AnswerNotice>(R"({"type":"notice","id":1,"do":"reported"})").reported);
   parsed<command::ReleaseStop>(R"({"type":"release_stop"})");
   const auto release =
       parsed<command::Recover>(R"({"type":"recover","step":"release","challenge":4711})");

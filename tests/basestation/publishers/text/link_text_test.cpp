@@ -31,8 +31,8 @@ TEST(LinkText, AgesAreShortOrLong) {
 TEST(LinkText, SaysWhatIsNotKnownYet) {
   RadioRig rig;
   EXPECT_TRUE(says(rig, "link      nothing received")) << text_of(rig);
-  EXPECT_TRUE(says(rig, "the car has told nothing"));
-  EXPECT_TRUE(says(rig, "latched by the car: not told   authority: nobody"));
+  EXPECT_TRUE(says(rig, "nothing received from the car"));
+  EXPECT_TRUE(says(rig, "latched by the car: not received   authority: nobody"));
 }
 
 TEST(LinkText, HasOnePathOrTwo) {

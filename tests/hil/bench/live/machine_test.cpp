@@ -7,6 +7,7 @@
 
 #include <filesystem>
 
+#include "hil/bench/live/virtual_machine.hpp"
 #include "protocol/transport/clock.hpp"
 #include "protocol/transport/file.hpp"
 

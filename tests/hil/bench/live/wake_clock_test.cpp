@@ -5,9 +5,9 @@
 
 #include <numeric>
 
+#include "hil/bench/live/virtual_machine.hpp"
 #include "protocol/transport/clock.hpp"
 #include "protocol/transport/file.hpp"
-#include "protocol/transport/virtual_machine.hpp"
 
 namespace pitwall::bench {
 namespace {
@@ -78,14 +78,14 @@ TEST(WakeClock, ByBenchTimeALateWakeUpCostsNone) {
 
 TEST(WakeClock, TellsWhatTheHostOfTheMachineTook) {
   WakeClock clock(kPeriod, 10 * kPeriod);
-  const auto before = transport::stolen_time();
+  const auto before = stolen_time();
   ASSERT_TRUE(before);
   clock.start();
   clock.sleep_until(Instant{} + kPeriod);
   clock.stop();
   const RealTime report = clock.report();
   EXPECT_GE(report.stolen_ms, 0.0);
-  EXPECT_LE(report.stolen_ms, (*transport::stolen_time() - *before).milliseconds());
+  EXPECT_LE(report.stolen_ms, (*stolen_time() - *before).milliseconds());
 }
 
 TEST(RealTime, ARunThatFellFarBehindItsClockIsNotTimely) {

@@ -65,7 +65,7 @@ const std::vector<std::string> kAcrossScenario{
     "until_s: 0 is outside [5",
 };
 const std::vector<std::string> kAcrossPlan{"the range is empty", "parameters: 3000000 cases",
-                                           "stands there twice"};
+                                           "is there twice"};
 
 // The words that a message lists after "is not one of", in either wording; empty: it does not.
 std::set<std::string> words_listed(const std::string& message) {

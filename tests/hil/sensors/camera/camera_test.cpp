@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "hil/sensors/lidar/body_motion.hpp"
 #include "hil/sensors/lidar/car_mesh.hpp"
 #include "hil/sensors/lidar/drawn_cars.hpp"
-#include "hil/sensors/lidar/standing.hpp"
 #include "tests/hil/traffic/oval_cars.hpp"
 
 namespace pitwall::sensors {
@@ -16,8 +16,9 @@ namespace {
 
 constexpr double kOurs_m = 100.0;  // on the straight
 
-Moving ours() {
-  return standing(traffic::oval(), traffic::pose_on_oval(kOurs_m, 0.0, 60.0), kOriginOverRoad_m);
+BodyMotion ours() {
+  return motion_on_road(traffic::oval(), traffic::pose_on_oval(kOurs_m, 0.0, 60.0),
+                        kOriginOverRoad_m);
 }
 
 // A camera that looks straight ahead.
@@ -29,7 +30,7 @@ CameraUnit ahead() {
 
 struct Shown {
   CameraImage image;
-  std::vector<Moving> cars;
+  std::vector<BodyMotion> cars;
 };
 
 Shown show(const CameraUnit& unit, const std::vector<plant::CarPose>& others, const Look& look,
@@ -38,7 +39,7 @@ Shown show(const CameraUnit& unit, const std::vector<plant::CarPose>& others, co
   Shown shown;
   for (const plant::CarPose& other : others) {
     const std::size_t car = scene.add_car(car_meshes(av21_shape()));
-    shown.cars.push_back(standing(traffic::oval(), other));
+    shown.cars.push_back(motion_on_road(traffic::oval(), other));
     scene.place(car, rotation(shown.cars.back().attitude), shown.cars.back().at_m);
   }
   scene.commit();

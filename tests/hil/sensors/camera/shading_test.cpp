@@ -49,7 +49,7 @@ TEST(Shading, ACarHasItsPaintOnBothSidesOfItsPlane) {
   Look look = daylight();
   look.paints = {{.first = {1, 0, 0}, .second = {0, 0, 1}, .across = {1, 0, 0}, .apart_m = 0.5}};
   // Turned by half a turn: what lies ahead of it in Map is its rear.
-  const std::vector<Moving> cars{
+  const std::vector<BodyMotion> cars{
       {.at_m = {100.0, 50.0, 0.0}, .attitude = {.yaw_rad = std::numbers::pi}}};
   const Shading shading{look, cars};
   const Meeting met{.range_m = 10.0, .car = 0, .normal = {0.0, 0.0, 1.0}};

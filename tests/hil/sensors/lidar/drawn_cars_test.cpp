@@ -20,7 +20,7 @@ TEST(DrawnCars, LieOnTheTrackWithinSight) {
   for (std::uint64_t seed = 0; seed < 100; ++seed) {
     const DrawnCars cars = drawn(seed);
     ASSERT_LE(cars.others.size(), kSceneCarsMost);
-    for (const Moving& car : cars.others) {
+    for (const BodyMotion& car : cars.others) {
       const world::Curvilinear at = traffic::oval().project(car.at_m[0], car.at_m[1]);
       EXPECT_LT(std::abs(at.n_m), traffic::kWall_m - 1.2);
       const double ahead_m = std::remainder(at.s_m - cars.ours.s_m, traffic::oval().length_m());
@@ -35,7 +35,7 @@ TEST(DrawnCars, LieOnTheTrackWithinSight) {
 TEST(DrawnCars, ThoseThatHaveSpunAreAtRest) {
   std::size_t spun = 0, all = 0;
   for (std::uint64_t seed = 0; seed < 60; ++seed)
-    for (const Moving& car : drawn(seed, 0.5).others) {
+    for (const BodyMotion& car : drawn(seed, 0.5).others) {
       ++all;
       spun += dot(car.velocity_mps, car.velocity_mps) == 0.0;
     }
@@ -62,7 +62,7 @@ TEST(DrawnCars, OurSpringsMoveLittle) {
   double squares_rad2 = 0.0;
   for (std::uint64_t seed = 0; seed < 400; ++seed) {
     Noise noise{seed, 3};
-    const Moving body = sprung_body(traffic::oval(), {100.0, 0.0, 50.0, 0.0}, noise);
+    const BodyMotion body = sprung_body(traffic::oval(), {100.0, 0.0, 50.0, 0.0}, noise);
     squares_rad2 += body.attitude.pitch_rad * body.attitude.pitch_rad;
   }
   EXPECT_NEAR(std::sqrt(squares_rad2 / 400.0), from_deg(0.4), from_deg(0.05));

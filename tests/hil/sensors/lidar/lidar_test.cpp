@@ -31,8 +31,9 @@ LidarUnit exact() {
   return unit;
 }
 
-std::vector<LidarReturn> sweep_of(const LidarUnit& unit, const Mesh& still, const Moving& ours = {},
-                                  std::span<const DustCloud> dust = {}, std::uint64_t seed = 1) {
+std::vector<LidarReturn> sweep_of(const LidarUnit& unit, const Mesh& still,
+                                  const BodyMotion& ours = {}, std::span<const DustCloud> dust = {},
+                                  std::uint64_t seed = 1) {
   RayScene scene{{&still, 1}};
   Noise noise{seed, 0};
   return lidar_sweep(unit, scene, {ours, {}, dust}, noise);
@@ -61,7 +62,7 @@ TEST(Lidar, LooksInItsPattern) {
 
 TEST(Lidar, AReturnIsWhereTheSensorWasAtItsTime) {
   // Towards the wall at 50 m/s: the last ring is met 2.5 m nearer than the first.
-  const Moving ours{.at_m = {0.0, 0.0, 0.0}, .attitude = {}, .velocity_mps = {50.0, 0.0, 0.0}};
+  const BodyMotion ours{.at_m = {0.0, 0.0, 0.0}, .attitude = {}, .velocity_mps = {50.0, 0.0, 0.0}};
   for (const LidarReturn& back : sweep_of(exact(), wall_at(kWallAhead_m, 0.5F), ours))
     EXPECT_NEAR(back.x_m, kWallAhead_m - 50.0 * static_cast<double>(back.after_s), 1e-3);
 }
@@ -121,7 +122,7 @@ TEST(Lidar, SaysWhichCarSentTheLightBack) {
   RayScene scene{{&far, 1}};
   const Mesh board = wall_at(0.0, 0.5F);
   scene.add_car({&board, 1});
-  const Moving car{.at_m = {20.0, 0.0, 0.0}, .attitude = {}, .velocity_mps = {-10.0, 0.0, 0.0}};
+  const BodyMotion car{.at_m = {20.0, 0.0, 0.0}, .attitude = {}, .velocity_mps = {-10.0, 0.0, 0.0}};
   Noise noise{1, 0};
   for (const LidarReturn& back : lidar_sweep(exact(), scene, {{}, {&car, 1}, {}}, noise)) {
     EXPECT_EQ(back.car, 0);

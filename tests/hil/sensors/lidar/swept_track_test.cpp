@@ -7,8 +7,8 @@
 #include <map>
 #include <vector>
 
+#include "hil/sensors/lidar/body_motion.hpp"
 #include "hil/sensors/lidar/car_mesh.hpp"
-#include "hil/sensors/lidar/standing.hpp"
 #include "hil/sensors/lidar/track_mesh.hpp"
 #include "tests/hil/traffic/oval_cars.hpp"
 
@@ -32,21 +32,21 @@ const SweptTrack& swept() {
   return made;
 }
 
-Moving body_at(double s_m, double n_m, double origin_m, double turned_rad = 0.0) {
+BodyMotion body_at(double s_m, double n_m, double origin_m, double turned_rad = 0.0) {
   plant::CarPose pose = traffic::pose_on_oval(s_m, n_m, 60.0);
   pose.yaw_rad += turned_rad;
-  return standing(traffic::oval(), pose, origin_m);
+  return motion_on_road(traffic::oval(), pose, origin_m);
 }
 
 std::vector<LidarReturn> sweep_at(double s_m, double n_m, double turned_rad,
-                                  const std::vector<Moving>& others) {
+                                  const std::vector<BodyMotion>& others) {
   Noise noise{3, 0};
   return swept().sweep(0, body_at(s_m, n_m, kOrigin_m, turned_rad), s_m, others, noise);
 }
 
 // Between two of the places, in another lane, at an angle to the road and at speed.
 TEST(SweptTrack, WhatStandsStillIsWhereItStands) {
-  const Moving ours = body_at(112.0, -2.0, kOrigin_m, 0.03);
+  const BodyMotion ours = body_at(112.0, -2.0, kOrigin_m, 0.03);
   std::size_t on_road = 0, on_walls = 0;
   for (const LidarReturn& back : sweep_at(112.0, -2.0, 0.03, {})) {
     const SensorFrame pose = frame_of(coarse().mount, after(ours, back.after_s));
@@ -66,8 +66,8 @@ TEST(SweptTrack, WhatStandsStillIsWhereItStands) {
 
 // As if all were shot anew.
 TEST(SweptTrack, CarsSendBackAsManyRaysAsInAWholeSweepAndHideWhatIsBehind) {
-  const std::vector<Moving> others{body_at(127.0, -3.0, 0.0), body_at(150.0, 1.5, 0.0),
-                                   body_at(118.0, 3.0, 0.0)};
+  const std::vector<BodyMotion> others{body_at(127.0, -3.0, 0.0), body_at(150.0, 1.5, 0.0),
+                                       body_at(118.0, 3.0, 0.0)};
   RayScene whole{track_meshes(traffic::oval())};
   for (std::size_t i = 0; i < others.size(); ++i) whole.add_car(car_meshes(av21_shape()));
   Noise noise{3, 0};

@@ -24,9 +24,21 @@ TEST(SerialPort, HasTheRateThatWasAskedForAndNoManners) {
   EXPECT_EQ(settings.c_iflag & (IXON | IXOFF | ICRNL | ISTRIP), 0U);
 }
 
+TEST(SerialDevice, IsReadFromItsText) {
+  EXPECT_EQ(parse_serial_device("/dev/ttyS0").value_or({}),
+            (SerialDevice{"/dev/ttyS0", kReceiverBaud}));
+  EXPECT_EQ(parse_serial_device("/dev/ttyS0:9600").value_or({}),
+            (SerialDevice{"/dev/ttyS0", 9'600}));
+  for (const char* text : {"", "ttyS0", "ttyS0:9600", "/dev/ttyS0:", "/dev/ttyS0:fast",
+                           "/dev/ttyS0:9600x", "/dev/ttyS0:12345", "/dev/ttyS0:99999999999"}) {
+    const auto refused = parse_serial_device(text);
+    ASSERT_FALSE(refused) << text;
+    EXPECT_EQ(refused.error().place, text);
+  }
+}
+
 TEST(SerialPort, NamesWhatIsWrong) {
   const Pty pty;
-  EXPECT_FALSE(is_serial_rate(12'345));
   const auto odd = open_serial(pty.path(), 12'345);
   ASSERT_FALSE(odd);
   EXPECT_NE(to_string(odd.error()).find("12345"), std::string::npos);

@@ -11,7 +11,7 @@ import { AgeSince } from "../../view/age_since";
 import { inOrder, needsEyes } from "../../view/alarm_order";
 import { clockText } from "../../view/format";
 import { TableHead } from "../../view/table_head";
-import { toldText } from "../../view/told";
+import { inDisplayUnits } from "../../view/display_units";
 import type { Alarm } from "../../wire/messages";
 import { SettingsPanel } from "./settings";
 
@@ -42,7 +42,7 @@ function ActiveRow({ alarm }: { alarm: Alarm }) {
       <span class="priority">{alarm.priority}</span>
       <span class="text">
         {alarm.first_up && <b class="first-up">first</b>}
-        {toldText(alarm.text)}
+        {inDisplayUnits(alarm.text)}
         {alarm.count > 1 && <b> &times;{alarm.count}</b>}
       </span>
       <span class="state">{kStates[alarm.state] ?? alarm.state}</span>
@@ -88,7 +88,7 @@ function Quiet({
       <ul class="quiet">
         {alarms.map((alarm) => (
           <li key={alarm.id}>
-            <span class="text">{toldText(alarm.text)}</span>
+            <span class="text">{inDisplayUnits(alarm.text)}</span>
             <span class="reason">
               {alarm.reason ?? ""}
               {alarm.by ? ` (${alarm.by})` : ""}
@@ -142,7 +142,7 @@ export function AlarmsPage() {
       <section class="panel grows" aria-label="active alarms" tabIndex={0}>
         <h2>
           Active <span class="sum">{active.length}</span>
-          {session.presence.value !== "here" && <b>as last heard</b>}
+          {session.presence.value !== "here" && <b>as last received</b>}
           <span class="kpi" data-over={rate > kRateWanted}>
             {rate} in 10 min, wanted 1
           </span>

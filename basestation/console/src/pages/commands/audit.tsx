@@ -6,7 +6,7 @@ import * as session from "../../store/session";
 import { clockText } from "../../view/format";
 import { saveTsv, tsvText } from "../../view/save_lines";
 import { TableHead } from "../../view/table_head";
-import { toldText } from "../../view/told";
+import { inDisplayUnits } from "../../view/display_units";
 
 const kShown = 100;
 
@@ -37,8 +37,8 @@ export function AuditPanel() {
             <tr key={`${line.time_ms} ${i}`}>
               <td>{clockText(session.clock.utcMs(line.time_ms))}</td>
               <th scope="row">{line.who}</th>
-              <td>{toldText(line.what)}</td>
-              <td>{toldText(line.result)}</td>
+              <td>{inDisplayUnits(line.what)}</td>
+              <td>{inDisplayUnits(line.result)}</td>
             </tr>
           ))}
         </tbody>

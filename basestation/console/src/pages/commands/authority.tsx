@@ -6,10 +6,10 @@
 import * as session from "../../store/session";
 import { isHolder, isOperator, send } from "../../store/uplink";
 
-type Deed = "take" | "drop" | "request" | "grant" | "refuse";
+type Action = "take" | "drop" | "request" | "grant" | "refuse";
 
-const act = (deed: Deed, to?: number) =>
-  send({ type: "authority", do: deed, ...(to ? { to } : {}) });
+const act = (action: Action, to?: number) =>
+  send({ type: "authority", do: action, ...(to ? { to } : {}) });
 
 export function AuthorityPanel() {
   const authority = session.authority.value;

@@ -4,7 +4,7 @@
  */
 // SPDX-License-Identifier: Apache-2.0
 import * as session from "../../store/session";
-import { toldText } from "../../view/told";
+import { inDisplayUnits } from "../../view/display_units";
 import type { CommandStep } from "../../wire/messages";
 import { argumentText, isFallen, kClimb, rung } from "./steps";
 
@@ -46,7 +46,7 @@ export function LadderPanel() {
             </span>
             <span class="by">{step.by}</span>
             <Rungs step={step} />
-            {step.text && <span class="text">{toldText(step.text)}</span>}
+            {step.text && <span class="text">{inDisplayUnits(step.text)}</span>}
           </li>
         ))}
       </ul>

@@ -7,7 +7,7 @@ import * as session from "../../store/session";
 import { AuditPanel } from "./audit";
 import { AuthorityPanel } from "./authority";
 import { LadderPanel } from "./ladder";
-import { SaidPanel } from "./said";
+import { ExpectedPanel } from "./expected";
 import { StagePanel } from "./stage";
 
 export function CommandsPage() {
@@ -28,7 +28,7 @@ export function CommandsPage() {
       <div class="column">
         <AuthorityPanel />
         <StagePanel />
-        <SaidPanel />
+        <ExpectedPanel />
       </div>
       <div class="column">
         <LadderPanel />

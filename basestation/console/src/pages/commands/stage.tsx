@@ -10,7 +10,7 @@ import { isHolder, send } from "../../store/uplink";
 import { ageText } from "../../view/format";
 import { HoldButton } from "../../view/hold_button";
 import { speedUnit } from "../../view/speed_unit";
-import { quantityText, toldText } from "../../view/told";
+import { quantityText, inDisplayUnits } from "../../view/display_units";
 import type { CommandInfo, CommandStep, Gate } from "../../wire/messages";
 import { Argument, isSet } from "./argument";
 import { argumentText, isPending } from "./steps";
@@ -32,7 +32,7 @@ function GateRow({ gate }: { gate: Gate }) {
       <span class="name">{gate.name}</span>
       <span class="number">{gateValueText(gate)}</span>
       <span class="age">{typeof gate.age_ms === "number" ? ageText(gate.age_ms) : ""}</span>
-      <span class="text">{toldText(gate.text)}</span>
+      <span class="text">{inDisplayUnits(gate.text)}</span>
     </li>
   );
 }

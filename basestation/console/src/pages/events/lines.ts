@@ -75,13 +75,13 @@ export function filterLines(
   lines: readonly EventLine[],
   shown: ReadonlySet<Source>,
   query: string,
-  told: (text: string) => string,
+  inUnits: (text: string) => string,
 ): EventLine[] {
   const words = query.toLowerCase().split(/\s+/).filter(Boolean);
   return lines.filter((line) => {
     if (!shown.has(line.source)) return false;
     if (words.length === 0) return true;
-    const text = `${line.source} ${told(line.kind)} ${told(line.what)}`.toLowerCase();
+    const text = `${line.source} ${inUnits(line.kind)} ${inUnits(line.what)}`.toLowerCase();
     return words.every((word) => text.includes(word));
   });
 }

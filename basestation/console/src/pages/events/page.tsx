@@ -11,7 +11,7 @@ import { clockText } from "../../view/format";
 import { useRowsInSight } from "../../view/rows_in_sight";
 import { saveTsv, tsvText } from "../../view/save_lines";
 import { speedUnit } from "../../view/speed_unit";
-import { toldText } from "../../view/told";
+import { inDisplayUnits } from "../../view/display_units";
 import { eventLines, filterLines, kSources } from "./lines";
 import type { EventLine, Source } from "./lines";
 import "./events.css";
@@ -19,11 +19,11 @@ import "./events.css";
 const kRowPx = 32;
 const kColumns = ["UTC", "source", "kind", "what"];
 
-/** What each alarm is called: as its settings say, else as it was last heard, else its key. */
+/** What each alarm is called: as its settings say, else as it was last received, else its key. */
 const alarmTexts = computed(() => {
   const alarms = session.alarms.value;
-  const heard = alarms ? [...alarms.active, ...alarms.shelved, ...alarms.suppressed] : [];
-  const texts = [...heard, ...(session.settings.value?.alarms ?? [])];
+  const known = alarms ? [...alarms.active, ...alarms.shelved, ...alarms.suppressed] : [];
+  const texts = [...known, ...(session.settings.value?.alarms ?? [])];
   return new Map(texts.map(({ key, text }) => [key, text]));
 });
 
@@ -62,10 +62,10 @@ function EventRow({ line, row }: { line: EventLine; row: number }) {
       <span role="cell">{clockText(session.clock.utcMs(line.timeMs), 1)}</span>
       <span role="cell">{line.source}</span>
       <span role="cell" class="kind">
-        {toldText(line.kind)}
+        {inDisplayUnits(line.kind)}
       </span>
-      <span role="cell" class="what" title={toldText(line.what)}>
-        {toldText(line.what)}
+      <span role="cell" class="what" title={inDisplayUnits(line.what)}>
+        {inDisplayUnits(line.what)}
       </span>
     </div>
   );
@@ -135,7 +135,10 @@ export function EventsPage() {
   const [shown, setShown] = useState<ReadonlySet<Source>>(new Set(kSources));
   const all = allLines.value;
   const unit = speedUnit.value;
-  const lines = useMemo(() => filterLines(all, shown, query, toldText), [all, shown, query, unit]);
+  const lines = useMemo(
+    () => filterLines(all, shown, query, inDisplayUnits),
+    [all, shown, query, unit],
+  );
   const toggle = (source: Source) =>
     setShown(new Set(kSources.filter((each) => shown.has(each) !== (each === source))));
   return (

@@ -125,7 +125,7 @@ export function ChooserPanel() {
           </li>
         ))}
       </ul>
-      {all.length === 0 && <p class="empty">No scenario has been told.</p>}
+      {all.length === 0 && <p class="empty">No scenario received yet.</p>}
       {scenario && <Details scenario={scenario} />}
     </section>
   );

@@ -52,6 +52,6 @@ export function axisOf(durationS: number, most = 8): number[] {
   return marks;
 }
 
-/** What really happened besides the plan: modes, laps, deeds to processes. */
+/** What really happened besides the plan: modes, laps, actions on processes. */
 export const happened = (events: readonly BenchEvent[]): BenchEvent[] =>
   events.filter((event) => !["fault_begins", "fault_ends", "operator"].includes(event.kind));

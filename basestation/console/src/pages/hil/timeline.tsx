@@ -14,7 +14,7 @@ export function TimelinePanel(props: {
 }) {
   const { plan, nowS, events } = props;
   const at = (s: number) => `${percent(s, plan.duration_s).toFixed(2)}%`;
-  const told = happened(events);
+  const occurred = happened(events);
   return (
     <section class="panel run-timeline" aria-label="timeline" tabIndex={0}>
       <h2>
@@ -34,7 +34,7 @@ export function TimelinePanel(props: {
             <li data-kind={lane.kind} data-progress={progressOf(lane, nowS)} key={i}>
               <span class="what">
                 {lane.kind} {lane.what}
-                <span class="heard-only">
+                <span class="sr-only">
                   , from {lane.from} to {lane.to} s, {progressOf(lane, nowS)}
                 </span>
               </span>
@@ -48,12 +48,12 @@ export function TimelinePanel(props: {
             </li>
           );
         })}
-        <li data-kind="told">
-          <span class="what">what the run told</span>
+        <li data-kind="events">
+          <span class="what">events of the run</span>
           <span class="track">
-            {told.map((event, i) => (
+            {occurred.map((event, i) => (
               <i
-                class="told"
+                class="event"
                 data-event={event.kind}
                 style={{ left: at(event.t_s) }}
                 title={`${event.t_s.toFixed(2)} s ${event.kind} ${event.text}`}
@@ -64,7 +64,7 @@ export function TimelinePanel(props: {
           </span>
         </li>
       </ol>
-      <ul class="told-list" aria-label="newest events">
+      <ul class="event-list" aria-label="newest events">
         {[...events]
           .slice(-6)
           .reverse()

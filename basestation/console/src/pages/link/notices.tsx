@@ -1,16 +1,16 @@
 /**
  * Messages for race control: the base drafts them with their evidence, a person reads them out or
- * copies them, and says that race control was told. The base itself sends nothing to race control.
+ * copies them, and says that race control has them. The base itself sends nothing to race control.
  */
 // SPDX-License-Identifier: Apache-2.0
 import { useState } from "preact/hooks";
 import * as session from "../../store/session";
 import { isOperator, send } from "../../store/uplink";
 import { clockText } from "../../view/format";
-import { toldText } from "../../view/told";
+import { inDisplayUnits } from "../../view/display_units";
 import type { Notice } from "../../wire/messages";
 
-const kFates = { draft: "to be told", told: "told", dismissed: "not needed" } as const;
+const kFates = { draft: "to be reported", reported: "reported", dismissed: "not needed" } as const;
 
 /** Clipboards may be refused, and exist only where the page came by TLS or from this machine. */
 async function copy(text: string): Promise<boolean> {
@@ -24,15 +24,16 @@ async function copy(text: string): Promise<boolean> {
 
 function Draft({ notice }: { notice: Notice }) {
   const [copied, setCopied] = useState("");
-  const answer = (what: "told" | "dismiss") => send({ type: "notice", id: notice.id, do: what });
-  const text = `${toldText(notice.text)} (${toldText(notice.evidence)})`;
+  const answer = (what: "reported" | "dismiss") =>
+    send({ type: "notice", id: notice.id, do: what });
+  const text = `${inDisplayUnits(notice.text)} (${inDisplayUnits(notice.evidence)})`;
   return (
     <article class="notice" data-state="draft">
       <h3>
         Read out to race control <small>radio {notice.kind}</small>
       </h3>
-      <p class="read-out">{toldText(notice.text)}</p>
-      <p class="evidence">{toldText(notice.evidence)}</p>
+      <p class="read-out">{inDisplayUnits(notice.text)}</p>
+      <p class="evidence">{inDisplayUnits(notice.evidence)}</p>
       <div class="tools">
         <button
           type="button"
@@ -44,8 +45,8 @@ function Draft({ notice }: { notice: Notice }) {
         </button>
         {isOperator.value && (
           <>
-            <button type="button" onClick={() => answer("told")}>
-              Race control was told
+            <button type="button" onClick={() => answer("reported")}>
+              Reported to race control
             </button>
             <button type="button" onClick={() => answer("dismiss")}>
               Not needed
@@ -77,7 +78,7 @@ export function Notices() {
       {drafts.map((notice) => (
         <Draft notice={notice} key={notice.id} />
       ))}
-      {notices.length === 0 && <p class="empty">Nothing to tell.</p>}
+      {notices.length === 0 && <p class="empty">No notices.</p>}
       <ul class="settled">
         {settled.map((notice) => (
           <Settled notice={notice} key={notice.id} />

@@ -67,7 +67,7 @@ function Paths() {
           ))}
         </tbody>
       </table>
-      {paths.length === 0 && <p class="empty">Nothing heard of the link yet.</p>}
+      {paths.length === 0 && <p class="empty">Nothing received of the link yet.</p>}
     </section>
   );
 }

@@ -7,9 +7,9 @@ import type { FieldInfo } from "../../wire/messages";
 
 /** By the planner's label; one that is not here is shown as the car names it. */
 const kReasons: Record<string, string> = {
-  "-": "not said",
+  "-": "not known",
   "no position": "car does not know its position",
-  "no race control": "no race control heard",
+  "no race control": "nothing received from race control",
   "no flag": "no flag shown",
   "unknown flag": "flag not understood",
   red: "red flag",

@@ -5,7 +5,7 @@
 // SPDX-License-Identifier: Apache-2.0
 import { useState } from "preact/hooks";
 import * as session from "../../store/session";
-import { toldText } from "../../view/told";
+import { inDisplayUnits } from "../../view/display_units";
 import { ageText } from "../../view/format";
 import { kDigitsHz, usePainter } from "../../view/painting";
 import { isSilent, liveMs } from "../../view/timeline";
@@ -22,7 +22,7 @@ function CheckRow({ check, old, sinceMs }: { check: Check; old: boolean; sinceMs
       <i class="mark" aria-hidden="true" />
       <b class="verdict">{kWords[verdict]}</b>
       <span class="name">{check.name}</span>
-      <span class="text">{toldText(check.text)}</span>
+      <span class="text">{inDisplayUnits(check.text)}</span>
       <span class="age">{ageText(check.age_ms + sinceMs)}</span>
     </li>
   );

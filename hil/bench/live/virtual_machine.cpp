@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "protocol/transport/virtual_machine.hpp"
+#include "hil/bench/live/virtual_machine.hpp"
 
 #include <fcntl.h>
 #include <sched.h>
@@ -12,11 +12,12 @@
 #include <csignal>
 #include <cstddef>
 #include <cstdint>
+#include <string>
 
 #include "protocol/transport/file.hpp"
 #include "protocol/transport/posix_call.hpp"
 
-namespace pitwall::transport {
+namespace pitwall::bench {
 namespace {
 
 constexpr int kStolenColumn = 8;  // after "cpu": user nice system idle iowait irq softirq steal
@@ -39,6 +40,8 @@ std::string_view take_word(std::string_view& line) {
   return word;
 }
 
+std::string cpuinfo() { return transport::read_file("/proc/cpuinfo").value_or(""); }
+
 // A child of a process with threads may only call what a signal handler may: no memory, no locks.
 [[noreturn]] void turn_round(std::size_t processor, pid_t parent) {
   cpu_set_t one;
@@ -59,18 +62,21 @@ std::string_view take_word(std::string_view& line) {
 
 }  // namespace
 
+bool is_guest(std::string_view cpuinfo) {
+  return cpuinfo.find("User Mode Linux") != std::string_view::npos;
+}
+
+bool is_guest() { return is_guest(cpuinfo()); }
+
 bool is_virtual_machine(std::string_view cpuinfo) {
-  if (cpuinfo.find("User Mode Linux") != std::string_view::npos) return false;
+  if (is_guest(cpuinfo)) return false;
   std::string_view flags = line_of(cpuinfo, "flags");
   for (std::string_view word = take_word(flags); !word.empty(); word = take_word(flags))
     if (word == "hypervisor") return true;
   return false;
 }
 
-bool is_virtual_machine() {
-  const auto text = read_file("/proc/cpuinfo");
-  return text && is_virtual_machine(*text);
-}
+bool is_virtual_machine() { return is_virtual_machine(cpuinfo()); }
 
 std::optional<Duration> stolen_time(std::string_view stat) {
   std::string_view line = line_of(stat, "cpu ");
@@ -83,17 +89,19 @@ std::optional<Duration> stolen_time(std::string_view stat) {
 }
 
 std::optional<Duration> stolen_time() {
-  const auto text = read_file("/proc/stat");
+  const auto text = transport::read_file("/proc/stat");
   return text ? stolen_time(*text) : std::nullopt;
 }
 
 KeepAwake::KeepAwake(bool needed) {
   cpu_set_t ours;
-  if (!needed || !posix_call([&] { return sched_getaffinity(0, sizeof ours, &ours); }).ok()) return;
+  if (!needed ||
+      !transport::posix_call([&] { return sched_getaffinity(0, sizeof ours, &ours); }).ok())
+    return;
   const pid_t parent = getpid();
   for (std::size_t processor = 0; processor < CPU_SETSIZE; ++processor) {
     if (!CPU_ISSET(processor, &ours)) continue;
-    const auto child = posix_call([] { return fork(); });
+    const auto child = transport::posix_call([] { return fork(); });
     if (child.ok() && child.value == 0) turn_round(processor, parent);
     if (child.ok()) processes_.push_back(static_cast<pid_t>(child.value));
   }
@@ -101,9 +109,9 @@ KeepAwake::KeepAwake(bool needed) {
 
 KeepAwake::~KeepAwake() {
   for (const pid_t process : processes_) {
-    static_cast<void>(posix_call([&] { return kill(process, SIGKILL); }));
-    static_cast<void>(posix_call([&] { return waitpid(process, nullptr, 0); }));
+    static_cast<void>(transport::posix_call([&] { return kill(process, SIGKILL); }));
+    static_cast<void>(transport::posix_call([&] { return waitpid(process, nullptr, 0); }));
   }
 }
 
-}  // namespace pitwall::transport
+}  // namespace pitwall::bench

@@ -9,7 +9,7 @@ import { speedUnit } from "./speed_unit";
 
 const kQuantity = /([+\u2212-]?)(\d+(?:\.(\d+))?) (m\/s|degC)(?![\^\u00b2/\w])/g;
 
-export function toldText(text: string): string {
+export function inDisplayUnits(text: string): string {
   return text.replace(kQuantity, (_, sign: string, digits: string, decimals = "", unit: string) => {
     const signed = sign.replace("-", "\u2212");
     if (unit !== "m/s") return `${signed}${digits} ${unitText(unit)}`;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "protocol/transport/virtual_machine.hpp"
+#include "hil/bench/live/virtual_machine.hpp"
 
 #include <gtest/gtest.h>
 #include <sched.h>
@@ -9,12 +9,13 @@
 #include <array>
 #include <csignal>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "protocol/transport/file.hpp"
 #include "tests/support/comes_true.hpp"
 
-namespace pitwall::transport {
+namespace pitwall::bench {
 namespace {
 
 TEST(VirtualMachine, IsWhatTheProcessorSaysItIs) {
@@ -22,8 +23,15 @@ TEST(VirtualMachine, IsWhatTheProcessorSaysItIs) {
   EXPECT_TRUE(is_virtual_machine("flags : hypervisor"));
   EXPECT_FALSE(is_virtual_machine("flags\t\t: fpu vme lahf_lm\nbugs : hypervisor\n"));
   EXPECT_FALSE(is_virtual_machine("flags\t\t: hypervisor_guest\n"));
-  EXPECT_FALSE(is_virtual_machine("vendor_id : User Mode Linux\nflags : fpu hypervisor\n"));
   EXPECT_FALSE(is_virtual_machine(""));
+}
+
+TEST(VirtualMachine, AGuestOfTheBenchIsNone) {
+  constexpr std::string_view kGuest = "vendor_id : User Mode Linux\nflags : fpu hypervisor\n";
+  EXPECT_TRUE(is_guest(kGuest));
+  EXPECT_FALSE(is_virtual_machine(kGuest));
+  EXPECT_FALSE(is_guest("vendor_id : GenuineIntel\nflags : fpu hypervisor\n"));
+  EXPECT_FALSE(is_guest(""));
 }
 
 TEST(VirtualMachine, StolenTimeIsTheEighthNumberOfAllProcessors) {
@@ -46,7 +54,7 @@ bool exists(pid_t process) { return kill(process, 0) == 0; }
 
 // Idle, and with the least share among sessions where the kernel has shares of sessions.
 bool gives_way(pid_t process) {
-  const auto share = read_file("/proc/" + std::to_string(process) + "/autogroup");
+  const auto share = transport::read_file("/proc/" + std::to_string(process) + "/autogroup");
   return sched_getscheduler(process) == SCHED_IDLE &&
          (!share || share->empty() || share->find("nice 19") != std::string::npos);
 }
@@ -84,12 +92,12 @@ TEST(KeepAwake, EndsWithAnOwnerThatIsKilled) {
     while (true) pause();
   }
   pid_t process = 0;
-  ASSERT_EQ(read(pipe_ends[0], &process, sizeof process), static_cast<ssize_t>(sizeof process));
+  ASSERT_EQ(::read(pipe_ends[0], &process, sizeof process), static_cast<ssize_t>(sizeof process));
   EXPECT_TRUE(testing::comes_true([&] { return gives_way(process); }));
   ASSERT_EQ(kill(owner, SIGKILL), 0);
   ASSERT_EQ(waitpid(owner, nullptr, 0), owner);
   const auto is_gone = [&] {  // or a corpse that nobody has buried yet
-    const auto stat = read_file("/proc/" + std::to_string(process) + "/stat");
+    const auto stat = transport::read_file("/proc/" + std::to_string(process) + "/stat");
     return !stat || stat->find(") Z ") != std::string::npos;
   };
   EXPECT_TRUE(testing::comes_true(is_gone));
@@ -102,4 +110,4 @@ TEST(KeepAwake, NothingWhereItIsNotNeeded) {
 }
 
 }  // namespace
-}  // namespace pitwall::transport
+}  // namespace pitwall::bench

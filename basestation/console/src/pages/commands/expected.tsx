@@ -13,14 +13,14 @@ import { speedUnit } from "../../view/speed_unit";
 const kMostLitres = 200;
 const kMostMps = 120;
 
-export function SaidPanel() {
-  const said = session.expected.value;
+export function ExpectedPanel() {
+  const expected = session.expected.value;
   const [speed, setSpeed] = useState("");
   const [litres, setLitres] = useState("");
   const { perMps, name } = speedUnit.value;
-  const round = said?.round_speed_mps;
-  const fuel = said?.fuel_loaded_l;
-  const fuelAt = clockText(session.clock.utcMs(said?.fuel_ms ?? NaN));
+  const round = expected?.round_speed_mps;
+  const fuel = expected?.fuel_loaded_l;
+  const fuelAt = clockText(session.clock.utcMs(expected?.fuel_ms ?? NaN));
   return (
     <section class="panel" aria-label="what we know" tabIndex={0}>
       <h2>What we know</h2>
@@ -28,17 +28,19 @@ export function SaidPanel() {
         Round speed announced:{" "}
         <b>
           {typeof round === "number"
-            ? `${fixed(round * perMps, 0)} ${name} (${said?.round_speed_by})`
+            ? `${fixed(round * perMps, 0)} ${name} (${expected?.round_speed_by})`
             : kDash}
         </b>
         <br />
         Fuel filled in:{" "}
         <b>
-          {typeof fuel === "number" ? `${fixed(fuel, 1)} l at ${fuelAt} (${said?.fuel_by})` : kDash}
+          {typeof fuel === "number"
+            ? `${fixed(fuel, 1)} l at ${fuelAt} (${expected?.fuel_by})`
+            : kDash}
         </b>
       </p>
       {isHolder.value && (
-        <div class="said">
+        <div class="expected-entries">
           <form
             class="entry"
             onSubmit={(e) => {

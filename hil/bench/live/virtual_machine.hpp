@@ -1,6 +1,7 @@
 // Detection of a virtual machine, its steal time, and idle load that keeps its processors awake.
 //   in     /proc/cpuinfo (processors) and /proc/stat (their times)
-//   out    whether the machine is a virtual one; the time that its host took from it; KeepAwake
+//   out    whether the machine is a guest of the bench, or another virtual one; the time that its
+//          host took from it; KeepAwake
 //   invariants
 //          A host schedules the processors of its guests in turn. A processor that sleeps waits for
 //          its turn at each wake-up, some milliseconds on a busy host, a hundred times per second;
@@ -20,9 +21,13 @@
 
 #include "protocol/vocabulary/time.hpp"
 
-namespace pitwall::transport {
+namespace pitwall::bench {
 
-// False for a User-mode Linux: its processor is a process of the host and sleeps as such.
+// True in User-mode Linux, which the bench starts as its guest.
+bool is_guest(std::string_view cpuinfo);
+bool is_guest();
+
+// False in a guest of the bench: its processor is a process of the host and sleeps as such.
 bool is_virtual_machine(std::string_view cpuinfo);
 bool is_virtual_machine();
 
@@ -48,4 +53,4 @@ class KeepAwake {
   std::vector<pid_t> processes_;
 };
 
-}  // namespace pitwall::transport
+}  // namespace pitwall::bench
