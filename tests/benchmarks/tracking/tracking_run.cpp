@@ -111,12 +111,11 @@ class Scorer {
       const double distance_m = std::hypot(car.x_m - moment.ours.x_m, car.y_m - moment.ours.y_m);
       const bool is_required = distance_m <= kRequired_m && seen_[i].since_s < kInSight_s;
       const auto id = static_cast<std::uint32_t>(i);
-      if (seen_[i].unseen_s > kForgotten_s) {
+      if (seen_[i].since_s > kForgotten_s && !seen_[i].is_forgotten) {
         mot_.let_go(id);
-        row_->reborn += !std::exchange(seen_[i].is_forgotten, true);
+        seen_[i].is_forgotten = true;
+        ++row_->reborn;
       }
-      if (seen_[i].since_s > kForgotten_s && !std::exchange(seen_[i].was_let_go, true))
-        let_go_once_.let_go(id);
       objects.push_back({id, car.x_m, car.y_m, is_required});
     }
     std::vector<Opponent> claimed;
@@ -124,7 +123,6 @@ class Scorer {
       return (now - track.measured_at).seconds() <= kClaimed_s;
     });
     for (const Opponent& track : claimed) tracks.push_back({track.id, track.x_m, track.y_m});
-    let_go_once_.add(objects, tracks);
     for (const SpotPair& pair : mot_.add(objects, tracks)) {
       const Opponent& track = claimed[pair.track];
       const bool is_settled = (now - track.born_at).seconds() >= kSettled_s;
@@ -134,7 +132,6 @@ class Scorer {
     for (const std::uint32_t car : mot_.switched()) row_->switches_hidden += was_hidden(car);
     row_->objects = mot_.objects(), row_->misses = mot_.misses();
     row_->false_tracks = mot_.false_tracks(), row_->switches = mot_.switches();
-    row_->switches_let_go_once = let_go_once_.switches();
     row_->mota = mot_.mota();
   }
 
@@ -159,7 +156,6 @@ class Scorer {
            back_s = 0.0;  // by radars too: now, last, since
     double side = 0.0;    // ahead of us or behind
     bool is_forgotten = false;
-    bool was_let_go = false;  // since some LiDAR or camera saw it
   };
 
   bool was_hidden(std::uint32_t car) const {
@@ -175,9 +171,9 @@ class Scorer {
       for (const sensors::DetectionSensor& sensor : scene_->sensors) {
         if (!sensors::is_in_sight(sensor, moment.cars(), i)) continue;
         if (sight.unseen_s > kHidden_s) sight.hidden_s = sight.unseen_s, sight.back_s = 0.0;
-        sight.unseen_s = 0.0, sight.is_forgotten = false;
+        sight.unseen_s = 0.0;
         if (sensor.source == world::DetectionSource::kRadar) continue;
-        sight.since_s = 0.0, sight.was_let_go = false;
+        sight.since_s = 0.0, sight.is_forgotten = false;
         break;
       }
       const CarPose& car = moment.others[i];
@@ -204,7 +200,7 @@ class Scorer {
   const Scene* scene_;
   TrackingRow* row_;
   std::vector<Sight> seen_;
-  ClearMot mot_{kGate_m}, let_go_once_{kGate_m};
+  ClearMot mot_{kGate_m};
 };
 
 bool is_blind(const Scene& scene, Instant at) {

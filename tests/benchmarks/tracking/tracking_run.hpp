@@ -26,7 +26,7 @@ inline constexpr double kInSight_s = 0.2, kSettled_s = 1.0, kWarmUp_s = 3.0;
 inline constexpr double kClaimed_s = 0.5;
 inline constexpr double kGate_m = 2.0;        // a track that is further away is not the car's
 inline constexpr double kRequired_m = 100.0;  // cars that are nearer, and in sight, must be known
-// A car that no sensor, radars too, could see for this time may be another one when it comes back.
+// A car that no sensor could see for this time may be another one when it comes back.
 inline constexpr double kForgotten_s = 4.0;
 // A switch within kBack_s after at least kHidden_s out of sight of every sensor is counted apart.
 inline constexpr double kHidden_s = 1.5, kBack_s = 1.0;
@@ -58,9 +58,6 @@ struct TrackingRow {
   std::size_t nees_count = 0, nees_within_95 = 0;
   std::size_t objects = 0, misses = 0, false_tracks = 0, switches = 0, reborn = 0, passes = 0;
   std::size_t switches_hidden = 0;  // of the switches: of cars that had been hidden for long
-  // In a stricter way, beside the gate: a car is let go only once, after kForgotten_s without LiDAR
-  // and camera.
-  std::size_t switches_let_go_once = 0;
   double mota = kUnset;
   std::size_t blind_times = 0, blind_lost = 0;  // lost: no track at the end
   double blind_worst_m = 0.0;

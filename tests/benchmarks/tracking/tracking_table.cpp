@@ -72,7 +72,6 @@ std::string row_json(const TrackingRow& r) {
       .number("false_tracks", r.false_tracks)
       .number("switches", r.switches)
       .number("switches_hidden", r.switches_hidden)
-      .number("switches_let_go_once", r.switches_let_go_once)
       .number("out_of_sight", r.reborn)
       .number("passes", r.passes)
       .number("blind_times", r.blind_times)
@@ -128,11 +127,9 @@ std::string to_text(const std::vector<TrackingRow>& rows) {
   for (const TrackingRow& r : rows)
     text += formatted(
         "%s, %s: %zu frames, %zu overtaken by a younger one, %zu refused; %zu times a car was out "
-        "of sight for %.0f s; of %zu switches %zu within %.0f s after %.1f s behind other cars; "
-        "%zu if a car is let go only once, after %.0f s without LiDAR and camera\n",
+        "of sight for %.0f s; of %zu switches %zu within %.0f s after %.1f s behind other cars\n",
         r.scene.c_str(), r.method.c_str(), r.frames, r.frames_overtaken, r.frames_refused, r.reborn,
-        kForgotten_s, r.switches, r.switches_hidden, kBack_s, kHidden_s, r.switches_let_go_once,
-        kForgotten_s);
+        kForgotten_s, r.switches, r.switches_hidden, kBack_s, kHidden_s);
   return text;
 }
 
