@@ -184,7 +184,7 @@ test("a gate that nobody may override leaves no way to send", async () => {
   assert.equal(await page.isDisabled("button.send"), true);
 });
 
-test("a message for race control is read out, copied, and marked as told", async () => {
+test("a message for race control is read out, copied, and marked as reported", async () => {
   const { page } = await stage.open({ hash: "#/link" });
   await page.context().grantPermissions(["clipboard-read", "clipboard-write"]);
   for (const name of ["link", "race"]) {
@@ -197,13 +197,13 @@ test("a message for race control is read out, copied, and marked as told", async
   await until(page, "copied", () => document.querySelector(".notice").innerText.includes("copied"));
   const copied = await page.evaluate(() => navigator.clipboard.readText());
   assert.match(copied, /Car 7: radio degraded since .*loss 14 %/);
-  await page.click('.notice button:has-text("Race control was told")');
+  await page.click('.notice button:has-text("Reported to race control")');
   await page.waitForTimeout(100);
-  assert.deepEqual(sent("notice"), [{ type: "notice", id: 1, do: "told" }]);
+  assert.deepEqual(sent("notice"), [{ type: "notice", id: 1, do: "reported" }]);
   const notice = stage.double.greetings.find((m) => m.type === "notice");
-  stage.double.say({ ...notice, state: "told", by: "Ada" });
-  await until(page, "who told", () =>
-    document.querySelector(".settled")?.innerText.includes("told by Ada"),
+  stage.double.say({ ...notice, state: "reported", by: "Ada" });
+  await until(page, "who reported it", () =>
+    document.querySelector(".settled")?.innerText.includes("reported by Ada"),
   );
   assert.equal(await page.locator(".notice").count(), 0);
 });
