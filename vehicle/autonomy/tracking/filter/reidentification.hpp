@@ -6,10 +6,10 @@
 //                              of all to all
 //
 //   in     tracks at the time of the frame
-//   out    tracks, of which one that came back has the name and the size of the car that it is, and
-//          the states of both; the lost track ends
+//   out    tracks, of which one that came back has the number and the size of the car that it is,
+//          and states from both; the lost track ends
 //   invariants
-//          a car is decided once, and is not one that was seen after it
+//          a track is decided once, and is never a car that was still seen after it had begun
 //   cost   without an undecided track nothing; 3 us for each pair; no allocation
 //   source Bar-Shalom, Li and Kirubarajan (2001), section 8.3: fusion of two tracks
 // SPDX-License-Identifier: Apache-2.0
@@ -23,7 +23,7 @@
 
 namespace pitwall::tracking {
 
-// Tracks that were seen for the last time before `coast` give no name.
+// A car that was not seen for longer than `coast` keeps what is known of it, but not its number.
 void identify(const RoadParams& params, const world::TrackMap* map, Duration coast,
               const Frame& frame, Tracks& tracks);
 
