@@ -13,7 +13,8 @@
 #include "protocol/transport/clock.hpp"
 #include "protocol/transport/file.hpp"
 #include "tests/hil/traffic/oval_cars.hpp"
-#include "vehicle/io/perception/camera_worker.hpp"
+#include "tests/system/dds/cyclone_peer.hpp"
+#include "vehicle/io/perception/car_sensors.hpp"
 
 namespace pitwall::bench {
 namespace {
@@ -79,6 +80,35 @@ TEST(CameraFeed, TheCarFindsTheOtherOneInTheImagesOfTheBench) {
       (*ingress)->figures(io::SensorType::kDetection2DArray, 0, transport::monotonic_now());
   ASSERT_TRUE(figures);
   EXPECT_GT(figures->arrivals.rate_hz, 0.0);
+}
+
+TEST(CameraFeed, AnImageThatCannotBeReadIsADropOfItsCamera) {
+  const auto sensors = io::CarSensors::open(
+      {.file = std::string(PITWALL_SOURCE_DIR) + "/vehicle/config/sensors/av21_cameras.yaml",
+       .domain = 75},
+      traffic::oval(), [](const std::string& path) { return transport::read_file(path); });
+  ASSERT_TRUE(sensors) << to_string(sensors.error());
+  const auto driver = dds::Domain::join({.domain = 75});
+  ASSERT_TRUE(driver);
+  const auto writer = (*driver)->write_to(
+      {*ros::dds_topic("/front_right/image_raw"), ros::dds_type(ros::Image::kType), {}},
+      dds::kSensorData);
+  ASSERT_TRUE(writer);
+  const auto drops_of = [&](std::size_t unit) {
+    const auto figures =
+        (*sensors)->figures(io::SensorType::kDetection2DArray, unit, transport::monotonic_now());
+    return figures ? figures->drops : 0U;
+  };
+  EXPECT_TRUE(testing::comes([&] {
+    ros::Image image = message_of(sensors::CameraImage{});
+    image.header.stamp = ros::time_of(transport::utc_now());
+    image.encoding = "yuv422";
+    std::vector<std::uint8_t> cdr;
+    ros::encode(image, cdr);
+    (*writer)->write(cdr);
+    return drops_of(1) >= 3;
+  }));
+  EXPECT_EQ(drops_of(0), 0U) << "the other camera's";
 }
 
 }  // namespace

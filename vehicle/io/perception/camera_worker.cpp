@@ -49,7 +49,10 @@ std::unique_ptr<CameraWorker> CameraWorker::start(
 
 CameraWorker::CameraWorker(std::vector<CameraSource> sources, perception::CameraDetector detector,
                            DebugTopics* debug)
-    : sources_(std::move(sources)), detector_(std::move(detector)), debug_(debug) {}
+    : sources_(std::move(sources)),
+      drops_(sources_.size()),
+      detector_(std::move(detector)),
+      debug_(debug) {}
 
 CameraWorker::~CameraWorker() {
   end_ = true;
@@ -60,30 +63,44 @@ void CameraWorker::serve() {
   transport::lower_priority();
   while (!end_) {
     bool has_looked = false;
-    for (const CameraSource& source : sources_) has_looked = look(source) || has_looked;
+    for (std::size_t i = 0; i < sources_.size(); ++i) has_looked = look(i) || has_looked;
     if (!has_looked)
       transport::wait_readable({}, transport::monotonic_now() + kIdlePeriod, kIdlePeriod);
   }
 }
 
-bool CameraWorker::look(const CameraSource& source) {
+bool CameraWorker::look(std::size_t camera) {
+  const CameraSource& source = sources_[camera];
   const CameraSource::Taken taken = source.take(image_);
   if (taken.header == nullptr) return false;
+  if (!make_frame(taken, source.row)) ++drops_[camera];
+  return true;
+}
+
+// False: the loop gets none.
+bool CameraWorker::make_frame(const CameraSource::Taken& taken, const CameraRow& row) {
   const Instant now = transport::monotonic_now();
   const Duration age = age_of(*taken.header, transport::utc_now());
   if (age > kOldest || -age > kAheadMost) {
     ++bad_stamps_;
-  } else if (taken.why_not != nullptr) {
-    ++unreadable_;
-  } else {
-    world::DetectionFrame frame =
-        detector_.detect(image_, source.row.mounting, source.row.unit, now - age);
-    frame.received = transport::monotonic_now();
-    ++images_;
-    outbox_.put(frame, frame.received, frame.received - frame.at);
-    if (debug_ != nullptr) debug_->show(frame);
+    return false;
   }
-  return true;
+  if (taken.why_not != nullptr) {
+    ++unreadable_;
+    return false;
+  }
+  world::DetectionFrame frame = detector_.detect(image_, row.mounting, row.unit, now - age);
+  frame.received = transport::monotonic_now();
+  ++images_;
+  const bool has_room = outbox_.put(frame, frame.received, frame.received - frame.at);
+  if (debug_ != nullptr) debug_->show(frame);
+  return has_room;
+}
+
+std::uint64_t CameraWorker::drops(std::size_t unit) const {
+  for (std::size_t i = 0; i < sources_.size(); ++i)
+    if (sources_[i].row.unit == unit) return drops_[i];
+  return 0;
 }
 
 std::string CameraWorker::json(Instant now) const {

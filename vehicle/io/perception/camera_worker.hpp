@@ -5,8 +5,8 @@
 //   law    cameras are looked at in turn, each at its newest image; what comes meanwhile is
 //          overwritten and counted at the ingress. No camera is waited for. The loop never waits
 //          for this thread
-//   errors an image that cannot be read, or is older than kOldest or from the future, is counted
-//          and left out
+//   errors an image that cannot be read, or is older than kOldest or from the future, and one whose
+//          frame finds no room, is counted, for each camera too
 //   cost   front(), pop(): wait-free, no allocation, of the loop's thread alone. The thread: that
 //          of CameraDetector an image
 // SPDX-License-Identifier: Apache-2.0
@@ -60,15 +60,19 @@ class CameraWorker {
   void pop(Instant now) { outbox_.pop(now - outbox_.front()->at); }
 
   Counts counts() const { return {images_, unreadable_, bad_stamps_}; }
+  // Images of the camera with this unit of which the loop got no frame.
+  std::uint64_t drops(std::size_t unit) const;
   std::string json(Instant now) const;  // a row of SensorIngress::json()
 
  private:
   CameraWorker(std::vector<CameraSource> sources, perception::CameraDetector detector,
                DebugTopics* debug);
   void serve();
-  bool look(const CameraSource& source);
+  bool look(std::size_t camera);
+  bool make_frame(const CameraSource::Taken& taken, const CameraRow& row);
 
   std::vector<CameraSource> sources_;
+  std::vector<std::atomic<std::uint64_t>> drops_;  // of each source
   perception::CameraDetector detector_;
   perception::Image image_;  // of the thread
   DebugTopics* debug_;       // null: nobody looks on

@@ -56,6 +56,14 @@ void CarSensors::report(const world::EgoState& ego) {
   if (lidars_) lidars_->report(ego);
 }
 
+std::optional<SensorFigures> CarSensors::figures(SensorType type, std::size_t unit,
+                                                 Instant now) const {
+  std::optional<SensorFigures> figures = ingress_->figures(type, unit, now);
+  if (figures && cameras_ && type == SensorType::kDetection2DArray)
+    figures->drops += cameras_->drops(unit);
+  return figures;
+}
+
 std::optional<SensorFigures> CarSensors::lidar_frames(Instant now) const {
   if (lidars_) return lidars_->frame_figures(now);
   return figures(SensorType::kDetection3DArray, 0, now);

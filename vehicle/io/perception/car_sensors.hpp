@@ -39,10 +39,8 @@ class CarSensors {
   std::span<const world::DetectionFrame> take();
   void report(const world::EgoState& ego);
 
-  // As SensorIngress::figures().
-  std::optional<SensorFigures> figures(SensorType type, std::size_t unit, Instant now) const {
-    return ingress_->figures(type, unit, now);
-  }
+  // As SensorIngress::figures(); drops of a camera: images that made no frame as well.
+  std::optional<SensorFigures> figures(SensorType type, std::size_t unit, Instant now) const;
   // Of frames of LiDARs, whoever makes them.
   std::optional<SensorFigures> lidar_frames(Instant now) const;
   std::string json(Instant now) const;

@@ -27,13 +27,15 @@ class FrameOutbox {
     double largest_gap_ms = 0.0;  // between two frames
   };
 
-  // `at`: now; `age`: of what the frame is made of.
-  void put(const world::DetectionFrame& frame, Instant at, Duration age) {
+  // `at`: now; `age`: of what the frame is made of. False: it found no room.
+  bool put(const world::DetectionFrame& frame, Instant at, Duration age) {
+    const bool has_room = queue_.push(frame);
     ++frames_;
-    if (!queue_.push(frame)) ++no_room_;
+    if (!has_room) ++no_room_;
     arrivals_.note(at, age);
     if (last_) largest_gap_ms_ = std::max(largest_gap_ms_.load(), (at - *last_).milliseconds());
     last_ = at;
+    return has_room;
   }
 
   const world::DetectionFrame* front() const { return queue_.front(); }

@@ -95,8 +95,8 @@ TEST(CameraWorker, MakesAFrameOfEachImage) {
 
 TEST(CameraWorker, WhatCannotBeUsedIsCounted) {
   const sensors::CameraScene scene = scene_with_a_car();
-  Camera camera{scene.unit, 0};
-  const auto worker = CameraWorker::start({camera.source()}, shipped());
+  Camera other{scene.unit, 1}, camera{scene.unit, 2};
+  const auto worker = CameraWorker::start({other.source(), camera.source()}, shipped());
   camera.send(scene.image, milliseconds(700));
   ASSERT_TRUE(testing::comes_true([&] { return worker->counts().bad_stamps == 1; }));
   camera.send(scene.image, milliseconds(-200));
@@ -104,6 +104,9 @@ TEST(CameraWorker, WhatCannotBeUsedIsCounted) {
   camera.send(scene.image, milliseconds(30), "yuv422");
   ASSERT_TRUE(testing::comes_true([&] { return worker->counts().unreadable == 1; }));
   EXPECT_EQ(worker->front(), nullptr);
+  ASSERT_TRUE(testing::comes_true([&] { return worker->drops(2) == 3; })) << "of this camera";
+  EXPECT_EQ(worker->drops(1), 0U);
+  EXPECT_EQ(worker->drops(0), 0U) << "no camera of ours";
   camera.send(scene.image, milliseconds(30));
   ASSERT_TRUE(testing::comes_true([&] { return worker->counts().images == 1; })) << "it goes on";
   const std::string row = worker->json(transport::monotonic_now());
