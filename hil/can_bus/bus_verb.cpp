@@ -11,7 +11,7 @@
 #include "hil/can_bus/clock_follower.hpp"
 #include "hil/can_bus/guest.hpp"
 #include "hil/can_bus/native_bus.hpp"
-#include "protocol/transport/can/can_socket.hpp"
+#include "protocol/transport/can/raw_can_socket.hpp"
 #include "protocol/transport/can/unix_can_hub.hpp"
 #include "protocol/transport/clock.hpp"
 #include "protocol/transport/readiness.hpp"
@@ -125,7 +125,7 @@ int bus_exec(std::span<const std::string> args) {
 }
 
 int bus_check() {
-  if (transport::CanSocket::supported()) {
+  if (transport::has_can()) {
     const bool ready = interface_exists("vcan0");
     std::printf("CAN: native%s\n", ready ? ", vcan0 exists" : "; `bus up` makes vcan0 (root)");
     return 0;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "protocol/transport/can/can_socket.hpp"
+#include "protocol/transport/can/raw_can_socket.hpp"
 #include "protocol/transport/process.hpp"
 
 namespace pitwall::can_bus {
@@ -42,13 +43,13 @@ bool interface_exists(const std::string& name) {
 }
 
 std::optional<Problem> bring_up(std::span<const std::string> interfaces) {
-  if (!transport::CanSocket::supported()) {
+  if (!transport::has_can()) {
     // The module may only not be loaded yet; where it cannot be, the second look says so.
     auto modprobe =
         transport::Process::spawn({.argv = {"modprobe", "-a", "-q", "can-raw", "vcan"}});
     if (modprobe) static_cast<void>(modprobe->wait());
   }
-  if (!transport::CanSocket::supported())
+  if (!transport::has_can())
     return Problem{"kernel", "has no CAN (protocol family PF_CAN is not supported)"};
   for (const std::string& name : interfaces) {
     if (!interface_exists(name) && !run_ip({"link", "add", "dev", name, "type", "vcan"}))
@@ -105,7 +106,7 @@ std::string status_text(std::string_view interface, const transport::CanInterfac
 }
 
 std::optional<Problem> take_down(std::span<const std::string> interfaces) {
-  if (!transport::CanSocket::supported())
+  if (!transport::has_can())
     return Problem{"kernel", "has no CAN, so there is nothing to take down"};
   for (const std::string& name : interfaces) {
     if (!interface_exists(name)) continue;

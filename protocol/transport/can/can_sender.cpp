@@ -2,12 +2,12 @@
 #include "protocol/transport/can/can_sender.hpp"
 
 #include <linux/can/raw.h>
-#include <net/if.h>
 
 #include <algorithm>
 #include <cstddef>
 
 #include "protocol/transport/can/can_wire.hpp"
+#include "protocol/transport/can/raw_can_socket.hpp"
 #include "protocol/transport/can/unix_bus.hpp"
 #include "protocol/vocabulary/check.hpp"
 
@@ -62,28 +62,16 @@ Result<CanSender, Problem> CanSender::open_unix(const std::string& interface) {
 
 Result<CanSender, Problem> CanSender::open(const std::string& interface) {
   if (is_unix_bus(interface)) return open_unix(interface);
-  const auto refuse = [&](const std::string& what) { return Unexpected{Problem{interface, what}}; };
-  const auto made =
-      posix_call([] { return socket(PF_CAN, SOCK_RAW | SOCK_CLOEXEC | SOCK_NONBLOCK, CAN_RAW); });
-  CanSender out{FileDescriptor(made)};
-  if (!made.ok()) return refuse("no CAN in this kernel: " + made.reason());
-  if (interface.empty() || interface.size() >= IFNAMSIZ) return refuse("not an interface name");
-  const unsigned index = if_nametoindex(interface.c_str());
-  if (index == 0) return refuse("no such interface");
-  const int fd = out.fd_.get(), on = 1;
-  const auto no_reception =
-      posix_call([&] { return setsockopt(fd, SOL_CAN_RAW, CAN_RAW_FILTER, nullptr, 0); });
-  const auto long_frames =
-      posix_call([&] { return setsockopt(fd, SOL_CAN_RAW, CAN_RAW_FD_FRAMES, &on, sizeof on); });
-  for (const PosixOutcome& outcome : {no_reception, long_frames})
-    if (!outcome.ok()) return refuse("option refused: " + outcome.reason());
-  sockaddr_can address{};
-  address.can_family = AF_CAN;
-  address.can_ifindex = static_cast<int>(index);
-  const auto bound = posix_call(
-      [&] { return bind(fd, reinterpret_cast<const sockaddr*>(&address), sizeof address); });
-  if (!bound.ok()) return refuse("cannot bind: " + bound.reason());
-  return out;
+  auto socket = open_raw_can_socket(interface, [](int fd) {
+    const int on = 1;
+    const auto no_reception =
+        posix_call([&] { return setsockopt(fd, SOL_CAN_RAW, CAN_RAW_FILTER, nullptr, 0); });
+    if (!no_reception.ok()) return no_reception;
+    return posix_call(
+        [&] { return setsockopt(fd, SOL_CAN_RAW, CAN_RAW_FD_FRAMES, &on, sizeof on); });
+  });
+  if (!socket) return Unexpected{socket.error()};
+  return CanSender{*std::move(socket)};
 }
 
 SendOutcome CanSender::send(PreparedFrames& frames, std::size_t first, std::size_t count) {

@@ -3,12 +3,12 @@
 
 #include <linux/can/raw.h>
 #include <linux/sock_diag.h>
-#include <net/if.h>
 #include <sys/socket.h>
 
 #include <algorithm>
 #include <array>
 
+#include "protocol/transport/can/raw_can_socket.hpp"
 #include "protocol/transport/clock.hpp"
 #include "protocol/transport/control_data.hpp"
 
@@ -44,6 +44,26 @@ int enlarge_receive_buffer(int fd, int bytes) {
   const auto got =
       posix_call([&] { return getsockopt(fd, SOL_SOCKET, SO_RCVBUF, &granted, &length); });
   return got.ok() ? granted / 2 : 0;  // the kernel reports twice what it was asked for
+}
+
+PosixOutcome set_options(int fd, const CanSocketOptions& options) {
+  const int on = 1;
+  const auto filters = kernel_filters(options.filters);
+  if (!filters.empty()) {
+    const auto bytes = static_cast<socklen_t>(filters.size() * sizeof(can_filter));
+    const auto set = posix_call(
+        [&] { return setsockopt(fd, SOL_CAN_RAW, CAN_RAW_FILTER, filters.data(), bytes); });
+    if (!set.ok()) return set;
+  }
+  const can_err_mask_t errors = options.receive_errors ? CAN_ERR_MASK : 0U;
+  for (const auto& outcome :
+       {set_option(fd, SOL_CAN_RAW, CAN_RAW_ERR_FILTER, errors),
+        set_option(fd, SOL_CAN_RAW, CAN_RAW_FD_FRAMES, options.fd ? 1 : 0),
+        set_option(fd, SOL_CAN_RAW, CAN_RAW_RECV_OWN_MSGS, options.receive_own ? 1 : 0),
+        set_option(fd, SOL_SOCKET, SO_TIMESTAMPNS, on),
+        set_option(fd, SOL_SOCKET, SO_RXQ_OVFL, on)})
+    if (!outcome.ok()) return outcome;
+  return {.value = 0, .error = 0};
 }
 
 bool is_hub_lost(const PosixOutcome& sent) {
@@ -90,31 +110,17 @@ struct SendBatch {
 
 }  // namespace
 
-bool CanSocket::supported() {
-  return FileDescriptor(posix_call([] { return socket(PF_CAN, SOCK_RAW | SOCK_CLOEXEC, CAN_RAW); }))
-      .valid();
-}
-
 Result<CanSocket, Problem> CanSocket::open(std::string_view interface,
                                            const CanSocketOptions& options) {
   if (is_unix_bus(interface)) return open_unix(interface, options);
-  const std::string name(interface);
-  const auto refuse = [&](const std::string& what) { return Unexpected{Problem{name, what}}; };
-  const auto made =
-      posix_call([] { return socket(PF_CAN, SOCK_RAW | SOCK_CLOEXEC | SOCK_NONBLOCK, CAN_RAW); });
-  if (!made.ok()) return refuse("no CAN in this kernel: " + made.reason());
-  CanSocket can{FileDescriptor(made), options.clock_offset};
-  if (name.empty() || name.size() >= IFNAMSIZ) return refuse("not an interface name");
-  const unsigned index = if_nametoindex(name.c_str());
-  if (index == 0) return refuse("no such interface");
-  const auto configured = can.configure(options);
-  if (!configured.ok()) return refuse("option refused: " + configured.reason());
-  sockaddr_can address{};
-  address.can_family = AF_CAN;
-  address.can_ifindex = static_cast<int>(index);
-  const auto bound = posix_call(
-      [&] { return bind(can.fd(), reinterpret_cast<const sockaddr*>(&address), sizeof address); });
-  if (!bound.ok()) return refuse("cannot bind: " + bound.reason());
+  int buffer_bytes = 0;
+  auto socket = open_raw_can_socket(std::string(interface), [&](int fd) {
+    buffer_bytes = enlarge_receive_buffer(fd, options.receive_buffer_bytes);
+    return set_options(fd, options);
+  });
+  if (!socket) return Unexpected{socket.error()};
+  CanSocket can{*std::move(socket), options.clock_offset};
+  can.receive_buffer_bytes_ = buffer_bytes;
   return can;
 }
 
@@ -126,27 +132,6 @@ Result<CanSocket, Problem> CanSocket::open_unix(std::string_view interface,
                                           .fd = options.fd});
   if (!end) return Unexpected{end.error()};
   return CanSocket{*std::move(end), options.clock_offset};
-}
-
-PosixOutcome CanSocket::configure(const CanSocketOptions& options) {
-  const int on = 1;
-  const auto filters = kernel_filters(options.filters);
-  if (!filters.empty()) {
-    const auto bytes = static_cast<socklen_t>(filters.size() * sizeof(can_filter));
-    const auto set = posix_call(
-        [&] { return setsockopt(fd(), SOL_CAN_RAW, CAN_RAW_FILTER, filters.data(), bytes); });
-    if (!set.ok()) return set;
-  }
-  const can_err_mask_t errors = options.receive_errors ? CAN_ERR_MASK : 0U;
-  for (const auto& outcome :
-       {set_option(fd(), SOL_CAN_RAW, CAN_RAW_ERR_FILTER, errors),
-        set_option(fd(), SOL_CAN_RAW, CAN_RAW_FD_FRAMES, options.fd ? 1 : 0),
-        set_option(fd(), SOL_CAN_RAW, CAN_RAW_RECV_OWN_MSGS, options.receive_own ? 1 : 0),
-        set_option(fd(), SOL_SOCKET, SO_TIMESTAMPNS, on),
-        set_option(fd(), SOL_SOCKET, SO_RXQ_OVFL, on)})
-    if (!outcome.ok()) return outcome;
-  receive_buffer_bytes_ = enlarge_receive_buffer(fd(), options.receive_buffer_bytes);
-  return {.value = 0, .error = 0};
 }
 
 std::size_t CanSocket::receive(std::span<can::ReceivedFrame> frames) {

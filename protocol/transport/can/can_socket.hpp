@@ -82,8 +82,6 @@ class CanSocket {
   // Frames per system call.
   static constexpr std::size_t kBatch = 64;
 
-  // True if this kernel supports CAN (no interface needed).
-  static bool supported();
   static Result<CanSocket, Problem> open(std::string_view interface,
                                          const CanSocketOptions& options = {});
 
@@ -127,7 +125,6 @@ class CanSocket {
   void hang_up();
   void look_for_hub();
   void follow_clock(Instant now);
-  PosixOutcome configure(const CanSocketOptions& options);
   // Reads one batch: true if the kernel may have more.
   bool receive_batch(std::span<can::ReceivedFrame> frames, std::size_t& taken, Instant now);
   Instant arrival(UtcTime stamp, Instant now);

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "hil/can_bus/guest.hpp"
-#include "protocol/transport/can/can_socket.hpp"
+#include "protocol/transport/can/raw_can_socket.hpp"
 
 namespace pitwall::can_bus {
 namespace {
@@ -15,11 +15,11 @@ namespace {
 int bus(const std::vector<std::string>& words) { return bus_verb(words); }
 
 TEST(BusVerb, CheckAnswersWithItsExitCode) {
-  const bool works = transport::CanSocket::supported() || !guest_obstacle();
+  const bool works = transport::has_can() || !guest_obstacle();
   ::testing::internal::CaptureStdout();
   EXPECT_EQ(bus({"check"}), works ? 0 : 2);
   const std::string output = ::testing::internal::GetCapturedStdout();
-  EXPECT_EQ(output.starts_with("CAN: native"), transport::CanSocket::supported()) << output;
+  EXPECT_EQ(output.starts_with("CAN: native"), transport::has_can()) << output;
 }
 
 TEST(BusVerb, WrongUsageIsTwoAndSaysWhy) {

@@ -5,7 +5,7 @@
 
 #include <vector>
 
-#include "protocol/transport/can/can_socket.hpp"
+#include "protocol/transport/can/raw_can_socket.hpp"
 
 namespace pitwall::can_bus {
 namespace {
@@ -17,7 +17,7 @@ TEST(NativeBus, TheLoopbackExistsAndNonsenseDoesNot) {
 }
 
 TEST(NativeBus, AKernelWithoutCanIsAProblemNotASilence) {
-  if (transport::CanSocket::supported()) {
+  if (transport::has_can()) {
     // Nothing to make: nothing that could go wrong.
     EXPECT_FALSE(bring_up({}).has_value());
     return;

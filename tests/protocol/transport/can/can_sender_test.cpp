@@ -25,11 +25,9 @@ TEST(PreparedFrames, AFrameThatNoBusCanCarryIsNamed) {
 TEST(PreparedFrames, NoFramesAreNoProblem) { EXPECT_EQ(PreparedFrames::make({})->size(), 0U); }
 
 TEST(CanSender, AnInterfaceThatIsNotThereIsNamed) {
-  for (const std::string name : {"", "nosuchcan0", "an_interface_name_too_long"}) {
-    const auto sender = CanSender::open(name);
-    ASSERT_FALSE(sender.has_value());
-    EXPECT_EQ(sender.error().place, name);
-  }
+  const auto sender = CanSender::open("nosuchcan0");
+  ASSERT_FALSE(sender.has_value());
+  EXPECT_EQ(sender.error().place, "nosuchcan0");
 }
 
 TEST(SendOutcome, OnlyAFullQueueIsWorthARetry) {
