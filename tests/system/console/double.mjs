@@ -128,6 +128,8 @@ export function catalogue(program = process.env.PITWALL_BASE ?? kProgram) {
 export class Double {
   /** What consoles sent, in order. */
   received = [];
+  /** Number of the newest mark behind messages of a page: see `arrived` of the stage. */
+  mark = 0;
   /** Fields set by the test: path -> {value, quality, judgement} over the script. */
   overrides = new Map();
   /** False: the car is silent, ages grow, every field becomes stale in its time. */
@@ -266,6 +268,7 @@ export class Double {
   }
 
   take(socket, message) {
+    if (message.type === "mark of the test") return (this.mark = message.n);
     this.received.push(message);
     if (message.type === "history") {
       const points = Array.from({ length: 50 }, (_, i) => ({

@@ -38,7 +38,7 @@ test("no single key sends a command", async () => {
         location.hash = hash;
       }, `#/${name}`);
     }
-    assert.deepEqual(commands(), [], `on ${name}`);
+    assert.deepEqual(await reached(page), [], `on ${name}`);
   }
 });
 
@@ -51,8 +51,7 @@ async function stopped(options) {
 
 /** What has reached the base once everything sent so far has. */
 async function reached(page) {
-  await page.evaluate(() => document.activeElement?.tagName);
-  await new Promise((done) => setTimeout(done, 100));
+  await stage.arrived(page);
   return commands();
 }
 
@@ -84,11 +83,10 @@ for (const size of kDeskSizes) {
       await until(page, `no ${name}`, () => !document.querySelector(".dialog"));
       await page.keyboard.press("Escape");
       await page.waitForTimeout(kDoubleEscapeMs + 50);
-      assert.deepEqual(commands(), [], name);
+      assert.deepEqual(await reached(page), [], name);
     }
     await escapeTwice(page);
-    await page.waitForTimeout(100);
-    assert.deepEqual(commands(), [{ type: "stop", kind: "controlled" }]);
+    assert.deepEqual(await reached(page), [{ type: "stop", kind: "controlled" }]);
   });
 }
 
@@ -99,14 +97,12 @@ test("stops work from inside a text field, a dialog and a held view", async () =
   await page.keyboard.press("/");
   await page.keyboard.type("ego");
   await page.keyboard.press("Control+Shift+E");
-  await page.waitForTimeout(200);
-  assert.deepEqual(commands(), [{ type: "stop", kind: "emergency" }]);
+  assert.deepEqual(await reached(page), [{ type: "stop", kind: "emergency" }]);
   await page.keyboard.press("Escape"); // closes the dialog
   await page.keyboard.press("Escape");
   await page.keyboard.press("Escape");
   await page.click("button.stop.controlled");
-  await page.waitForTimeout(200);
-  assert.equal(commands().length, 3);
+  assert.equal((await reached(page)).length, 3);
 });
 
 test("the emergency button acts after 400 ms, not on a tap", async () => {
@@ -199,7 +195,7 @@ test("a gate that refuses needs a reason and a second person", async () => {
   assert.equal(await page.isDisabled("button.send"), true);
   await page.fill(".override input[type=password]", "secret");
   await hold(page, "button.send", 900);
-  assert.deepEqual(commands().at(-1), {
+  assert.deepEqual((await reached(page)).at(-1), {
     type: "send",
     ticket: 41,
     override: { reason: "test run", token: "secret" },
@@ -219,11 +215,11 @@ test("keys find a field, plot it and acknowledge an alarm", async () => {
       document.querySelector('[aria-label="chart engine oil pressure"] canvas'),
   );
   await page.keyboard.press("a");
-  await page.waitForTimeout(100);
+  await stage.arrived(page);
   const acks = () => stage.double.received.filter((m) => m.type === "ack");
   assert.deepEqual(acks(), [{ type: "ack", alarm: 1 }]);
   await page.keyboard.press("A");
-  await page.waitForTimeout(100);
+  await stage.arrived(page);
   assert.deepEqual(acks(), [
     { type: "ack", alarm: 1 },
     { type: "ack", all: [1, 2, 4] },

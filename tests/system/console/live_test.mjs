@@ -214,7 +214,7 @@ test("a replay is moved by its own bar and keys, and a jump forgets what came be
   await page.keyboard.press("+");
   await escapeTwice(page);
   await page.keyboard.press("Control+Shift+E");
-  await page.waitForTimeout(200);
+  await stage.arrived(page);
   assert.deepEqual(asked(), [
     { type: "playback", speed: 0 },
     { type: "playback", to_ms: 99_000 },

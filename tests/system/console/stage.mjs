@@ -161,9 +161,21 @@ async function closePages(stage) {
   await Promise.all(stage.browser.contexts().map((context) => context.close()));
 }
 
+/** Resolves when all that a page has sent so far has reached the double, however slow both are. */
+async function arrived(page, double) {
+  const mark = double.mark + 1;
+  await page.evaluate(
+    (n) => globalThis.pitwall.session.shownCar.value.send({ type: "mark of the test", n }),
+    mark,
+  );
+  for (let n = 0; n < 500 && double.mark < mark; ++n) await sleep(10);
+  if (double.mark < mark) throw new Error("what the page sends does not reach the base");
+}
+
 /** A double for each test, `prepare`d before anybody connects. */
 export function doubleStage(prepare = () => {}) {
   const stage = browserStage();
+  stage.arrived = (page) => arrived(page, stage.double);
   beforeEach(async () => {
     stage.double = new Double();
     prepare(stage.double);

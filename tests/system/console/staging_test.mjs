@@ -66,7 +66,7 @@ for (const size of kDeskSizes) {
     assert.equal(await page.isDisabled(".stage button[type=submit]"), true, "none is chosen yet");
     await page.click('.choice:has-text("YELLOW")');
     await page.click(".stage button[type=submit]");
-    await page.waitForTimeout(100);
+    await stage.arrived(page);
     assert.deepEqual(sent("stage"), [{ type: "stage", name: "track flag", argument: 3 }]);
     await page.screenshot({ path: join(kScreenshots, `flags_${size[0]}.png`) });
     assert.deepEqual(faults, []);
@@ -86,7 +86,7 @@ for (const size of kDeskSizes) {
     await page.click('.choice:has-text("gnss0")');
     await page.click('.choice:has-text("gnss0")');
     await page.click(".stage button[type=submit]");
-    await page.waitForTimeout(100);
+    await stage.arrived(page);
     assert.equal(sent("stage")[0].argument, 2 ** labels.indexOf("gnss1"));
   });
 
@@ -165,8 +165,10 @@ for (const size of kDeskSizes) {
     await page.fill(".override input", "dry again");
     await page.click("button.send");
     await page.waitForTimeout(700);
+    await stage.arrived(page);
     assert.deepEqual(sent("send"), [], "a tap sends nothing");
     await hold(page, "button.send", 900);
+    await stage.arrived(page);
     assert.deepEqual(sent("send"), [
       { type: "send", ticket: 41, override: { reason: "dry again" } },
     ]);
@@ -198,7 +200,7 @@ test("a message for race control is read out, copied, and marked as reported", a
   const copied = await page.evaluate(() => navigator.clipboard.readText());
   assert.match(copied, /Car 7: radio degraded since .*loss 14 %/);
   await page.click('.notice button:has-text("Reported to race control")');
-  await page.waitForTimeout(100);
+  await stage.arrived(page);
   assert.deepEqual(sent("notice"), [{ type: "notice", id: 1, do: "reported" }]);
   const notice = stage.double.greetings.find((m) => m.type === "notice");
   stage.double.say({ ...notice, state: "reported", by: "Ada" });

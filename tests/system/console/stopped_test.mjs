@@ -70,11 +70,13 @@ for (const size of kDeskSizes) {
     const { page } = await stage.open({ size });
     await page.click('.stop-card [data-step="release"] button');
     await page.waitForTimeout(800);
+    await stage.arrived(page);
     assert.deepEqual(asked(), [], "a tap releases nothing");
     await hold(page, '.stop-card [data-step="release"] button', 900);
+    await stage.arrived(page);
     assert.deepEqual(asked(), [{ type: "recover", step: "release", challenge: 4711 }]);
     await page.click('.stop-card [data-step="acknowledge"] button');
-    await page.waitForTimeout(100);
+    await stage.arrived(page);
     assert.deepEqual(asked().at(-1), { type: "recover", step: "acknowledge" });
     assert.equal(await page.isDisabled('.stop-card [data-step="reset"] button'), true);
     assert.equal(await page.isDisabled('.stop-card [data-step="arm"] button'), true);
@@ -165,7 +167,7 @@ test("who does not command sees the stop, and is shown the way to the authority"
   assert.equal(await page.isDisabled('.stop-card [data-step="release"] button'), true);
   assert.equal(await page.isDisabled('.stop-card [data-step="acknowledge"] button'), false);
   await page.click('.stop-card button:has-text("Take the authority")');
-  await page.waitForTimeout(100);
+  await stage.arrived(page);
   assert.deepEqual(
     stage.double.received.filter((m) => m.type === "authority" && m.do !== "renew"),
     [{ type: "authority", do: "take" }],
