@@ -51,7 +51,7 @@ function Holder() {
       data-asked={Boolean(request)}
       onClick={() => showPage("commands")}
     >
-      <span class="label">{request ? `asked by ${request.name}` : "Authority"}</span>
+      <span class="label">{request ? `${request.name} asks` : "Authority"}</span>
       <span class="word">{name}</span>
     </button>
   );

@@ -4,6 +4,7 @@
  */
 // SPDX-License-Identifier: Apache-2.0
 import type { Palette } from "../theme/theme";
+import { captionHeights } from "./captions";
 import type { Course } from "./course";
 import { closingText, doubt, gapText, kite, outlined, seenText } from "./rivals";
 import type { Rival } from "./scene";
@@ -83,19 +84,20 @@ export function drawStrip(
   }
   pen.fillStyle = colours.dim;
   rungs(pen, x, state.station, height);
-  drawCars(pen, state, colours, x, y, width, { x: x(1) - x(0), y: y(0) - y(1) });
+  drawCars(pen, state, colours, x, y, { width, height: road }, { x: x(1) - x(0), y: y(0) - y(1) });
 }
 
-/** The captions, those of neighbours above and below, lie under the marks of all. */
+/** The captions lie under the marks of all. */
 function drawCars(
   pen: Pen,
   state: StripState,
   colours: Palette,
   x: (s: number) => number,
   y: (offset: number) => number,
-  width: number,
+  size: { width: number; height: number },
   perMetre: { x: number; y: number },
 ): void {
+  const own = { x: x(state.station), y: y(state.offset) };
   const seen = state.rivals
     .filter(({ gap }) => gap >= -kBehindM && gap <= kAheadM)
     .toSorted((a, b) => a.gap - b.gap)
@@ -103,24 +105,27 @@ function drawCars(
   pen.fillStyle = colours.text;
   pen.font = "600 14px Barlow, sans-serif";
   pen.textAlign = "center";
-  seen.forEach(({ rival, px, py }, i) => {
-    const above = i % 2 === 0;
-    const state = seenText(rival) || closingText(rival.closing);
-    const caption = `#${rival.identity} ${gapText(rival.gap)} ${state}`;
-    const half = pen.measureText(caption).width / 2;
-    const at = Math.min(Math.max(px, half), width - half);
-    pen.textBaseline = above ? "bottom" : "top";
-    outlined(pen, caption, at, above ? py - 9 : py + 10, colours);
+  pen.textBaseline = "middle";
+  const texts = seen.map(({ rival }) => {
+    const more = seenText(rival) || closingText(rival.closing);
+    return `#${rival.identity} ${gapText(rival.gap)} ${more}`;
+  });
+  const captions = seen.map(({ px, py }, i) => {
+    const half = pen.measureText(texts[i]!).width / 2;
+    return { x: Math.min(Math.max(px, half), size.width - half), half, markY: py };
+  });
+  const marks = [own, ...seen.map(({ px, py }) => ({ x: px, y: py }))];
+  captionHeights(captions, marks, size.height).forEach((at, i) => {
+    outlined(pen, texts[i]!, captions[i]!.x, at, colours);
   });
   for (const { rival, px, py } of seen) {
     doubt(pen, px, py, rival, perMetre, colours);
     kite(pen, px, py, 0, rival, colours, 7);
   }
-  const [px, py] = [x(state.station), y(state.offset)];
   pen.beginPath();
-  pen.moveTo(px + 13, py);
-  pen.lineTo(px - 9, py + 7);
-  pen.lineTo(px - 9, py - 7);
+  pen.moveTo(own.x + 13, own.y);
+  pen.lineTo(own.x - 9, own.y + 7);
+  pen.lineTo(own.x - 9, own.y - 7);
   pen.closePath();
   if (state.stale) {
     pen.strokeStyle = colours.stale;
