@@ -1,6 +1,6 @@
 /**
  * Heights of the captions beside their marks on the strip: each in the nearest row above or below
- * its mark where it covers no mark and no other caption, else where it would be alone.
+ * its mark in which it covers no mark and no earlier caption; in the nearest row if all are taken.
  */
 // SPDX-License-Identifier: Apache-2.0
 
@@ -20,7 +20,7 @@ const kBelow = [17, -16, 32, -31] as const;
 const kHalfHeight = 7;
 const kMarkHalf = 9;
 
-/** Heights of the captions' centres; neighbours begin above and below in turn. */
+/** Heights of the captions' centres, pixels; every second one looks for a row above first. */
 export function captionHeights(
   captions: readonly Caption[],
   marks: readonly Mark[],
