@@ -1,8 +1,8 @@
 // Comparison of log reading speed with python-can: the same file, the same machine, one after the
 // other.
 //   in     a log; a folder to write it to, once as candump and once as Vector ASC
-//   out    frames per second of both, the best of kReadings; python-can is timed inside its
-//          process, so its start-up does not count
+//   out    frames per second of processor time of both (other load does not count), the best of
+//          kReadings; python-can is timed inside its process, so its start-up does not count
 //   errors Problem: python-can is missing or reads another number of frames
 // SPDX-License-Identifier: Apache-2.0
 #pragma once

@@ -75,14 +75,25 @@ export async function launchApart() {
   };
 }
 
-/** A page on `address`, live: resolves when the first values are drawn. */
+/**
+ * A page on `address`, live: resolves when the first values are drawn (or when there is what
+ * `ready` selects). A `script` runs before those of the page.
+ */
 export async function open(browser, address, options = {}) {
-  const { size = [1280, 800], theme = "dark", hash = "", ownClock = false, ready } = options;
+  const {
+    size = [1280, 800],
+    theme = "dark",
+    hash = "",
+    ownClock = false,
+    ready,
+    script,
+  } = options;
   const context = await browser.newContext({
     viewport: { width: size[0], height: size[1] },
   });
   const page = await context.newPage();
   if (ownClock) await page.clock.install();
+  if (script) await page.addInitScript(script);
   const faults = [];
   page.on("console", (message) => {
     if (message.type() === "error" || message.type() === "warning") faults.push(message.text());
