@@ -4,7 +4,7 @@
  */
 // SPDX-License-Identifier: Apache-2.0
 import fc from "fast-check";
-import { describe, expect, test } from "vitest";
+import { afterEach, describe, expect, test, vi } from "vitest";
 import {
   ageCode,
   history,
@@ -14,6 +14,7 @@ import {
 } from "../../../tests/system/console/wire.mjs";
 import { ageMs, kAgeNever } from "../src/wire/age";
 import { readHead, readHistory, readSnapshot } from "../src/wire/frame";
+import { BaseSocket } from "../src/wire/socket";
 import {
   Judgement,
   Quality,
@@ -151,4 +152,35 @@ test("a history is read as it was written, and refused when it is cut", () => {
   for (let length = 0; length < bytes.length; ++length) {
     expect(readHistory(viewOf(bytes.slice(0, length)))).toBeNull();
   }
+});
+
+describe("the socket", () => {
+  class RefusedSocket {
+    static opened: RefusedSocket[] = [];
+    onclose: (() => void) | null = null;
+    constructor() {
+      RefusedSocket.opened.push(this);
+    }
+  }
+
+  afterEach(() => {
+    vi.useRealTimers();
+    vi.unstubAllGlobals();
+  });
+
+  test("asks a base that is away again within a second, for as long as it is away", () => {
+    vi.useFakeTimers();
+    vi.stubGlobal("WebSocket", RefusedSocket);
+    const losses = vi.fn();
+    const nothing = () => undefined;
+    const listener = { opened: nothing, text: nothing, binary: nothing, unreadable: nothing };
+    new BaseSocket("ws://base/ws", { ...listener, closed: losses }).connect();
+    for (let tries = 1; tries < 20; ++tries) {
+      expect(RefusedSocket.opened.length).toBe(tries);
+      RefusedSocket.opened.at(-1)!.onclose!();
+      expect(losses).toHaveBeenCalledTimes(tries);
+      expect(RefusedSocket.opened.length, "not at once").toBe(tries);
+      vi.advanceTimersByTime(1000);
+    }
+  });
 });

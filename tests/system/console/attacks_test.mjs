@@ -12,7 +12,6 @@ import { setTimeout as sleep } from "node:timers/promises";
 import { kBase } from "./programs.mjs";
 import { baseStage, kScreenshots, until } from "./stage.mjs";
 
-const kPatienceMs = 15000; // the machine may be slow to start the car
 const kFloodMs = 3000;
 const kBurst = 200;
 const kPauseMs = 5;
@@ -32,7 +31,6 @@ const alarmIs = (page, text) =>
     `alarm "${text}"`,
     (wanted) => document.querySelector(".alarm-line .text").textContent === wanted,
     text,
-    kPatienceMs,
   );
 
 const linesOfLog = (what) => stage.programs.baseSaid.split("\n").filter((l) => l.includes(what));

@@ -94,13 +94,12 @@ export function startBenchServer(programs, ...more) {
   programs.others = ["bench"];
 }
 
-export const stateIs = (page, state, ms) =>
+export const stateIs = (page, state) =>
   until(
     page,
     `a run that is ${state}`,
     (wanted) => document.querySelector(".verdict")?.dataset.state === wanted,
     state,
-    ms,
   );
 
 /** The page of the bench, with what the server offers. */

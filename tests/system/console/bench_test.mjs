@@ -10,8 +10,6 @@ import { test } from "node:test";
 import { benchPage, socketOf, startBenchServer, stateIs } from "./bench_server.mjs";
 import { baseStage, show, until } from "./stage.mjs";
 
-const kRunMs = 120_000;
-
 const stage = baseStage({
   car: false,
   flags: (programs) => {
@@ -29,7 +27,7 @@ test("a scenario is found, started with a seed and seen through to its verdict",
   assert.equal(await page.isDisabled(".starter button"), true, "that is no seed");
   await page.fill(".starter input", "77");
   await page.click(".starter button");
-  await stateIs(page, "passed", kRunMs);
+  await stateIs(page, "passed");
   const text = await page.textContent(".hil-page");
   assert.match(text, /simulation/);
   assert.match(text, /seed 77/);
@@ -75,7 +73,7 @@ test("a contact with another car is told with its cause, its rule and its place"
   await page.fill(".chooser .filter", "parked");
   await until(page, "one", () => document.querySelectorAll(".scenarios li").length === 1);
   await page.click(".starter button");
-  await stateIs(page, "contact", kRunMs);
+  await stateIs(page, "contact");
   await until(page, "the contact", () => document.querySelector(".contact"));
   assert.equal(await page.textContent(".contact .sum b"), "THIS CAR");
   const panel = await page.textContent(".contact");
@@ -90,7 +88,7 @@ test("a run is stopped, and a server that dies is shown until there is one again
   const { page, faults } = await benchPage(stage);
   await page.fill(".chooser .filter", "red flag");
   await page.click(".starter button");
-  await stateIs(page, "running", 20_000);
+  await stateIs(page, "running");
   await page.click('.run button:has-text("Stop")');
   // A machine that is fast enough has finished it before.
   await until(page, "its end", () =>
@@ -100,13 +98,7 @@ test("a run is stopped, and a server that dies is shown until there is one again
   await until(page, "no server", () => document.querySelector('.hil-page[data-up="false"]'));
   assert.equal(await page.isDisabled(".starter button"), true);
   startBenchServer(stage.programs);
-  await until(
-    page,
-    "a server",
-    () => document.querySelector('.hil-page[data-up="true"]'),
-    null,
-    20_000,
-  );
+  await until(page, "a server", () => document.querySelector('.hil-page[data-up="true"]'));
   await until(
     page,
     "no run of the old one",

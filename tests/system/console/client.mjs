@@ -5,12 +5,13 @@
 // SPDX-License-Identifier: Apache-2.0
 import { WebSocket } from "./packages.mjs";
 
-const kPatienceMs = 10_000;
+/** How long a test waits for what must come: no bound of ours, only the end of hope. */
+export const kPatienceMs = 120_000;
 
 /** Resolves with what `test` returns once that is something; fails with what it waited for. */
 export async function eventually(what, test) {
   for (const end = Date.now() + kPatienceMs; Date.now() < end;) {
-    const found = test();
+    const found = await test();
     if (found) return found;
     await new Promise((done) => setTimeout(done, 10));
   }

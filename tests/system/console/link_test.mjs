@@ -48,7 +48,6 @@ test("three seconds without radio are one draft, and its end another", async () 
       text,
       (t) => document.querySelector(".link-tile .word").textContent.startsWith(t),
       text,
-      15_000,
     );
   await word("GOOD");
   await word("LOST");

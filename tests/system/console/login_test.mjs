@@ -57,6 +57,6 @@ test("another start of the base knows who was logged in", async () => {
   await stage.programs.kill("base");
   await until(page, "gone", () => !globalThis.pitwall.session.connected.value);
   await stage.programs.startBase("--web-tokens", join(stage.programs.folder, "tokens"));
-  await until(page, "back", () => globalThis.pitwall.session.connected.value, undefined, 10_000);
+  await until(page, "back", () => globalThis.pitwall.session.connected.value);
   assert.equal(await page.locator(".login").count(), 0);
 });

@@ -9,8 +9,7 @@ import { execFileSync } from "node:child_process";
 import { closeSync, openSync, readFileSync, writeFileSync, writeSync } from "node:fs";
 import { join } from "node:path";
 import { test } from "node:test";
-import { setTimeout } from "node:timers/promises";
-import { Client } from "./client.mjs";
+import { Client, eventually } from "./client.mjs";
 import { baseStage, escapeTwice, launchApart, open, reach, until } from "./stage.mjs";
 
 const kToken = "second-person-0123456789";
@@ -140,7 +139,6 @@ async function sayAtThePaceOf(page, crowd, marks) {
       "the page knowing these marks",
       (last) => globalThis.pitwall.session.marks.value.some(({ text }) => parseInt(text) >= last),
       crowd.say(kAtOnce),
-      60_000,
     );
   }
 }
@@ -153,11 +151,7 @@ async function picturesLost() {
 
 async function losesPictures() {
   const before = await picturesLost();
-  for (let tenth = 0; tenth < 600; ++tenth) {
-    if ((await picturesLost()) > before) return;
-    await setTimeout(100);
-  }
-  throw new Error("waited 60 s in vain for: a picture that the base lets go");
+  await eventually("a picture that the base lets go", async () => (await picturesLost()) > before);
 }
 
 async function goesOn(page) {
@@ -166,7 +160,6 @@ async function goesOn(page) {
     "the other console going on",
     (n) => globalThis.pitwall.session.counters.frames >= n,
     (await page.evaluate(() => globalThis.pitwall.session.counters.frames)) + kFramesWatched,
-    60_000,
   );
 }
 

@@ -7,7 +7,7 @@ import { mkdirSync, mkdtempSync, rmSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { kClockFlags } from "../../support/test_clock.mjs";
-import { eventually } from "./client.mjs";
+import { eventually, kPatienceMs } from "./client.mjs";
 import { kRoot } from "./packages.mjs";
 
 export const kBase =
@@ -15,7 +15,6 @@ export const kBase =
 const kCar =
   process.env.PITWALL_CAR ?? join(kRoot, "build/release/tests/system/basestation/radio_car");
 const kConsole = join(kRoot, "build/console/dist");
-const kPatienceMs = 20_000;
 
 /** Resolves with the match of `pattern` in what the process says on stderr. */
 function said(process, patterns) {

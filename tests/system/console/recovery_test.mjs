@@ -11,7 +11,6 @@ import { kRoot } from "./packages.mjs";
 import { attachCar, saidBy } from "./attached_car.mjs";
 import { baseStage, hold, kScreenshots, until as waitFor } from "./stage.mjs";
 
-const kPatienceMs = 120_000;
 const kLengthS = 300;
 const kTries = 5;
 const kTryAgainMs = 1500;
@@ -65,11 +64,11 @@ test("stop with its cause, release, acknowledge, reset, arm, drive on", async ()
       throw new Error(`${error.message}\n${await told(page)}`);
     });
   const shoot = (name) => page.screenshot({ path: join(kScreenshots, `recovery_${name}.png`) });
-  await until("a car that drives", speedAbove, kFastMph, kPatienceMs);
+  await until("a car that drives", speedAbove, kFastMph);
   assert.equal(await page.locator(".stop-card").count(), 0);
 
   await page.click("button.stop.controlled");
-  await until("the card", () => document.querySelector(".stop-card"), null, kPatienceMs);
+  await until("the card", () => document.querySelector(".stop-card"));
   await until("the cause", () =>
     /operator/.test(document.querySelector(".stop-card .cause").textContent),
   );
@@ -80,17 +79,17 @@ test("stop with its cause, release, acknowledge, reset, arm, drive on", async ()
   await shoot("stopping");
   assert.equal(await page.isDisabled(button("release")), true, "a car that moves is not released");
   await page.click('.stop-card button:has-text("Take the authority")');
-  await until("a car that stands", stepIs, ["release", "possible"], kPatienceMs);
+  await until("a car that stands", stepIs, ["release", "possible"]);
   await shoot("standing");
   assert.equal(await page.isDisabled(button("arm")), true);
   await hold(page, button("release"), 900);
-  await until("released", stepIs, ["release", "done"], kPatienceMs);
+  await until("released", stepIs, ["release", "done"]);
   await page.click(button("acknowledge"));
-  await until("acknowledged", stepIs, ["acknowledge", "done"], kPatienceMs);
-  await until("a way to reset", stepIs, ["reset", "possible"], kPatienceMs);
+  await until("acknowledged", stepIs, ["acknowledge", "done"]);
+  await until("a way to reset", stepIs, ["reset", "possible"]);
   await page.click(button("reset"));
-  await until("reset", stepIs, ["reset", "done"], kPatienceMs);
-  await until("a way to arm", stepIs, ["arm", "possible"], kPatienceMs);
+  await until("reset", stepIs, ["reset", "done"]);
+  await until("a way to arm", stepIs, ["arm", "possible"]);
   await shoot("to_arm");
   // The drive-by-wire brakes by itself until it knows that nobody drives: barred for a moment.
   for (let n = 0; n < kTries && (await page.locator(".stop-card").count()) > 0; ++n) {
@@ -98,8 +97,8 @@ test("stop with its cause, release, acknowledge, reset, arm, drive on", async ()
     await page.waitForTimeout(kTryAgainMs);
   }
   await until("no stop any more", () => !document.querySelector(".stop-card"));
-  await until("driving", modeIs, "driving", kPatienceMs);
-  await until("a car that drives on", speedAbove, kFastMph, kPatienceMs);
+  await until("driving", modeIs, "driving");
+  await until("a car that drives on", speedAbove, kFastMph);
   await shoot("drives_on");
   const audit = await page.evaluate(() =>
     globalThis.pitwall.session.audit.value.map((line) => `${line.what}: ${line.result}`),

@@ -136,18 +136,14 @@ test("before a run: the base's check list, and the recording that it makes", asy
   await show(page, "replay");
   await until(page, "twelve items", () => document.querySelectorAll(".check").length === 12);
   await until(page, "nobody commands", verdict, ["authority", "no-go"]);
-  await until(page, "it records", verdict, ["disk", "go"], 20_000);
+  await until(page, "it records", verdict, ["disk", "go"]);
   await until(page, "the car never told its tyres", verdict, ["tyres", "no-go"]);
   await show(page, "commands");
   await page.click("text=Take authority");
   await show(page, "replay");
   await until(page, "somebody commands", verdict, ["authority", "go"]);
-  await until(
-    page,
-    "the recording",
-    () => document.querySelector(".recordings tbody")?.textContent.includes("being recorded"),
-    undefined,
-    20_000,
+  await until(page, "the recording", () =>
+    document.querySelector(".recordings tbody")?.textContent.includes("being recorded"),
   );
   await page.click(".recordings tbody button");
   const folder = join(stage.programs.folder, "recording");

@@ -112,7 +112,7 @@ test("S shelves for a time and a reason; sound is off until it is wanted", async
   await page.click("button.sound");
   await until(page, "sound", () => document.querySelector('.sound[data-sound="on"]'));
   await stage.programs.kill("car");
-  await until(page, "an alarm", () => document.querySelector(".alarm-line kbd"), undefined, 9000);
+  await until(page, "an alarm", () => document.querySelector(".alarm-line kbd"));
   await until(page, "a tone", () => globalThis.pitwall.sounded.last === "high");
   await page.keyboard.press("s");
   await page.keyboard.type("car is in the garage");

@@ -8,6 +8,7 @@ import { existsSync, mkdirSync, readFileSync } from "node:fs";
 import { after, afterEach, before, beforeEach } from "node:test";
 import { join } from "node:path";
 import { setTimeout as sleep } from "node:timers/promises";
+import { eventually, kPatienceMs } from "./client.mjs";
 import { Double } from "./double.mjs";
 import { chromium, kRoot } from "./packages.mjs";
 import { Programs } from "./programs.mjs";
@@ -92,6 +93,7 @@ export async function open(browser, address, options = {}) {
     viewport: { width: size[0], height: size[1] },
   });
   const page = await context.newPage();
+  page.setDefaultTimeout(kPatienceMs);
   if (ownClock) await page.clock.install();
   if (script) await page.addInitScript(script);
   const faults = [];
@@ -113,15 +115,16 @@ export async function open(browser, address, options = {}) {
   return { page, faults, context };
 }
 
-/** Resolves when `test` holds in the page; fails loudly with what it was waiting for. */
-export async function until(page, what, test, argument, timeoutMs = 5000) {
+/** Resolves with what `test` says in the page once it is something; or says what was waited for. */
+export async function until(page, what, test, argument) {
   try {
-    await page.waitForFunction(test, argument, {
-      timeout: timeoutMs,
+    const said = await page.waitForFunction(test, argument, {
+      timeout: kPatienceMs,
       polling: 20,
     });
+    return await said.jsonValue();
   } catch {
-    throw new Error(`waited ${timeoutMs} ms in vain for: ${what}`);
+    throw new Error(`waited ${kPatienceMs} ms in vain for: ${what}`);
   }
 }
 
@@ -179,8 +182,7 @@ async function arrived(page, double) {
     (n) => globalThis.pitwall.session.shownCar.value.send({ type: "mark of the test", n }),
     mark,
   );
-  for (let n = 0; n < 500 && double.mark < mark; ++n) await sleep(10);
-  if (double.mark < mark) throw new Error("what the page sends does not reach the base");
+  await eventually("the page's mark at the base", () => double.mark >= mark);
 }
 
 /** A double for each test, `prepare`d before anybody connects. */

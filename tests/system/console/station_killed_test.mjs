@@ -8,15 +8,13 @@
 import assert from "node:assert/strict";
 import { join } from "node:path";
 import { after, test } from "node:test";
-import { setTimeout as sleep } from "node:timers/promises";
 import { nowMs, pass } from "../../support/test_clock.mjs";
 import { attachCar, saidBy } from "./attached_car.mjs";
-import { Client } from "./client.mjs";
+import { Client, eventually } from "./client.mjs";
 import { events, samples } from "./lcm_log.mjs";
 import { Programs } from "./programs.mjs";
 
 const kFastMps = 15;
-const kPatienceMs = 60_000;
 const kDeadMs = 6000;
 const kWhyItStands = /^(mode|radio|ego|control)\./;
 /** What a kill may take from the recording. */
@@ -72,13 +70,6 @@ async function history(client, path) {
   return points;
 }
 
-async function until(what, patienceMs, test) {
-  for (const end = Date.now() + patienceMs; Date.now() < end; await sleep(50)) {
-    if (await test()) return;
-  }
-  throw new Error(`waited ${patienceMs} ms in vain for ${what}\n${screen()}`);
-}
-
 test("a base that is killed: the car's ladder, the recording, the race again", async () => {
   const recording = join(programs.folder, "recording");
   const first = await Client.open(await programs.startBase("--record", recording));
@@ -88,13 +79,14 @@ test("a base that is killed: the car's ladder, the recording, the race again", a
   const car = await attachCar(programs, "hil/scenarios/launch.yaml", 120);
   let speed = NaN;
   try {
-    await until("a car that drives", kPatienceMs, async () => {
+    await eventually("a car that drives", async () => {
       speed = (await history(first, "ego.vx")).at(-1)?.value;
       const mode = (await history(first, "mode.mode")).at(-1)?.value;
-      if (mode === kHalted) throw new Error(`the car will not drive any more\n${screen()}`);
+      if (mode === kHalted) throw new Error("the car will not drive any more");
       return speed > kFastMps;
     });
   } catch (error) {
+    error.message += `\n${screen()}`;
     for (const path of paths.filter((name) => kWhyItStands.test(name))) {
       error.message += `\n${path}: ${(await history(first, path)).at(-1)?.value}`;
     }
@@ -110,7 +102,7 @@ test("a base that is killed: the car's ladder, the recording, the race again", a
 
   await pass(kDeadMs);
   const again = await Client.open(await programs.startBase("--record", recording));
-  await until("the same car", 10_000, () => again.newest.hello.mode === "HIL");
+  await eventually("the same car", () => again.newest.hello.mode === "HIL");
   await pass(2000);
   const points = await history(again, "ego.vx");
   again.close();

@@ -8,9 +8,9 @@ import assert from "node:assert/strict";
 import { readFileSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { test } from "node:test";
+import { kPatienceMs } from "./client.mjs";
 import { baseStage, escapeTwice, hold, kPages, show, until } from "./stage.mjs";
 
-const kPatienceMs = 15_000;
 const kBareDocumentMs = 150;
 
 const stage = baseStage();
@@ -199,8 +199,6 @@ test("the base is killed and started again: the console finds it, a layout is ke
     page,
     "fresh values",
     () => document.querySelector('[data-path="ego.vx"]').dataset.quality === "fresh",
-    undefined,
-    20_000,
   );
   await page.reload();
   await until(
