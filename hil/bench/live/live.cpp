@@ -18,7 +18,6 @@ namespace pitwall::bench {
 namespace {
 
 constexpr int kPriority = 60;  // below the car, which must never wait for its bench
-constexpr Duration kStopLimit = seconds(5);
 constexpr Duration kSettle = milliseconds(300);  // for frames and datagrams on their way
 constexpr Duration kWake = LiveCar::kWake;
 constexpr Duration kPollPeriod = milliseconds(10);
@@ -89,7 +88,7 @@ class Live {
   Result<std::vector<LiveResult>, Problem> finish(double wall_s) {
     settle(kSettle);
     for (const auto& car : cars_)
-      if (auto problem = car->stop_processes(kStopLimit, [this] { settle(milliseconds(10)); }))
+      if (auto problem = car->stop_processes([this] { settle(milliseconds(10)); }))
         return Unexpected{*problem};
     settle(kSettle);
     clock_.end();

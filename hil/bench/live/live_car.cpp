@@ -239,8 +239,8 @@ void LiveCar::settle() {
   parts_.monitor.read(now);
 }
 
-std::optional<Problem> LiveCar::stop_processes(Duration limit, const std::function<void()>& idle) {
-  return parts_.processes.finish(limit, idle);
+std::optional<Problem> LiveCar::stop_processes(const std::function<void()>& idle) {
+  return parts_.processes.finish(ProcessSupervisor::kStopLimit, idle);
 }
 
 LiveResult LiveCar::finish(const RealTime& time, double wall_s) {

@@ -55,7 +55,7 @@ class LiveCar {
   void end(Instant now) { length_ = now - Instant{}; }
   // Takes what is on its way; after the last step.
   void settle();
-  std::optional<Problem> stop_processes(Duration limit, const std::function<void()>& idle);
+  std::optional<Problem> stop_processes(const std::function<void()>& idle);
   LiveResult finish(const RealTime& time, double wall_s);
 
   // What race control's timing says of the nearest other car, and what our sensors see of all.

@@ -27,7 +27,7 @@ namespace {
 using transport::CanSocket;
 
 constexpr int kPriority = 60;  // as the live bench: below the car
-constexpr Duration kStartLimit = seconds(15), kStopLimit = seconds(5);
+constexpr Duration kStartLimit = seconds(15);
 constexpr Duration kPollPeriod = milliseconds(1);   // bench time goes on at least so often
 constexpr Duration kLookAgain = microseconds(200);  // at somebody who is held up
 constexpr Duration kLookAtCar = milliseconds(10);
@@ -220,8 +220,9 @@ Result<PlayedRun, Problem> play_to_car(traffic::Recording recording, const Comma
   if (io.missing()) return Unexpected{*io.missing()};
   if (sockets->stopped())
     return Unexpected{Problem{"--live", "stopped by a signal before all was played"}};
-  if (auto problem = processes.finish(
-          kStopLimit, [] { transport::sleep_until(transport::monotonic_now() + kLookAtCar); }))
+  if (auto problem = processes.finish(ProcessSupervisor::kStopLimit, [] {
+        transport::sleep_until(transport::monotonic_now() + kLookAtCar);
+      }))
     return Unexpected{*problem};
   played.waits = io.waits();
   return played;

@@ -40,7 +40,7 @@ struct ServerPlan {
 
 class BenchSocket {
  public:
-  static constexpr Duration kTurn = milliseconds(50), kStopLimit = seconds(5);
+  static constexpr Duration kTurn = milliseconds(50), kStopLimit = seconds(40);
   static constexpr Duration kSweepsPeriod = seconds(2);
 
   static Result<BenchSocket, Problem> open(ServerPlan plan);

@@ -31,7 +31,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr Duration kBaseStop = seconds(5), kBaseStart = seconds(20), kBaseLook = milliseconds(20);
+constexpr Duration kBaseStop = seconds(30), kBaseStart = seconds(20), kBaseLook = milliseconds(20);
 constexpr std::uint32_t kLoopback = 0x7F00'0001U;
 constexpr const char* kWithGhost = "hil/scenarios/matches/competition.yaml";
 constexpr const char* kWithTwoStacks = "hil/scenarios/matches/competition_two_stacks.yaml";
