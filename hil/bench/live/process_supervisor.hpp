@@ -42,7 +42,7 @@ class ProcessSupervisor {
   std::optional<Problem> advance(Instant now);
   // Problem with a process that should run and has ended.
   std::optional<Problem> missing();
-  // For finish(): a process syncs its files before it ends, which takes a busy disk seconds.
+  // Time for a process to end: it syncs its files first, which takes a busy disk seconds.
   static constexpr Duration kStopLimit = seconds(30);
   // Continues all processes, sends SIGTERM and waits for their end; calls `idle` meanwhile.
   std::optional<Problem> finish(Duration timeout, const std::function<void()>& idle);

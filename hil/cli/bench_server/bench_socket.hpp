@@ -17,6 +17,7 @@
 #include <string>
 #include <vector>
 
+#include "hil/bench/live/process_supervisor.hpp"
 #include "hil/cli/bench_server/bench_server.hpp"
 #include "hil/cli/bench_server/page_files.hpp"
 #include "hil/cli/bench_server/progress_tail.hpp"
@@ -40,7 +41,9 @@ struct ServerPlan {
 
 class BenchSocket {
  public:
-  static constexpr Duration kTurn = milliseconds(50), kStopLimit = seconds(40);
+  static constexpr Duration kTurn = milliseconds(50);
+  // A live run itself waits for the end of its processes.
+  static constexpr Duration kStopLimit = bench::ProcessSupervisor::kStopLimit + seconds(10);
   static constexpr Duration kSweepsPeriod = seconds(2);
 
   static Result<BenchSocket, Problem> open(ServerPlan plan);

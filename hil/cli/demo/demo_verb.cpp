@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "hil/bench/live/process_supervisor.hpp"
 #include "hil/bench/live/run_keys.hpp"
 #include "hil/bench/loading.hpp"
 #include "hil/cli/command_line.hpp"
@@ -31,7 +32,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr Duration kBaseStop = seconds(30), kBaseStart = seconds(20), kBaseLook = milliseconds(20);
+constexpr Duration kBaseStart = seconds(20), kBaseLook = milliseconds(20);
 constexpr std::uint32_t kLoopback = 0x7F00'0001U;
 constexpr const char* kWithGhost = "hil/scenarios/matches/competition.yaml";
 constexpr const char* kWithTwoStacks = "hil/scenarios/matches/competition_two_stacks.yaml";
@@ -200,7 +201,7 @@ int demo(const DemoOptions& options) {
   greet(options, *loaded);
   const int code = run_as_told(run);
   base->kill(SIGTERM);
-  if (!base->wait_until(transport::monotonic_now() + kBaseStop))
+  if (!base->wait_until(transport::monotonic_now() + bench::ProcessSupervisor::kStopLimit))
     return refuse({"pitwall-base", "did not stop"});
   std::error_code none;
   fs::remove(clock_file(), none);

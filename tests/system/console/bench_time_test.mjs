@@ -17,6 +17,8 @@ import { kScreenshots, launch, open, until } from "./stage.mjs";
 const kKeeper =
   process.env.PITWALL_KEEPER ?? join(kRoot, "build/release/tests/system/console/bench_keeper");
 const kStandsMs = 1000;
+/** A base that was heard so lately is taken for silent (500 ms) in no frame drawn meanwhile. */
+const kAnswersMs = 300;
 
 let browser;
 let programs;
@@ -54,14 +56,14 @@ const linkIs = (pattern) =>
  * In the page: what each drawn frame says from now on, told apart, as long as the base answers. On
  * a machine with other work it may itself be without a processor for long enough to be silent.
  */
-const watchFrames = () => {
+const watchFrames = (answersMs) => {
   const text = (selector) => document.querySelector(selector).textContent;
   const { clock } = globalThis.pitwall.session;
   const seen = { links: new Set(), qualities: new Set() };
   globalThis.seenFrames = seen;
   let answered = false;
   const look = () => {
-    const answers = clock.silenceMs(performance.now()) < 300;
+    const answers = clock.silenceMs(performance.now()) < answersMs;
     if (answers && answered) {
       seen.links.add(text(".link-tile .word").split(" ")[0]);
       seen.qualities.add(document.querySelector('[data-path="ego.vx"]').dataset.quality);
@@ -93,7 +95,7 @@ test("while bench time stands the console says so, and nothing is old or lost", 
     document.querySelector('[data-path="ego.vx"][data-quality="fresh"]'),
   );
   assert.match(await page.innerText(".bench-time"), /^bench time, stood \d/);
-  await page.evaluate(watchFrames);
+  await page.evaluate(watchFrames, kAnswersMs);
 
   keeper.stdin.write("stand\n");
   await until(page, "the notice", waits);
